@@ -99,23 +99,23 @@ end
 
 --- Reads such a file, or anyone's: numbers, true and false as such, what stands in quotes as text, empty cells as nil.
 ---@param path string
----@param options? {separator?: string}  "," by default, ";" or a tab
+---@param options? {separator?: string, confine?: string}  separator: "," by default, ";" or a tab; confine: the folder below which it may lie
 ---@return table[] rows  of names and values, with the names in order as `columns`
 --- > clench.csv.read "no/such.csv"  --> error: no/such.csv
 function csv.read(path, options)
   if type(path) ~= "string" then raise("csv.read: path: expected a name, got " .. described(path)) end
   local read = read_options("csv.read", options or {})
-  local separator = separator_of(read)
+  local separator, confine = separator_of(read), read:raw "confine"
   read:done()
-  local file, why = io.open(path, "rb")
-  if not file then raise("csv.read: " .. why:gsub("^(.*): No such file or directory$", "no such file: %1")) end
-  local text, fault = file:read "a"
-  file:close()
-  if not text then raise(("csv.read: %s: %s"):format(path, fault)) end
+  local function try(read_part, ...)
+    local ok, result = pcall(read_part, ...)
+    if not ok then raise("csv.read: " .. tostring(result):gsub("^stdlib/[%w_/]+%.lua:%d+: ", "")) end
+    return result
+  end
+  local text = try(clench.files.read_text, path, {confine = confine})
   local name = path:match "[^/]+$" or path
   local function fail(line, format, ...) raise(("csv.read: %s:%d: " .. format):format(name, line, ...)) end
-  local ok, all = pcall(clench.files.csv_records, name, text, separator)
-  if not ok then raise("csv.read: " .. tostring(all):gsub("^stdlib/[%w_/]+%.lua:%d+: ", "")) end
+  local all = try(clench.files.csv_records, name, text, separator)
   local header = table.remove(all, 1)
   if not header then fail(1, "expected names of columns, got an empty file") end
   local rows, known = {columns = {}}, {}

@@ -38,11 +38,12 @@ end
 
 function Options:expected(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
 
-local function read_number(self, name, default, what, fits)
+local function read_number(self, name, default, what, fits, largest)
   local value = self:raw(name)
   if value == nil then value = default end
   if not (is_number(value) and fits(value)) then self:expected(name, what, value) end
-  if not within(value, self.largest) then self:expected(name, ("a number of at most %g"):format(self.largest), value) end
+  largest = largest or self.largest
+  if not within(value, largest) then self:expected(name, ("a number of at most %g"):format(largest), value) end
   return value
 end
 
@@ -50,12 +51,13 @@ function Options:number(name, default)
   return read_number(self, name, default, "a finite number", function() return true end)
 end
 
-function Options:positive(name, default)
-  return read_number(self, name, default, "a number > 0", function(x) return x > 0 end)
+--- largest: instead of that of all numbers
+function Options:positive(name, default, largest)
+  return read_number(self, name, default, "a number > 0", function(x) return x > 0 end, largest)
 end
 
-function Options:not_negative(name, default)
-  return read_number(self, name, default, "a number >= 0", function(x) return x >= 0 end)
+function Options:not_negative(name, default, largest)
+  return read_number(self, name, default, "a number >= 0", function(x) return x >= 0 end, largest)
 end
 
 --- a whole number from least to most

@@ -1,5 +1,6 @@
 -- stdlib/raise.lua
 local error_value = require "clench.error_value"
+local script_line = require "clench.script_line"
 
 -- more is a name or a word that nobody reads to its end
 local longest, kept_end = 1000, 250
@@ -13,12 +14,8 @@ local function sentence(text)
 end
 
 --- Raises an error that begins with the file and line of the script that called into the standard library.
-return function(text)
-  text = sentence(text)
-  local info, level = nil, 2
-  repeat
-    info, level = debug.getinfo(level, "Sl"), level + 1
-  until not info or info.what ~= "C" and not info.source:find "^@stdlib/"
-  if info then text = ("%s:%d: %s"):format(info.short_src, info.currentline, text) end
-  error(setmetatable({text = text, kind = "input"}, error_value), 0)
+---@param text string
+---@param kind? string  "input", unless given
+return function(text, kind)
+  error(setmetatable({text = script_line() .. sentence(text), kind = kind or "input"}, error_value), 0)
 end

@@ -196,9 +196,9 @@ local readers = {
   end,
   ["pre-grasps"] = function(path, options) return {count = #clench.files.pregrasps(path, options)} end,
   ["planned grasps"] = function(path, options)
-    local list, best = clench.files.planned_grasps(path, options), nil
-    for _, grasp in ipairs(list) do best = math.max(best or grasp.quality, grasp.quality) end
-    return {count = #list, runs = list[1] and list[#list].run or 0, best = best}
+    local list, best = clench.grasps(path, {format = "graspit", root = options.root, confine = options.confine}), nil
+    for _, grasp in ipairs(list) do best = math.max(best or grasp.measures.quality, grasp.measures.quality) end
+    return {count = #list, runs = list[1] and list[#list].info.run or 0, best = best}
   end,
   grasps = function(path, options)
     local list = clench.grasps(path, {root = options.root, confine = options.confine})

@@ -104,13 +104,13 @@ function world:body(name) end
 function world:robot(name) end
 
 ---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options give overrides the file.
----@param body string|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
+---@param body string|mesh|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
 ---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 ---@return body
 function world:add_object(body, options) end
 
 ---Adds a body that only stands in the way; as add_object.
----@param body string|table
+---@param body string|mesh|table
 ---@param options? table
 ---@return body
 function world:add_obstacle(body, options) end
@@ -853,7 +853,7 @@ function world_control:pop() end
 ---@field welded_to body? # The body that it is welded to, or nil.
 local motion = {}
 
----Pushes it in the next step, and in that one alone; pushes add up.
+---Pushes it in the next step, and in that one alone; pushes add up. Neither an obstacle nor the base of a robot that does not float can be pushed.
 ---@param force vec3 # in world axes [N]
 ---@param point? vec3 # where, in the world; its centre of mass by default [m]
 function motion:apply_force(force, point) end
@@ -892,7 +892,7 @@ function joint_dynamics:inverse_dynamics(accelerations) end
 ---@field dof_velocities number[] # Of its degrees of freedom; a list of its own. [rad/s or m/s]
 ---@field dof_efforts number[] # What its motors gave in the last step. [N m or N]
 ---@field controller string # What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are asked for; "effort", they give the forces that set_forces says, and nothing else, as DOFs that no actuator of a MuJoCo file drives do at first ("none" is another word for it); "mixed": not all the same. `set_targets`, `set_target_velocities` and `autograsp {dynamic = true}` switch the DOFs that they move.
----@field gravity_compensation boolean # Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
+---@field gravity_compensation boolean # Do its motors carry the weight of its own links, without what is welded to them? As controllers of real arms do. A floating robot has all its weight.
 ---@field breakaway boolean # Do joints leave its breakaway DOFs while the world runs, when what stops them asks for more than the breakaway torque? They are then locked until the DOF, opening, comes back to them. Else, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 ---@field floating boolean # Is its base free to move? Else it stands, or moves as its velocity says.
 local robot_dynamics = {}
@@ -1150,6 +1150,12 @@ function clench.files.pregrasps(path, options) end
 ---@param text string
 function clench.files.save_text(path, text) end
 
+---The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
+---@param path string
+---@param options? {root?: string, confine?: string, strict?: boolean}
+---@return string
+function clench.files.read_text(path, options) end
+
 ---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
 ---@param name string # for errors
 ---@param text string
@@ -1167,17 +1173,6 @@ function clench.files.csv_text(text, separator) end
 ---@param path string
 ---@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
 function clench.files.save_pregrasps(path, list) end
-
----Grasps that a planner has tried, in the object's frame; `run` counts the planner's runs.
----@param path string
----@param options? {root?: string, confine?: string, strict?: boolean}
----@return {run: integer, pose: pose, spread: number, quality: number}[]
-function clench.files.planned_grasps(path, options) end
-
----Writes grasps as a planner's results; runs in their order.
----@param path string
----@param list {pose: pose, quality: number, spread?: number, run?: integer}[]
-function clench.files.save_planned_grasps(path, list) end
 
 ---How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
 ---@param path string

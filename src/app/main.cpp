@@ -4,14 +4,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <new>
 
 #include "clench/app/verbs.h"
+#include "clench/base/error.h"
 #include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/io/grasp_files.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 
@@ -47,6 +54,14 @@ static void add_confine(CLI::App& verb, std::string& folder) {
       ->check(CLI::ExistingDirectory);
 }
 
+static const CLI::Validator unit(
+    [](std::string& text) -> std::string {
+      static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
+      if (std::ranges::find(names, text) != names.end()) return {};
+      return fmt::format("unknown unit '{}'{}", text, instead_of(text, names));
+    },
+    "");
+
 static void add_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_option("--root", reading.root, "where names in the files count from")
       ->type_name("DIR")
@@ -57,18 +72,49 @@ static void add_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
-  verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")->type_name("UNIT");
+  verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")
+      ->type_name("UNIT")
+      ->check(unit);
   verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
 }
 
 // a finite number above 0
 static const CLI::Validator positive(
     [](std::string& text) -> std::string {
-      double x = 0;
-      if (CLI::detail::lexical_cast(text, x) && std::isfinite(x) && x > 0) return {};
+      const auto x = parse_number(text);
+      if (x && std::isfinite(*x) && *x > 0) return {};
       return fmt::format("expected a number above 0, got '{}'", text);
     },
     "POSITIVE");
+
+static const CLI::Validator mass(
+    [](std::string& text) -> std::string {
+      const auto x = parse_number(text);
+      return x ? fault(mass_rule, *x) : fmt::format("expected a mass in kg, got '{}'", text);
+    },
+    "");
+
+static CLI::Validator whole_number(int64_t low, int64_t high) {
+  const auto look = [=](std::string& text) -> std::string {
+    const char* end = text.data() + text.size();
+    int64_t x = 0;
+    const auto [at, code] = std::from_chars(text.data(), end, x);
+    if (code == std::errc() && at == end && x >= low && x <= high) return {};
+    return fmt::format("expected a whole number from {} to {}, got '{}'", low, high, text);
+  };
+  return {look, "INTEGER"};
+}
+
+static const CLI::Validator list_format(
+    [](std::string& text) -> std::string {
+      try {
+        grasp_format(text);
+      } catch (const Error& error) {
+        return error.what();
+      }
+      return {};
+    },
+    "");
 
 // what is typed as a number is looked at here, and handed on as it is
 static void add_plan(CLI::App& verb, PlanOptions& plan) {
@@ -85,19 +131,19 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
       ->type_name("POSE");
   verb.add_option("--mass", plan.mass, "of the object, instead of its file's [kg]")
       ->type_name("KG")
-      ->check(positive);
+      ->check(mass);
   verb.add_option("--count", plan.count, "the best so many are kept; default: 20, or all of --seconds")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000000));
+      ->check(whole_number(1, 1000000));
   verb.add_option("--seconds", plan.seconds, "search no longer than this")
       ->type_name("S")
       ->check(positive);
   verb.add_option("--seed", plan.seed, "of the random numbers; default: 1")
       ->type_name("N")
-      ->check(CLI::TypeValidator<long>("INT"));
+      ->check(whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
   verb.add_option("--threads", plan.threads, "default: all cores; the grasps are the same")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole_number(1, 1024));
   verb.add_option("--contacts", plan.contacts,
                   "fingertip: with the last links alone; power: with the palm, too; default: any")
       ->type_name("KIND")
@@ -108,7 +154,8 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("-o", plan.out, "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
       ->type_name("FILE");
   verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->check(list_format);
   verb.add_option("--report", plan.report, "a page with a table, pictures and each grasp in 3-D")
       ->type_name("FILE.html");
   verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")->type_name("FILE.png");

@@ -147,6 +147,30 @@ size_t utf8_size(std::string_view text, size_t i) {
   return size;
 }
 
+std::u32string letters_of(std::string_view text, bool or_latin1) {
+  std::u32string out;
+  for (size_t i = 0; i < text.size();) {
+    const size_t size = utf8_size(text, i);
+    const auto first = static_cast<unsigned char>(text[i]);
+    char32_t letter = size > 1 ? first & (0x7F >> size) : size == 1 || or_latin1 ? first : 0xFFFD;
+    for (size_t k = 1; k < size; ++k) letter = letter << 6 | (text[i + k] & 0x3F);
+    out += letter;
+    i += std::max<size_t>(size, 1);
+  }
+  return out;
+}
+
+std::string text_of(std::u32string_view letters) {
+  std::string out;
+  for (const char32_t letter : letters) {
+    const int more = letter < 0x80 ? 0 : letter < 0x800 ? 1 : letter < 0x10000 ? 2 : 3;
+    constexpr unsigned first[] = {0, 0xC0, 0xE0, 0xF0};
+    out += static_cast<char>(first[more] | letter >> 6 * more);
+    for (int i = more - 1; i >= 0; --i) out += static_cast<char>(0x80 | (letter >> 6 * i & 0x3F));
+  }
+  return out;
+}
+
 std::string excerpt(std::string_view text) {
   std::string out(text.substr(0, max_excerpt));
   for (char& c : out)

@@ -34,6 +34,10 @@ std::vector<std::string_view> split_words(std::string_view text, std::string_vie
                                           size_t most = std::string_view::npos);
 /// Bytes of the character that begins at i; 0 when it is not UTF-8.
 size_t utf8_size(std::string_view text, size_t i);
+/// The characters of text in UTF-8; each byte that belongs to none is U+FFFD, or what it is in Latin-1.
+std::u32string letters_of(std::string_view text, bool or_latin1 = false);
+/// Characters as UTF-8.
+std::string text_of(std::u32string_view letters);
 /// What messages show of a file: at most so many characters of any one place.
 constexpr size_t max_excerpt = 40;
 /// A word for a message: cut when long, unprintable characters as '?'.

@@ -94,9 +94,7 @@ void Stepper::carry_welded() {
   DynamicState& state = world_.edit_dynamics();
   for (const auto& [body, to] : system_.welds) {
     if (system_.place(body).tree >= 0) continue;
-    const Twist twist = world_.twist(to);
-    const Eigen::Vector3d arm = world_.pose(body) * world_.body(body).com - world_.pose(to) * world_.body(to).com;
-    state.twists[body.index] = {twist.linear + twist.angular.cross(arm), twist.angular};
+    state.twists[body.index] = world_.carried_twist(body, to);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/io/grasps/dof_labels.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/text/find_file.h"
 
@@ -17,6 +18,7 @@ using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 
 static constexpr const char* format_name = "clench grasps";
+static constexpr const char* unit_names = "m, kg, s, rad, N";
 static constexpr int version = 1;
 static constexpr size_t max_grasps = 10'000'000, max_values = 10'000;  // of a list in a grasp
 
@@ -83,7 +85,7 @@ std::string grasp_line(const GraspSpec& grasp) { return text_of(json_of(grasp));
 std::string grasps_head() {
   return text_of({{"format", format_name},
                   {"version", version},
-                  {"units", "m, kg, s, rad, N"},
+                  {"units", unit_names},
                   {"pose", "of the hand's base in the object's frame; quat is w x y z"}});
 }
 
@@ -227,6 +229,19 @@ PregraspState read_pregrasp(const Json& json, const std::string& place) {
   return out;
 }
 
+/// Of the friction pyramids; 0 and "exact" stand for round cones.
+int read_edges(Fields& fields) {
+  const Json& value = fields.get("edges");
+  if (value == "exact") return round_edges;
+  const double edges = value.is_number() ? value.get<double>() : -1;
+  if (edges != std::floor(edges) || edges > max_edges || (edges < 3 && edges != round_edges))
+    Fields::refuse(fields.at("edges"),
+                   fmt::format("a whole number from 3 to {}, or \"exact\" or 0 for round cones",
+                               max_edges),
+                   value);
+  return static_cast<int>(edges);
+}
+
 GraspSpec read_line(const Json& json, const std::string& place) {
   Fields fields(json, place);
   GraspSpec out;
@@ -238,7 +253,10 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.dofs = fields.numbers("dofs");
   for (const auto& [key, list] : {std::pair{"dof_names", &out.dof_names}, {"dof_units", &out.dof_units}})
     if (fields.find(key)) *list = fields.texts(key, out.dofs.size());
-  out.joints = fields.numbers("joints");
+  check_dof_names(fields.at("dof_names"), out.dof_names);
+  check_dof_units(fields.at("dof_units"), out.dof_units);
+  // without them the DOFs say it all
+  if (fields.find("joints")) out.joints = fields.numbers("joints");
   const Json& points = fields.get("points");
   if (!points.is_array() || points.size() > max_values)
     Fields::refuse(fields.at("points"), "a list of contacts", points);
@@ -252,11 +270,7 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.rho = fields.positive("rho");
   out.largest_radius = fields.positive("largest_radius");
   out.gyration_radius = fields.positive("gyration_radius");
-  const double edges = fields.number("edges", 0);
-  if (edges != std::floor(edges) || edges > max_edges || (edges < 3 && edges != round_edges))
-    Fields::refuse(fields.at("edges"), fmt::format("a number from 3 to {}, or 0", max_edges),
-                   fields.get("edges"));
-  out.options.edges = static_cast<int>(edges);
+  out.options.edges = read_edges(fields);
   out.options.rho = out.rho;
   const Json& soft = fields.get("soft");
   if (!soft.is_boolean()) Fields::refuse(fields.at("soft"), "true or false", soft);
@@ -287,6 +301,8 @@ void check_head(const Json& json, const std::string& place) {
   if (!number || *number != version)
     fail("{}: expected version {}, got {}", place, version,
          number ? excerpt(number->dump()) : "none");
+  if (json.contains("units") && json["units"] != unit_names)
+    Fields::refuse(place + ": units", fmt::format("\"{}\"", unit_names), json["units"]);
 }
 
 }  // namespace

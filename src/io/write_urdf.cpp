@@ -10,6 +10,7 @@
 #include "clench/io/urdf_losses.h"
 #include "clench/io/urdf_plan.h"
 #include "clench/io/write_robot.h"
+#include "clench/math/rpy.h"
 #include "clench/spec/check_robot.h"
 #include "clench/spec/plausibility.h"
 
@@ -22,16 +23,6 @@ namespace {
 /// "x y z", in the unit of v.
 std::string words(const Eigen::Vector3d& v) {
   return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
-}
-
-/// Angles about the fixed axes x, then y, then z. The first and the last are found one after the
-/// other, so that they fit together where the second is near a quarter turn, too.
-Eigen::Vector3d rpy_of(const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d R = q.toRotationMatrix();
-  const double yaw = std::atan2(R(1, 0), R(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
-  const double pitch = std::atan2(-R(2, 0), c * R(0, 0) + s * R(1, 0));
-  const double roll = std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1));
-  return {roll, pitch, yaw};
 }
 
 class UrdfText {
@@ -69,7 +60,7 @@ class UrdfText {
 void UrdfText::add_origin(const std::string& indent, const Pose& pose) {
   if (pose == Pose{}) return;
   add(indent, fmt::format("<origin xyz=\"{}\" rpy=\"{}\"/>", words(pose.position),
-                          words(rpy_of(pose.rotation))));
+                          words(rpy_of(pose.matrix()))));
 }
 
 void UrdfText::add_inertial(const UrdfLink& link) {

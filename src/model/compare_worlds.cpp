@@ -149,6 +149,7 @@ void Comparer::robots(Id<Robot> a_id, Id<Robot> b_id) {
 void Comparer::frictions() {
   const MaterialTable &one = a_.materials(), &two = b_.materials();
   const int count = static_cast<int>(one.names().size());
+  std::vector<std::pair<int, int>> pairs;
   for (int i = 0; i < count; ++i)
     for (int j = 0; j <= i; ++j) {
       const auto at = [&](int k) {
@@ -159,8 +160,10 @@ void Comparer::frictions() {
       // of a new material only what rubs
       const Friction f = one.friction(i, j), g = k < 0 || l < 0 ? Friction{} : two.friction(k, l);
       if (f.statics != g.statics || f.kinetic != g.kinetic || f.restitution != g.restitution)
-        add("the friction of {} on {}", one.name(i), one.name(j));
+        pairs.emplace_back(i, j);
     }
+  if (pairs.size() > 3) return add("the friction of {} pairs of materials", pairs.size());
+  for (const auto& [i, j] : pairs) add("the friction of {} on {}", one.name(i), one.name(j));
 }
 
 std::vector<std::pair<size_t, size_t>> Comparer::pairs_off(const World& world,
@@ -200,10 +203,11 @@ std::vector<std::string> Comparer::compare() {
     add("its number of bodies");
     return std::move(out_);
   }
+  // what concerns all of the world is not lost among many bodies
+  switches();
   for (size_t i = 0; i < a_bodies_.size(); ++i) bodies(a_bodies_[i], b_bodies_[i]);
   for (size_t i = 0; i < a_.robots().size(); ++i) robots(a_.robots()[i], b_.robots()[i]);
   frictions();
-  switches();
   return std::move(out_);
 }
 

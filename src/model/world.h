@@ -123,6 +123,8 @@ class World {
   DynamicState& edit_dynamics();
   double time() const { return state_.dynamics ? state_.dynamics->time : 0; }
   Twist twist(Id<Body> id) const;
+  /// that a body has which moves as a part of another
+  Twist carried_twist(Id<Body> body, Id<Body> carrier) const;
   /// Of an object, an obstacle that moves at it from then on, or a robot's base.
   /// throws  Error for a link or what is not finite
   void set_twist(Id<Body> id, const Twist& twist);
@@ -186,6 +188,7 @@ class World {
   void check_free(Id<Robot> robot) const;
   /// What links do as base and joints have it; a step finds them anew.
   void update_link_twists(Id<Robot> robot);
+  void carry_welded();
   DofControl first_control(const Robot& robot, size_t dof) const;
   void come_to_rest(Id<Body> body);
   /// with all that it carries; its motors hold it where it is

@@ -63,6 +63,19 @@ Twist World::twist(Id<Body> id) const {
   return state && id.index < state->twists.size() ? state->twists[id.index] : Twist{};
 }
 
+Twist World::carried_twist(Id<Body> id, Id<Body> carrier) const {
+  const Twist of = twist(carrier);
+  const Eigen::Vector3d arm = pose(id) * body(id).com - pose(carrier) * body(carrier).com;
+  return {of.linear + of.angular.cross(arm), of.angular};
+}
+
+// whatever is welded to something moves as that does
+void World::carry_welded() {
+  const auto& welds = dynamic_settings().welds;
+  for (size_t pass = 0; pass < welds.size(); ++pass)
+    for (const auto& [object, carrier] : welds) edit_dynamics().twists[object.index] = carried_twist(object, carrier);
+}
+
 void World::set_twist(Id<Body> id, const Twist& twist) {
   const Body& b = body(id);
   if (b.kind == BodyKind::link || b.kind == BodyKind::mount)
@@ -73,6 +86,7 @@ void World::set_twist(Id<Body> id, const Twist& twist) {
   check(velocity_rule.called("angular velocity"), twist.angular, the_body(b.name));
   edit_dynamics().twists[id.index] = twist;
   if (b.robot) update_link_twists(b.robot);
+  carry_welded();
 }
 
 Eigen::VectorXd World::dof_velocities(Id<Robot> id) const {
@@ -94,6 +108,7 @@ void World::set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities) 
     if (follows_dof(id, static_cast<int>(j)))
       state.joint_velocities[r.first_joint + j] = r.joints[j].ratio * velocities[r.joints[j].dof];
   update_link_twists(id);
+  carry_welded();
 }
 
 void World::update_link_twists(Id<Robot> id) {
@@ -117,10 +132,8 @@ void World::update_link_twists(Id<Robot> id) {
   for (const auto other : robots()) {
     const auto& mounting = robot(other).mounting;
     if (!mounting || mounting->parent != id) continue;
-    const Id<Body> carrier = r.links[mounting->link].body, carried = robot(other).base;
-    const Twist link = state.twists[carrier.index];
-    const Eigen::Vector3d between = pose(carried) * body(carried).com - pose(carrier) * body(carrier).com;
-    state.twists[carried.index] = {link.linear + link.angular.cross(between), link.angular};
+    const Id<Body> carried = robot(other).base;
+    state.twists[carried.index] = carried_twist(carried, r.links[mounting->link].body);
     update_link_twists(other);
   }
 }
@@ -144,6 +157,7 @@ void World::set_follows_dof(Id<Robot> id, int joint, bool follows) {
 void World::come_to_rest(Id<Body> id) {
   if (!state_.dynamics) return;
   edit_dynamics().twists[id.index] = {};
+  carry_welded();
 }
 
 void World::come_to_rest(Id<Robot> id) {
@@ -158,6 +172,7 @@ void World::come_to_rest(Id<Robot> id) {
   for (size_t i = r.first_joint; i < r.first_joint + r.joints.size(); ++i) state.joint_velocities[i] = 0;
   for (const auto other : robots())
     if (robot(other).mounting && robot(other).mounting->parent == id) come_to_rest(other);
+  carry_welded();
 }
 
 }  // namespace clench

@@ -66,7 +66,7 @@ end
 
 local function call_controllers(world, list, last)
   each(list, function(handle)
-    if is_due(handle, world.time) then call(handle, world, handle.rate and 1 / handle.rate or length_of_step(world, last)) end
+    if is_due(handle, world.time) then call(handle, world, math.max(handle.rate and 1 / handle.rate or 0, length_of_step(world, last))) end
   end)
 end
 

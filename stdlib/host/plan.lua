@@ -55,7 +55,6 @@ local function load_world(given, said)
   local hand = world:add_robot(given.hand, of_robot)
   local options = body("--pose", given.pose)
   options.mass = tonumber(given.mass)
-  if given.mass and not (options.mass and options.mass > 0 and options.mass < math.huge) then fail(("--mass: expected a mass in kg, got '%s'"):format(given.mass)) end
   local object = world:add_object(given.object, options)
   for i, path in ipairs(given.obstacle) do
     world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))

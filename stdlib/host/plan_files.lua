@@ -1,4 +1,5 @@
 --- The files that `clench plan` writes: grasps while it runs, and in the end the list, the sheet and the page.
+local error_text = require "clench.host.error_text"
 local find_three = require "clench.page.three"
 local in_utf8 = require "clench.in_utf8"
 local report_rows = require "clench.plan.report_rows"
@@ -24,6 +25,14 @@ local function check_folder(option, path)
   if empty then os.remove(path) end
 end
 
+-- a list without grasps; an ending that names no format is a wrong option
+local function begin_list(path, format)
+  local ok, problem = pcall(function() clench.grasps():save(path, {format = format}) end)
+  if ok then return end
+  if problem.kind == "input" then fail("-o: %s", (error_text(problem):gsub("^stdlib/[%w_/]+%.lua:%d+: ", ""))) end
+  error(problem, 0)
+end
+
 --- Looks whether all can be written, and begins the list of grasps.
 ---@param given {o?: string, format?: string, sheet?: string, report?: string}
 function Files.open(given)
@@ -38,7 +47,7 @@ function Files.open(given)
     if not three then fail("--report: %s", missing) end
   end
   if not self.out then return self end
-  clench.grasps():save(self.out, {format = self.format})
+  begin_list(self.out, self.format)
   local file, why = io.open(self.out, "a+b")
   if not file then fail("-o: %s", why) end
   if (file:read "l" or ""):find '^{"format":"clench grasps"' then self.lines = file else file:close() end

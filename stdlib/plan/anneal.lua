@@ -14,7 +14,7 @@ local closing = require "clench.plan.closing"
 return function(options)
   local job = new_job("plan.anneal", options, function(read, job)
     job.energy = read:raw "energy" or "contact"
-    job.steps = read:count("steps", 70000, 0, 1e9)
+    job.steps = read:count("steps", 70000, 1, 1e9)
     job.schedule, job.best = read:raw "schedule", read:raw "best"
   end)
   local search = job:annealing {energy = job:energy_of(job.energy), seed = job.seed, schedule = job.schedule, best = job.best}

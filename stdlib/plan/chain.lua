@@ -1,5 +1,7 @@
 --- What the planners that anneal share: running a chain in pieces until its steps or its time are over, and what its report
 --- says.
+local at_caller = require "clench.at_caller"
+local raise = require "clench.raise"
 local chain = {}
 
 local piece = 1000  -- steps between two looks at the clock
@@ -13,7 +15,7 @@ function chain.run(job, search, steps, told)
   job:interruptible(function()
     while done < steps and job:goes_on() do
       local asked = math.min(piece, steps - done)
-      local taken = search:run(asked)
+      local taken = at_caller(job.subject, search.run, search, asked)
       done = done + taken
       bar:step(taken)
       local best = search.best[1]
@@ -40,6 +42,10 @@ function chain.nearest(job, search, told)
   local here <close> = job.world:snapshot()
   local nearest = math.huge
   local states = search.best
+  if #states == 0 and search.energy == math.huge then
+    job:finish()
+    raise(job.subject .. ": energy: expected a finite number of at least one state, got inf of all")
+  end
   for _, state in ipairs(#states > 0 and states or {search.state}) do
     job.hand:set_posture(job.object.pose * state.pose, state.dofs)
     nearest = math.min(nearest, (job.world:distance(job.hand, job.object)))

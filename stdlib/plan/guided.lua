@@ -1,4 +1,5 @@
 -- stdlib/plan/guided.lua
+local at_caller = require "clench.at_caller"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local chain = require "clench.plan.chain"
@@ -42,7 +43,7 @@ return function(options)
   local children, steps_of_child, child_energy, count
   local job = new_job("plan.guided", options, function(read, job)
     job.energy = read:raw "energy" or "guided_potential_quality"
-    job.steps = read:count("steps", 70000, 0, 1e9)
+    job.steps = read:count("steps", 70000, 1, 1e9)
     children = read:count("children", 1, 1, 64)
     steps_of_child = read:count("child_steps", child_steps, 1, 1e6)
     child_energy = read:raw "child_energy"
@@ -88,7 +89,7 @@ return function(options)
       local asked = math.min(piece, job.steps - done)
       local searches, steps = {parent}, {asked}
       for i, child in ipairs(running) do searches[i + 1], steps[i + 1] = child.search, steps_of_child end
-      local taken = clench.run_annealings(searches, steps, job.threads)
+      local taken = at_caller(job.subject, clench.run_annealings, searches, steps, job.threads)
       for _, child in ipairs(running) do merge(child) end
       running = {}
       done = done + taken[1]

@@ -1,6 +1,7 @@
 --- What all planners are given: a hand, an object, and a world to move, which is a clone unless a script's function looks
 --- at the world itself.
 local raise = require "clench.raise"
+local at_caller = require "clench.at_caller"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local closing = require "clench.plan.closing"
@@ -14,6 +15,8 @@ Job.__index = Job
 local space_keys = {"position", "posture", "semi_axes", "limits", "jumps", "values", "targets", "fixed", "start",
                     "variables", "collisions", "max_tries"}
 
+local largest_energy = 1e30
+
 local function check(read, name, kind)
   local value = read:raw(name)
   if described(value) ~= kind then read:expected(name, kind, value) end
@@ -25,7 +28,7 @@ function Job:energy_of(energy)
   if type(energy) ~= "string" then return energy end
   local known, make = pcall(function() return clench.energy[energy] end)
   if not known then raise(("%s: energy: %s"):format(self.subject, tostring(make):gsub("^stdlib/[^:]*:%d+: ", ""))) end
-  return make {hand = self.hand, object = self.object}
+  return at_caller(self.subject, make, {hand = self.hand, object = self.object})
 end
 
 --- Another chain of annealing in a world of its own, or in the job's.
@@ -34,7 +37,11 @@ function Job:annealing(options)
   local all = {hand = self.hand, object = self.object, world = self.world}
   for key, value in pairs(self.space) do all[key] = value end
   for key, value in pairs(options) do all[key] = value end
-  return clench.annealing(all)
+  -- a state whose energy is infinite is worse than any, and none that is kept
+  local best = {max_energy = largest_energy}
+  for key, value in pairs(type(all.best) == "table" and all.best or {}) do best[key] = value end
+  if all.best == nil or type(all.best) == "table" then all.best = best end
+  return at_caller(self.subject, clench.annealing, all)
 end
 
 -- Waits while the search is paused. What an energy of the script moves is meanwhile as the script left it.
@@ -92,6 +99,23 @@ function Job:finish()
   if self.before then self.given_world:restore(self.before) end
 end
 
+-- before the search rather than in each of its grasps; how many normal forces there are to be is known of a grasp alone
+local function check_grasp_options(job)
+  local silence <close> = quiet()
+  local options = {}
+  for name, value in pairs(job.grasp_options) do
+    if name ~= "normal_force" or type(value) ~= "table" then options[name] = value end
+  end
+  at_caller(job.subject .. ": grasp", clench.grasp, job.hand, job.object, options)
+end
+
+local function is_part_of(robot, body)
+  for _, part in ipairs(robot.bodies) do
+    if part == body then return true end
+  end
+  return false
+end
+
 --- a hand that an arm carries is planned for alone: a clone of the world without the arm
 local function freed(world, name)
   local free = world:clone()
@@ -114,6 +138,7 @@ return function(subject, given, own)
   if hand.world ~= world or object.world ~= world then
     read:fail("hand and object must be in the same world")
   end
+  if is_part_of(hand, object) then read:fail("object: '%s' is a part of the hand", object.name) end
   job.given_world, job.arm = world, hand.parent
   job.seed = read:count("seed", 1, math.mininteger, math.maxinteger)
   job.threads = read:count("threads", 1, 1, 1024)
@@ -136,6 +161,7 @@ return function(subject, given, own)
   end
   job.hand, job.object = job.world:robot(hand.name), job.world:body(object.name)
   job.given_hand, job.given_object = hand, object
+  check_grasp_options(job)
   job.search = running[coroutine.running()]
   job.began = clench.clock()
   return job

@@ -6,12 +6,38 @@ local new_run = require "clench.plan.run"
 local closing = require "clench.plan.closing"
 
 -- a grasp's own state, or that before it closed; or a table of both
-local function state_of(item, i)
+local function state_of(item)
   if described(item) == "a grasp" then return item.pregrasp or {pose = item.pose, dofs = item.dofs} end
-  if type(item) ~= "table" or not item.pose or not item.dofs then
-    raise(("plan.list: states[%d]: expected a grasp or {pose =, dofs =}, got %s"):format(i, described(item)))
-  end
   return item
+end
+
+local function check_dofs(read, place, dofs, hand)
+  -- by name, the others as they are
+  if type(dofs) == "table" and #dofs == 0 and next(dofs) ~= nil then return end
+  local count = #hand.dofs
+  if type(dofs) ~= "table" or #dofs ~= count then read:expected(place, ("%d numbers, one per DOF"):format(count), dofs) end
+  for i, value in ipairs(dofs) do
+    if type(value) ~= "number" or value - value ~= 0 then read:expected(("%s[%d]"):format(place, i), "a finite number", value) end
+  end
+end
+
+local function read_states(read, hand)
+  local states = read:raw "states"
+  local is_list = described(states) == "a grasps"
+  if type(states) ~= "table" and not is_list then read:expected("states", "a list of grasps or states", states) end
+  if #states == 0 then read:fail "states: expected at least one grasp or state, got none" end
+  local out = {}
+  for i = 1, #states do
+    local place, item = ("states[%d]"):format(i), states[i]
+    if described(item) ~= "a grasp" and type(item) ~= "table" then read:fail("%s: expected a grasp or {pose =, dofs =}, got %s", place, described(item)) end
+    local state = state_of(item)
+    if state.pose == nil then read:fail("%s: pose is missing: expected a grasp or {pose =, dofs =}", place) end
+    if state.dofs == nil then read:fail("%s: dofs are missing: expected a grasp or {pose =, dofs =}", place) end
+    if described(state.pose) ~= "a pose" then read:expected(place .. ".pose", "a pose", state.pose) end
+    check_dofs(read, place .. ".dofs", state.dofs, hand)
+    out[i] = state
+  end
+  return out
 end
 
 --- Tries a given list of states, of another planner, hand or file: the hand closes from each.
@@ -23,23 +49,29 @@ end
 return function(options)
   local states, approach, count
   local job = new_job("plan.list", options, function(read, job)
-    states = read:raw "states"
-    if type(states) ~= "table" and described(states) ~= "a grasps" then read:expected("states", "a list of grasps or states", states) end
-    approach = read:not_negative("approach", 0)
+    states = read_states(read, options.hand)
+    approach = read:not_negative("approach", 0, 1e6)
     job.energy = read:raw "energy"
     count = read:count("count", 1000000, 1, 1000000)
   end)
   local energy = job.energy and job:energy_of(job.energy)
+  local function energy_at(state)
+    if not energy or not closing.place(job.hand, job.object, state) then return nil end
+    local value = energy()
+    if type(value) ~= "number" or value - value ~= 0 then
+      raise("plan.list: energy: expected a finite number, got " .. described(value))
+    end
+    return value
+  end
   local told = {planner = "plan.list", candidates = 0, rejected = {}}
   local found = {}
   job:interruptible(function()
-    for i, item in ipairs(states) do
+    for i, state in ipairs(states) do
       if not job:goes_on() then break end
-      local state = state_of(item, i)
       told.candidates = told.candidates + 1
-      local value = energy and closing.place(job.hand, job.object, state) and energy()
+      local value = energy_at(state)
       local grasp = job:close(job.hand, job.object, state, told, approach > 0 and approach or nil)
-      if grasp then found[#found + 1] = closing.note(grasp, "list", {energy = value or nil, number = i}) end
+      if grasp then found[#found + 1] = closing.note(grasp, "list", {energy = value, number = i}) end
     end
   end)
   table.sort(found, function(a, b)

@@ -13,7 +13,7 @@ return function(options)
   local loop_steps, max_energy, count
   local job = new_job("plan.loop", options, function(read, job)
     job.energy = read:raw "energy" or "guided_potential_quality"
-    job.steps = read:count("steps", 70000, 0, 1e9)
+    job.steps = read:count("steps", 70000, 1, 1e9)
     loop_steps = read:count("loop_steps", 5000, 1, 1e9)
     max_energy = read:number("max_energy", 10)
     count = read:count("count", 1000000, 1, 1000000)

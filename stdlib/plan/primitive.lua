@@ -1,3 +1,4 @@
+local at_caller = require "clench.at_caller"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
@@ -35,19 +36,37 @@ local function read_preshapes(read, hand)
   return shapes
 end
 
+local max_size = 10  -- beyond it millimetres are more likely [m]
+
+local function check_size(read, place, size)
+  if type(size) ~= "number" or not (size > 0 and size < math.huge) then read:expected(place, "a number > 0", size) end
+  if size > max_size then
+    read:fail("%s must be at most %g m, got %.6g: metres? clench.mm(%.6g) is %.4g", place, max_size, size, size, size / 1000)
+  end
+end
+
+-- which sizes each kind has
+local sizes = {sphere = {"radius"}, cylinder = {"radius", "height"}, cone = {"radius", "height"}}
+
+local function check_primitive(read, place, p)
+  local names = type(p) == "table" and sizes[p.kind]
+  local is_box = type(p) == "table" and p.kind == "box" and described(p.size) == "a vec3"
+  local sized = is_box
+  for i, name in ipairs(names or {}) do sized = (i == 1 or sized) and p[name] ~= nil end
+  if not sized or described(p.pose) ~= "a pose" then
+    read:expected(place, "{kind = 'box', pose =, size =}, a sphere with radius, or a cylinder or cone with radius and height", p)
+  end
+  for _, name in ipairs(names or {}) do check_size(read, ("%s: %s"):format(place, name), p[name]) end
+  for _, axis in ipairs(is_box and {"x", "y", "z"} or {}) do check_size(read, ("%s: size.%s"):format(place, axis), p.size[axis]) end
+end
+
 local function read_primitives(read)
   local given = read:raw "primitives"
-  if type(given) == "string" then return clench.files.primitives(given) end
+  if type(given) == "string" then given = at_caller(read.subject, clench.files.primitives, given) end
   if type(given) ~= "table" or #given == 0 then
     read:expected("primitives", "a file, or a list {kind =, pose =, size = or radius =, height =}", given)
   end
-  for i, p in ipairs(given) do
-    local sized = type(p) == "table" and (p.kind == "box" and described(p.size) == "a vec3" or p.kind == "sphere" and p.radius or
-                  (p.kind == "cylinder" or p.kind == "cone") and p.radius and p.height)
-    if not sized or described(p.pose) ~= "a pose" then
-      read:expected(("primitives[%d]"):format(i), "{kind = 'box', pose =, size =}, a sphere with radius, or a cylinder or cone with radius and height", p)
-    end
-  end
+  for i, p in ipairs(given) do check_primitive(read, ("primitives[%d]"):format(i), p) end
   return given
 end
 
@@ -80,7 +99,7 @@ return function(options)
     if not at then return end
     return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
   end
-  local told = {planner = "plan.primitive"}
+  local told = {planner = "plan.primitive", too_large = #list == 0}
   local found = batch.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
                                                   approach = 1, back = {count = 20, length = 0.004}})
   job:finish()

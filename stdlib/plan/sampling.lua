@@ -12,7 +12,7 @@ return function(name, options, read_more)
   local job = new_job("plan." .. name, options, function(read, job)
     own.count = read:count("count", 100, 1, 1000000)
     own.limit = read:count("candidates", 100000, 1, 1e9)
-    own.standoff = read:positive("standoff", 0.15)
+    own.standoff = read:positive("standoff", 0.15, 10)
     own.distance = read:not_negative("distance", 0.1)
     own.on_grasp = read:raw "on_grasp"
     if own.on_grasp and type(own.on_grasp) ~= "function" then read:expected("on_grasp", "a function", own.on_grasp) end

@@ -2,6 +2,8 @@
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local higher_is_better = require "clench.study.higher_is_better"
+local put_back = require "clench.study.put_back"
 
 local function check_grasps(grasps)
   local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
@@ -14,6 +16,7 @@ local function check_grasps(grasps)
   end
   for i, grasp in ipairs(grasps) do
     if described(grasp) ~= "a grasp" then fail("grasps[%d]: expected a grasp, got %s", i, described(grasp)) end
+    put_back.check_stands(("study.compare: grasps[%d]"):format(i), grasp)
   end
 end
 
@@ -24,13 +27,6 @@ local function best_of(values, higher_is_better)
     if higher_is_better and value > values[best] or not higher_is_better and value < values[best] then best = i end
   end
   return best
-end
-
--- which measures are better when larger, by name
-local function higher_is_better()
-  local by_name = {}
-  for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.higher_is_better end
-  return by_name
 end
 
 local Comparison = {}

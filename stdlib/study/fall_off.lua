@@ -1,6 +1,7 @@
 local read_options = require "clench.options"
 local read_motion = require "clench.study.motion.options"
-local directions = require "clench.study.motion.directions"
+local bounds = require "clench.study.motion.bounds"
+local push_along_axes = require "clench.study.motion.push_along_axes"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
@@ -14,25 +15,17 @@ return function(options)
   local rate, most = read:positive("rate", 5), read:positive("max_force", 20)
   local job = read_motion(read, {mass = 0.1, gravity = clench.vec3(0, 0, 0), grip_force = 10})
   read:done()
+  bounds.check_force(read, "max_force", most, job.mass)
+  if most / rate > bounds.seconds then
+    read:expected("rate", ("at least %g N/s, to reach max_force in a million seconds"):format(most / bounds.seconds), rate)
+  end
   local trial = new_trial(job)
   local result = verdict.new(trial, job, ("a force along each axis that grows by %g N/s up to %g N"):format(rate, most))
   result.min_force, result.min_time = math.huge, math.huge
   local seconds = most / rate
-  for _, direction in ipairs(directions) do
-    local row
-    if trial.settled.held then
-      trial:reset()
-      trial.world.gravity = job.gravity
-      local push = trial:push(function(time) return direction[2] * (rate * time) end)
-      row = trial:watch(seconds)
-      push:remove()
-    else
-      row = verdict.lost_before(trial)
-    end
-    row.direction, row.time = direction[1], row.time or seconds
+  return push_along_axes(trial, job, result, seconds, function(time) return rate * time end, function(row)
+    row.time = row.time or seconds
     row.force = rate * row.time
     result.min_force, result.min_time = math.min(result.min_force, row.force), math.min(result.min_time, row.time)
-    verdict.add(result, "directions", row, trial)
-  end
-  return verdict.close(result)
+  end)
 end

@@ -1,5 +1,6 @@
 local read_options = require "clench.options"
 local read_motion = require "clench.study.motion.options"
+local bounds = require "clench.study.motion.bounds"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
@@ -13,7 +14,7 @@ local ramp = 0.1  -- in which the speed is reached, and lost again [s]
 --- > clench.study.lift({hand = hand, object = flask, height = 0.02, hold = 0.1, settle = 0.1, mass = 0.1}).survived  --> true
 return function(options)
   local read = read_options("study.lift", options)
-  local height, speed, hold = read:positive("height", 0.1), read:positive("speed", 0.1), read:not_negative("hold", 1)
+  local height, speed, hold = read:positive("height", 0.1, 1e6), read:positive("speed", 0.1, bounds.speed), read:not_negative("hold", 1, bounds.seconds)
   local direction = read:point("direction", {0, 0, 1})
   direction = clench.vec3(direction[1] or direction.x, direction[2] or direction.y, direction[3] or direction.z)
   if direction:norm() < 1e-9 then read:fail "direction must not be zero" end
@@ -37,10 +38,10 @@ return function(options)
   local top = height / (length - ramp)
   local function rise(time)
     local part = math.min(1, (time + 0.0005) / ramp, (length - time) / ramp)
-    trial.root.velocity = {linear = direction * (top * part)}
+    trial.root.base.velocity = {linear = direction * (top * part)}
   end
   if add("gravity", trial:watch(0.2)) and add("lift", trial:watch(length, rise, 0.001)) then
-    trial.root.velocity = {}
+    trial:halt()
     if hold > 0 then add("hold", trial:watch(hold)) end
   end
   return verdict.close(result)

@@ -1,6 +1,7 @@
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local higher_is_better = require "clench.study.higher_is_better"
 local roc = require "clench.study.motion.roc"
 
 -- of their own: the others are grasp:quality's
@@ -21,7 +22,7 @@ end
 --- the area under the curve of each measure, as bars
 function Predictors:chart(options)
   local values, labels = {}, {}
-  for i, row in ipairs(self.rows) do values[i], labels[i] = row.auc == row.auc and row.auc, row.measure end
+  for i, row in ipairs(self.rows) do values[i], labels[i] = row.auc or false, row.measure end
   return clench.chart(add_options({series = {{name = "area under the curve", values = values}}, labels = labels,
                                    title = "Which measures predict survival?"}, options, "chart"))
 end
@@ -30,7 +31,7 @@ end
 function Predictors:plot(options)
   local series = {}
   for i, row in ipairs(self.rows) do
-    local name = row.auc == row.auc and ("%s %.2f"):format(row.measure, row.auc) or row.measure
+    local name = row.auc and ("%s %.2f"):format(row.measure, row.auc) or row.measure
     series[i] = {name = name, x = row.curve.false_positives, y = row.curve.true_positives}
   end
   return clench.plot(add_options({series = series, title = "Which measures predict survival?", x_label = "share of the lost grasps",
@@ -40,7 +41,7 @@ end
 function Predictors:__tostring()
   local lines = {("%d of %d grasps survived: %s"):format(self.survived, self.count, self.protocol)}
   for _, row in ipairs(self.rows) do
-    lines[#lines + 1] = row.auc ~= row.auc and ("%-20s nothing to compare"):format(row.measure)
+    lines[#lines + 1] = not row.auc and ("%-20s nothing to compare"):format(row.measure)
       or ("%-20s %.3f  (%.3f to %.3f)"):format(row.measure, row.auc, row.low, row.high)
   end
   return table.concat(lines, "\n")
@@ -75,18 +76,12 @@ local function read_measures(read, grasp_names)
   return names
 end
 
-local function higher_is_better()
-  local by_name = {}
-  for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.higher_is_better end
-  return by_name
-end
-
 --- How well measures of quality predict whether a grasp survives the six-direction force test: for each the area under the ROC
 --- curve, the probability that of a survivor and a lost grasp the survivor has the better value. 0.5 is no better than chance. The interval holds it at 95 %
 --- (Hanley and McNeil 1982). The grasps, in any number of threads, are put into copies of the world.
 ---@param grasps grasp[]|grasps
 ---@param options {hand: robot, object: body, measures?: string[], shake?: table, threads?: integer}  measures: names as grasp:quality takes them, "load_margin" (times the object's weight that the hand holds in the worst of six directions, as the planners' verification has it) and "contacts"; shake: options of study.shake; threads: all cores
----@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}; grasps: {survived, held, values}, or {error}, of each; chart: bars; plot: the curves
+---@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}, without auc, low and high where all or none survived: there is nothing to compare; grasps: {survived, held, values}, or {error}, of each; chart: bars; plot: the curves
 --- > p = clench.study.predictors({grasp, grasp}, {hand = hand, object = flask, measures = {"epsilon"}, shake = {seconds = 0.1, settle = 0.1}})
 --- > p.count, p.survived, p.rows[1].measure  --> 2, 2, epsilon
 return function(grasps, options)
@@ -124,7 +119,7 @@ return function(grasps, options)
     result.rows[i] = roc(good, bad)
     result.rows[i].measure = name
   end
-  local function key(row) return row.auc == row.auc and row.auc or -1 end
+  local function key(row) return row.auc or -1 end
   table.sort(result.rows, function(a, b)
     if key(a) ~= key(b) then return key(a) > key(b) end
     return a.measure < b.measure

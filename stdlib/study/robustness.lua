@@ -3,6 +3,8 @@ local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local stats = require "clench.stats"
+local suspect = require "clench.suspect"
+local put_back = require "clench.study.put_back"
 
 -- each of these is one stream of random numbers a sample, so that an error switched off changes no other
 local streams = {place = 0, friction = 1, normal = 2, count = 3}
@@ -43,10 +45,9 @@ local function back_off(hand, from)
   end
 end
 
-local function mean_of(numbers)
-  local sum = 0
-  for _, x in ipairs(numbers) do sum = sum + x end
-  return sum / #numbers
+local function size_of(object)
+  local bounds = object.bounds_in_world
+  return (bounds.high - bounds.low):norm()
 end
 
 local function check_grasp(grasp)
@@ -54,8 +55,9 @@ local function check_grasp(grasp)
 end
 
 --- The quality of a grasp under errors of pose, friction and normals. Each sample draws errors of the
---- normal distribution; where the object is out of place, the hand is opened as far as it takes to be free of it, a
+--- normal distribution; where the object is out of place, the hand, put back to how it grasped the object, is opened as far as it takes to be free of it, a
 --- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
+--- The centre of mass and rho are those with which the grasp was measured.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp
 ---@param options {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
@@ -75,20 +77,22 @@ return function(grasp, options)
   if type(close) ~= "function" then read:expected("close", "a function", close) end
   read:done()
 
-  local moves = position > 0 or angle > 0
-  local world = grasp.object.world:clone()
-  local hand, object = world:robot(grasp.hand.name), world:body(grasp.object.name)
-  local start, place, from = world:snapshot(), object.pose, hand.dofs
+  local moves, com = position > 0 or angle > 0, put_back.com(grasp)
+  local placed = moves and put_back.copy(read.subject, grasp)
+  if placed then suspect.millimetres(read.subject, "position", position, size_of(placed.object)) end
+  suspect.degrees(read.subject, "angle", angle)
+  suspect.degrees(read.subject, "normal", normal)
   local alike = grasp.options
   alike.edges = edges
   -- another grasp has other contacts
-  if type(alike.normal_force) == "table" then alike.normal_force = mean_of(alike.normal_force) end
+  if type(alike.normal_force) == "table" then alike.normal_force = stats.mean(alike.normal_force) end
 
   local function regrasped(sample)
     if not moves then return grasp end
-    world:restore(start)
-    object.pose = erred_pose(stream(seed, sample, "place"), place, position, angle)
-    if not back_off(hand, from) or #world:colliding(object) > 0 then return nil end
+    local world, hand, object = placed.world, placed.hand, placed.object
+    world:restore(placed.start)
+    object.pose = erred_pose(stream(seed, sample, "place"), placed.pose, position, angle)
+    if not back_off(hand, grasp.dofs) or #world:colliding(object) > 0 then return nil end
     close(hand, object)
     return clench.grasp(hand, object, alike)
   end
@@ -106,7 +110,7 @@ return function(grasp, options)
         contact.mu = contact.mu * factor
         if normal > 0 then contact.normal = tilted(tilts, contact.normal, normal * tilts:normal()) end
       end
-      epsilon = clench.wrench_space {contacts = contacts, com = now.object.com, rho = grasp.rho, edges = edges}:epsilon()
+      epsilon = clench.wrench_space {contacts = contacts, com = com, rho = grasp.rho, edges = edges}:epsilon()
     end
     epsilons[sample] = epsilon
     if epsilon > 0 then closed = closed + 1 end

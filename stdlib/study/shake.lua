@@ -1,6 +1,7 @@
 local read_options = require "clench.options"
 local read_motion = require "clench.study.motion.options"
-local directions = require "clench.study.motion.directions"
+local bounds = require "clench.study.motion.bounds"
+local push_along_axes = require "clench.study.motion.push_along_axes"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
@@ -19,24 +20,11 @@ local verdict = require "clench.study.motion.verdict"
 --- > clench.study.shake {hand = hand, object = flask, mas = 1}  --> error: unknown key 'mas'
 return function(options)
   local read = read_options("study.shake", options)
-  local force, seconds = read:positive("force", 1), read:positive("seconds", 2)
+  local force, seconds = read:positive("force", 1), read:positive("seconds", 2, bounds.seconds)
   local job = read_motion(read, {mass = 0.1, gravity = clench.vec3(0, 0, 0), grip_force = 10 * force})
   read:done()
+  bounds.check_force(read, "force", force, job.mass)
   local trial = new_trial(job)
   local result = verdict.new(trial, job, ("%g N along each axis for %g s"):format(force, seconds))
-  for _, direction in ipairs(directions) do
-    local row
-    if trial.settled.held then
-      trial:reset()
-      trial.world.gravity = job.gravity
-      local push = trial:push(function() return direction[2] * force end)
-      row = trial:watch(seconds)
-      push:remove()
-    else
-      row = verdict.lost_before(trial)
-    end
-    row.direction = direction[1]
-    verdict.add(result, "directions", row, trial)
-  end
-  return verdict.close(result)
+  return push_along_axes(trial, job, result, seconds, function() return force end)
 end

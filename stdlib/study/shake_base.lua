@@ -1,5 +1,6 @@
 local read_options = require "clench.options"
 local read_motion = require "clench.study.motion.options"
+local bounds = require "clench.study.motion.bounds"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
@@ -13,7 +14,7 @@ local axes = {{"x", clench.vec3(1, 0, 0)}, {"y", clench.vec3(0, 1, 0)}, {"z", cl
 --- > clench.study.shake_base({hand = hand, object = flask, seconds = 0.4, settle = 0.1, mass = 0.1, acceleration = 2}).survived  --> true
 return function(options)
   local read = read_options("study.shake_base", options)
-  local frequency, seconds = read:positive("frequency", 5), read:positive("seconds", 2)
+  local frequency, seconds = read:positive("frequency", 5), read:positive("seconds", 2, bounds.seconds)
   local rate = 2 * math.pi * frequency
   local acceleration
   if read:raw "amplitude" ~= nil then
@@ -24,20 +25,21 @@ return function(options)
   end
   local job = read_motion(read, {})
   read:done()
+  bounds.check_frequency(read, frequency, job.world.time_step)
+  if acceleration > bounds.acceleration then
+    local name = read:raw "amplitude" ~= nil and "amplitude" or "acceleration"
+    local largest = name == "amplitude" and bounds.acceleration / rate ^ 2 or bounds.acceleration
+    read:expected(name, ("at most %g %s"):format(largest, name == "amplitude" and "m at that frequency" or "m/s^2"), read:raw(name))
+  end
   local trial = new_trial(job)
   local result = verdict.new(trial, job, ("shaken along each axis with up to %.3g m/s^2 at %g Hz for %g s"):format(acceleration, frequency, seconds))
   for _, axis in ipairs(axes) do
-    local row
-    if trial.settled.held then
-      trial:reset()
-      trial.world.gravity = job.gravity
-      row = trial:watch(seconds, function(time)
+    local row = verdict.attempt(trial, job, function()
+      return trial:watch(seconds, function(time)
         local speed = acceleration / rate * math.sin(rate * time) * math.min(1, time * frequency)
-        trial.root.velocity = {linear = axis[2] * speed}
+        trial.root.base.velocity = {linear = axis[2] * speed}
       end, math.min(0.001, 0.02 / frequency))
-    else
-      row = verdict.lost_before(trial)
-    end
+    end)
     row.axis = axis[1]
     verdict.add(result, "axes", row, trial)
   end

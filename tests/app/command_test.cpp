@@ -236,4 +236,6 @@ TEST_CASE("convert writes another format, says what is lost, and fails with 1") 
   CHECK(run("convert models/objects/flask.iv").code == 2);
   CHECK(has(run("convert --unit mile " + out + " " + (folder / "a.obj")).out,
             "unknown unit 'mile', expected one of mm, cm, m, inch, foot"));
+  CHECK(run("convert --unit mile " + out + " " + (folder / "a.obj")).code == 2);
+  CHECK(run("check --unit mile " + out).code == 2);
 }

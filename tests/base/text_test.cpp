@@ -196,3 +196,23 @@ TEST_CASE("line ends of every kind become line feeds, as if by one character aft
     CHECK(plain_text(raw) == expected);
   }
 }
+
+TEST_CASE("UTF-8 is read letter by letter, and each byte that is none is one mark") {
+  CHECK(letters_of("Größe µ") == U"Größe µ");
+  CHECK(letters_of("a\xE2\x82\xAC\xF0\x9F\x98\x80z") == U"a€\U0001F600z");
+  const char32_t none = 0xFFFD;
+  // a lone byte, a letter cut short, a letter too long for what it says, half of a pair, too large
+  CHECK(letters_of("\xFFx") == std::u32string{none, U'x'});
+  CHECK(letters_of("\xE2\x82") == std::u32string{none, none});
+  CHECK(letters_of("\xC0\xAF") == std::u32string{none, none});
+  CHECK(letters_of("\xE0\x80\xAF").front() == none);
+  CHECK(letters_of("\xED\xA0\x80").front() == none);
+  CHECK(letters_of("\xF5\x80\x80\x80").front() == none);
+  CHECK(letters_of("").empty());
+  for (const char* text : {"Größe µ", "a€\U0001F600z", "", "ASCII"})
+    CHECK(text_of(letters_of(text)) == text);
+}
+
+TEST_CASE("a byte that is no UTF-8 may stand for a letter of Latin-1") {
+  CHECK(letters_of("\xe9x\xe2\x82", true) == U"\u00e9x\u00e2\u0082");
+}

@@ -6,6 +6,7 @@
 
 #include "clench/base/random.h"
 #include "clench/dynamics/solve/friction_problem.h"
+#include "clench/dynamics/solve/solve_friction.h"
 
 namespace clench::test {
 
@@ -115,6 +116,12 @@ inline Eigen::VectorXd faults(const FrictionProblem& problem, const Eigen::Vecto
     if (!block.is_contact() && (here[0] < block.low || here[0] > block.high)) all[i] = INFINITY;
   }
   return all;
+}
+
+// by a solver that has solved nothing before
+inline FrictionSolution solve_friction(const FrictionProblem& problem, const Eigen::VectorXd& warm_start, const FrictionOptions& options = {}) {
+  FrictionSolver solver;
+  return solver.solve(problem, warm_start, options);
 }
 
 }  // namespace clench::test

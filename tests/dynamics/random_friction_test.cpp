@@ -2,7 +2,6 @@
 
 #include "clench/dynamics/solve/friction_feasibility.h"
 #include "clench/dynamics/solve/friction_residual.h"
-#include "clench/dynamics/solve/solve_friction.h"
 #include "dynamics/friction_problems.h"
 #include "support/cases.h"
 

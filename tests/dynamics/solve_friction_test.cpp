@@ -1,8 +1,10 @@
 #include "clench/dynamics/solve/solve_friction.h"
 
 #include "clench/dynamics/solve/friction_residual.h"
+#include "dynamics/friction_problems.h"
 
 using namespace clench;
+using clench::test::solve_friction;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Eigen::Vector3d;

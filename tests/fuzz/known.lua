@@ -30,8 +30,8 @@ local files = {
   ["clench.files.eigengrasps"] = {"models/hands/barrett/barrett.egr", "models/hands/human/human16.egr"},
   ["clench.files.virtual_contacts"] = {"models/hands/barrett/barrett.vgr"},
   ["clench.files.object_contacts"] = {"seeds/two.con", "seeds/unplaced.con"},
-  ["clench.files.pregrasps"] = {"seeds/pregrasps.lst"}, ["clench.files.planned_grasps"] = {"seeds/planned.lst"},
-  ["clench.grasps"] = {"seeds/grasps.jsonl"},
+  ["clench.files.pregrasps"] = {"seeds/pregrasps.lst"},
+  ["clench.grasps"] = {"seeds/grasps.jsonl", "seeds/planned.lst"},
   ["clench.files.glove_calibration"] = {"seeds/calibration.cal"}, ["clench.files.glove_poses"] = {"seeds/poses.cal"},
 }
 known.files = files

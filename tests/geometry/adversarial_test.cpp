@@ -5,8 +5,8 @@
 
 #include "clench/geometry/query/queries.h"
 #include "clench/geometry/query/triangle.h"
-#include "clench/geometry/tree/box_lanes.h"
 #include "clench/geometry/tree/triangle_lanes.h"
+#include "geometry/one_box.h"
 #include "support/meshes.h"
 
 using namespace clench;
@@ -183,7 +183,7 @@ std::vector<float> results_at(const BoxBundle& boxes, const TriangleBundle& one,
   };
   const auto eight = load_boxes<F>(boxes);
   for (int i = 0; i < 8; ++i) {
-    const auto box = load_box<float>(boxes, i);
+    const auto box = one_box<float>(boxes, i);
     add(box_gaps(eight, box)), add(axis_gaps(eight, box)), add(edge_gaps(eight, box));
   }
   const F gaps = squared_point_gaps(eight, {0.1f, 0.2f, 0.3f});
@@ -196,7 +196,7 @@ std::vector<float> results_at(const BoxBundle& boxes, const TriangleBundle& one,
   add(near.low), add(near.high), add(near.way.x), add(near.way.y), add(near.way.z);
   const auto point = point_bounds(a, {0.1f, 0.2f, 0.3f});
   add(point.height), add(point.squared_high);
-  out.push_back(static_cast<float>(within_reach(a, b, 0.1f, 0xff)));
+  out.push_back(static_cast<float>(edges_within_reach(a, b, 0.1f, 0xff)));
   return out;
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("bounds of boxes and triangles in single precision bracket the exact d
     float low[8], high[8];
     near.low.store(low), near.high.store(high);
     const unsigned within =
-        within_reach(load_triangles<F>(one), load_triangles<F>(two), 0.5f, 0xff);
+        edges_within_reach(load_triangles<F>(one), load_triangles<F>(two), 0.5f, 0xff);
     for (int lane = 0; lane < 8; ++lane) {
       Corners a, b;
       for (int k = 0; k < 3; ++k)

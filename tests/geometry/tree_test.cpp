@@ -6,8 +6,8 @@
 
 #include "clench/geometry/query/placement.h"
 #include "clench/geometry/query/queries.h"
-#include "clench/geometry/tree/box_lanes.h"
 #include "clench/geometry/tree/triangle_lanes.h"
+#include "geometry/one_box.h"
 #include "support/meshes.h"
 
 using namespace clench;
@@ -31,7 +31,7 @@ int gather(const Shape& shape, int bundle, int lane, std::vector<int>& triangles
       if (tree.boxes(child >> 1).child[i] >= 0)
         depth = std::max(depth, 1 + gather(shape, child >> 1, i, triangles));
   }
-  const BoxOf<double> straight = load_box<double>(boxes, lane);
+  const BoxOf<double> straight = one_box<double>(boxes, lane);
   const double rounding = rounding_of(shape.bounds(), Vector3d::Zero());
   for (size_t i = begin; i < triangles.size(); ++i)
     for (const Vector3d& p : shape.mesh().corners(triangles[i])) {
@@ -111,16 +111,16 @@ TEST_CASE("the gaps of boxes are never more than their distance, and tell all ap
   for (int i = 0; i < 40; ++i) {
     const BoxBundle boxes = random_boxes(random), others = random_boxes(random);
     for (int one = 0; one < 8; ++one) {
-      const BoxOf<float> box = load_box<float>(others, one);
+      const BoxOf<float> box = one_box<float>(others, one);
       const BoxOf<F> eight = load_boxes<F>(boxes);
       float faces[8], axes[8], edges[8];
       box_gaps(eight, box).store(faces);
       axis_gaps(eight, box).store(axes);
       edge_gaps(eight, box).store(edges);
-      const auto other = shape_of(load_box<double>(others, one));
+      const auto other = shape_of(one_box<double>(others, one));
       for (int lane = 0; lane < 8; ++lane) {
         const double exact =
-            distance(*shape_of(load_box<double>(boxes, lane)), *other, Pose()).distance;
+            distance(*shape_of(one_box<double>(boxes, lane)), *other, Pose()).distance;
         for (const float gap : {faces[lane], axes[lane], edges[lane]}) CHECK(gap <= exact + slack);
         CHECK(axes[lane] <= faces[lane] + slack);
         // by the separating axes of two boxes; a gap along edges shrinks with the angle between them

@@ -89,3 +89,14 @@ TEST_CASE("what may be there and cannot be seen is told with the reason") {
   folder.write("plain", "");
   CHECK_THROWS_WITH_AS(find_file("plain/a.iv", world, {}), "no such file: plain/a.iv", Error);
 }
+
+TEST_CASE("links that lead in a circle, or to nothing, are called what they are") {
+  const TemporaryFolder folder;
+  fs::create_symlink("b.iv", folder.path() / "a.iv");
+  fs::create_symlink("a.iv", folder.path() / "b.iv");
+  fs::create_symlink("gone.iv", folder.path() / "c.iv");
+  const fs::path world = folder.path() / "w.wld";
+  CHECK_THROWS_WITH_AS(find_file("a.iv", world, {}),
+                       "a.iv: the file cannot be read: Too many levels of symbolic links", Error);
+  CHECK_THROWS_WITH_AS(find_file("c.iv", world, {}), "no such file: c.iv, a link that leads to nothing", Error);
+}

@@ -1,5 +1,7 @@
 // Scenes of MJCF as worlds.
 #include "clench/base/error.h"
+#include "clench/base/random.h"
+#include "support/meshes.h"
 #include "told_robot.h"
 #include "temporary.h"
 
@@ -230,6 +232,90 @@ TEST_CASE("in keyframes balls are three turns and followers follow") {
   CHECK(told.warned("joint 'q' follows 'p', and is at 0.3 rather than at 1; it follows"));
 }
 
+/// The rotation of a body that hangs on the base by one ball, at the keyframe's values of its three hinges.
+static Eigen::Matrix3d ball_rotation(const KeyframeSpec& key, const RobotSpec& robot) {
+  const LinkSpec& link = robot.links.at(0);
+  REQUIRE(link.joints.size() == 3);
+  Pose X;
+  for (size_t i = 0; i < 3; ++i)
+    X = X * link.joints[i].X_PJ * joint_motion(link.joints[i], key.robots.at(0).dofs.at(i));
+  return (X * link.X_JL).rotation.toRotationMatrix();
+}
+
+/// All 24 rotations of a cube, those that turn its middle hinge by a right angle among them.
+static std::vector<Eigen::Quaterniond> cube_rotations() {
+  std::vector<Eigen::Quaterniond> out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int signs = 0; i != j && signs < 4; ++signs) {
+        Eigen::Matrix3d R;
+        R.col(0) = (signs & 1 ? -1 : 1) * Eigen::Vector3d::Unit(i);
+        R.col(1) = (signs & 2 ? -1 : 1) * Eigen::Vector3d::Unit(j);
+        R.col(2) = R.col(0).cross(R.col(1));
+        out.emplace_back(R);
+      }
+  return out;
+}
+
+TEST_CASE("a ball in a keyframe turns its body as its quaternion says, at gimbal lock too") {
+  std::vector<Eigen::Quaterniond> turns = cube_rotations();
+  REQUIRE(turns.size() == 24);
+  // w x y z; as a person types them, some far from unit length and near to gimbal lock
+  for (const auto& q : {std::array{0.5, 0.5, 0.5, 0.5}, {0.5, -0.5, 0.5, -0.5}, {0.5, 0.5, -0.5, -0.5},
+                        {0.65328, 0.2706, 0.65328, 0.2706}, {1.0, 1e-9, 1.0, 0.0}, {-3.0, 0.0, 3.0, 1e-6}})
+    turns.emplace_back(q[0], q[1], q[2], q[3]);
+  Random random(31);
+  for (int i = 0; i < 500; ++i) turns.push_back(random_turn(random));
+  // nearly a right angle about y
+  for (int i = 0; i < 200; ++i) {
+    const Pose lean = Pose::turn(std::pow(10, -15 * random.uniform()), random_turn(random) * Eigen::Vector3d::UnitX());
+    turns.push_back((lean * Pose::turn(random.uniform(-3, 3), Eigen::Vector3d::UnitX()) *
+                     Pose::turn(random.uniform() < 0.5 ? 1.5707963267948966 : -1.5707963267948966, Eigen::Vector3d::UnitY()))
+                        .rotation);
+  }
+  std::string keys;
+  for (const auto& q : turns) keys += fmt::format("<key qpos='{} {} {} {}'/>", q.w(), q.x(), q.y(), q.z());
+  const std::string ball = "<body name='b'><joint type='ball'/><geom size='1'/></body>";
+  // a frame turns the body on it, and no joint in the body
+  for (const std::string& body : {ball, std::string("<body name='b'><frame euler='1 2 3'><joint type='ball'/></frame><geom size='1'/></body>")}) {
+    const ToldWorld told("<body name='a'><geom size='0.1'/>" + body + "</body>", "<keyframe>" + keys + "</keyframe>");
+    REQUIRE(told.world.keyframes.size() == turns.size());
+    for (size_t i = 0; i < turns.size(); ++i) {
+      const Eigen::Matrix3d off =
+          ball_rotation(told.world.keyframes[i], told.world.robots[0].robot) - turns[i].normalized().toRotationMatrix();
+      CAPTURE(turns[i]);
+      CHECK(off.cwiseAbs().maxCoeff() < 1e-9);
+    }
+    CHECK(!told.warned("outside"));
+  }
+}
+
+TEST_CASE("an equality of one joint holds it where it says") {
+  const std::string held = "<equality><joint joint1='a' polycoef='0.3 0'/></equality>";
+  const ToldWorld told(arm, held + "<actuator><position joint='a' ctrlrange='-1 1'/></actuator>");
+  const RobotSpec& robot = told.world.robots[0].robot;
+  CHECK(robot.links[0].joints[0].min == 0.3);
+  CHECK(robot.links[0].joints[0].max == 0.3);
+  CHECK(robot.dofs[0].default_value == 0.3);
+  CHECK(told.noted("scene.xml:1: joint 'a' may only stand at 0.3 rad, as the equality says"));
+  CHECK(!told.warned("ctrlrange"));
+  // it counts from where the model stands at first
+  const ToldWorld from("<body name='s'><geom size='1'/><body><joint name='a' type='slide' ref='2' range='0 9'/>"
+                       "<geom size='1'/></body></body>", held);
+  CHECK(from.world.robots[0].robot.dofs[0].default_value == 2.3);
+  CHECK(from.noted("joint 'a' may only stand at 2.3 m, as the equality says"));
+}
+
+TEST_CASE("of negative gains the magnitude is used, with a warning") {
+  const ToldWorld told(arm, "<actuator><position joint='a' kp='-10' kv='-1'/><velocity joint='a' kv='-2'/></actuator>");
+  CHECK(told.warned("position: kp: -10 is negative; 10 is used"));
+  const RobotSpec& robot = told.world.robots[0].robot;
+  CHECK(robot.actuators[0].gain == 10);
+  CHECK(robot.dofs[0].kp == 10);
+  CHECK(robot.dofs[0].kd == 1 + 2);
+  CHECK(ToldWorld(arm, "<actuator><velocity joint='a' kv='-2'/></actuator>").warned("velocity: kv: -2 is negative; 2 is used"));
+}
+
 TEST_CASE("keyframes that do not fit are refused, or told where bodies are missing") {
   CHECK(failure(arm, "<keyframe><key qpos='1 2'/></keyframe>") ==
         "scene.xml:1: key: qpos: expected 1 numbers, got 2");
@@ -276,6 +362,11 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
   CHECK(failure("<light/>").ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
+  // what stands there is named
+  CHECK(failure("<geom type='hfield' hfield='h'/>") ==
+        "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of type hfield");
+  CHECK(failure("<geom type='sdf'/><body><geom type='hfield'/></body>") ==
+        "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of type hfield, sdf");
 }
 
 TEST_CASE("a scene's time step is the world's") {

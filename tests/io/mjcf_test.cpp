@@ -318,6 +318,13 @@ TEST_CASE("a joint that is tied by nothing stands still, and is suspicious") {
                   "moves"));
 }
 
+TEST_CASE("of a robot alone keyframes are not used, and what uses them is named") {
+  const std::string sentence =
+      "m.xml:1: <keyframe> is not used for a robot alone; clench.load takes it with the option 'keyframe'";
+  CHECK(model("<joint name='p' range='-9 9'/>", "<keyframe><key qpos='1'/></keyframe>").warned(sentence));
+  CHECK(!model("<joint name='p' range='-9 9'/>", "<keyframe/>").warned("<keyframe>"));
+}
+
 TEST_CASE("a tendon may be held longer than it is at first") {
   const ToldRobot told =
       model("<joint name='p' range='-1 1' ref='0.5'/><joint name='q' range='-9 9'/>",

@@ -134,3 +134,13 @@ test("what is expected is named with its article", function(t)
   t.fails(function() clench.eigengrasps {postures = {{1, 2}, {2, 1}}, vectors = {{1, 0}}} end,
           "clench.eigengrasps: expected postures or vectors, got both")
 end)
+
+test("the mesh of a body is one for others", function(t)
+  local world = clench.world()
+  local cube = world:add_object(clench.shapes.box {0.02, 0.03, 0.04}, {mass = 1})
+  local copy = world:add_object(cube.mesh, {mass = 1, mesh_scale = 2, pose = {xyz = {1, 0, 0}}})
+  t.close(copy.mesh.volume, 8 * cube.mesh.volume, 1e-18)
+  t.close(cube.mesh.volume, 0.02 * 0.03 * 0.04, 1e-18)
+  t.fails(function() world:add_object(cube) end, "body: expected a file name, a mesh of a body, or one {vertices")
+  t.fails(function() world:distance({}, cube) end, "a: expected a body, a robot, or a list of at least one, got a table")
+end)

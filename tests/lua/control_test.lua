@@ -72,6 +72,12 @@ test("functions are called in order, at their rates, from where the world is", f
   t.equal(handle.status, "removed")
   world:run(0.1)
   t.equal(#times, 5)
+  -- not more often than there are steps
+  local sum, calls = 0, 0
+  world:on_step(function(_, dt) sum, calls = sum + dt, calls + 1 end, {rate = 2000})
+  world:run(0.01)
+  t.equal(calls, 10)
+  t.close(sum, 0.01, 1e-12)
 end)
 
 test("a controller holds a box in the air", function(t)
@@ -365,6 +371,26 @@ test("a joint that no actuator drives swings; one with a servo is held, and carr
   world:run(2)
   -- kp q = m g l cos q
   t.close(robot.dofs[1], 0.0981 * math.cos(robot.dofs[1]), 1e-3)
+end)
+
+test("forces beside a controller add to what it asks for, and both together stay within the largest effort", function(t)
+  local world, robot = rod [[<actuator><position joint="hinge" kp="40" kv="2" forcerange="-20 20"/></actuator>]]
+  world.gravity = {0, 0, 0}
+  world.time_step = 1e-6
+  -- in a time in which 20 N m make the rod 0.015 rad/s fast, which the servo's damping takes 0.03 N m for
+  local function effort(target, force)
+    robot:set_dofs {0}
+    robot:set_targets {target}
+    robot:set_forces {force}
+    world:run(1e-6)
+    return robot.dof_efforts[1]
+  end
+  t.close(effort(0.25, -5), 5, 0.03)
+  t.close(effort(2.5, -90), 10, 0.03)
+  t.close(effort(-2.5, 90), -10, 0.03)
+  t.close(effort(0, 50), 20, 1e-12)
+  t.close(effort(1, 50), 20, 1e-12)
+  t.close(effort(1, -100), -20, 1e-12)
 end)
 
 test("a velocity that is set changes what it names", function(t)

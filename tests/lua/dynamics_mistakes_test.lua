@@ -90,8 +90,16 @@ end)
 test("huge forces and speeds are refused in a sentence or done", function(t)
   local world = room()
   local body = add(world, 0, 0.0501)
+  t.fails(function() room().run(1) end, "world:run: expected a world before the colon, got 1; use world:run(...)")
   t.fails(function() body:apply_force({0, 0 / 0, 0}) end, "force[2]: expected a finite number, got")
   t.fails(function() body:apply_torque({0, 0, 1e300}) end, "torque: expected a number from -1e+15 to 1e+15")
+  local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  for _, push in ipairs {"apply_force", "apply_torque"} do
+    t.fails(function() hand[push](hand, {0, 0, 1}) end, "the base stands or moves as it is told, whatever pushes it, unless `floating` is true")
+  end
+  hand.floating = true
+  hand:apply_force {0, 0, 0.1}
+  world:remove(hand)
   t.fails(function() body.velocity = {linear = {0, 0, 1e7}} end, "linear velocity: expected a number from -1e+06 to 1e+06")
   for _ = 1, 5 do
     body:apply_force({1e6, 0, -1e6})

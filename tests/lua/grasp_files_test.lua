@@ -87,3 +87,27 @@ test("numpy reads what we write, where there is one", function(t)
   t.equal(clench.grasps(file)[1].hand_name, grasp.hand_name)
   os.remove(file)
 end)
+
+test("DOFs that were edited and joints that were not contradict each other", function(t)
+  local world, _, list = closed()
+  local file = path ".jsonl"
+  list:save(file)
+  local input = assert(io.open(file))
+  local text = input:read "a"
+  input:close()
+  local function with(edit)
+    clench.files.save_text(file, (edit(text)))
+    return clench.grasps(file)[1]
+  end
+  local hand = world.robots[1]
+  local before = hand.dofs
+  local edited = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,') end)
+  t.fails(function() edited:apply(world) end, "and its DOF puts it at 0.123; without 'joints' the DOFs tell all")
+  t.equal(hand.dofs, before)
+  local alone = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,'):gsub('"joints":%[[^%]]*%],?', "") end)
+  alone:apply(world)
+  t.equal(hand.dofs[1], 0.123)
+  local metres = with(function(s) return s:gsub('"dof_units":%["rad"', '"dof_units":["m"') end)
+  t.fails(function() metres:apply(world) end, "expected a value in rad, got one in m")
+  os.remove(file)
+end)

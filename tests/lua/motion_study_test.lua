@@ -139,7 +139,7 @@ test("the area under a ROC curve is the part of pairs in the right order", funct
   local r = roc(good, bad)
   t.close(r.auc, right / 1600, 1e-12)
   t.ok(r.low < r.auc and r.auc < r.high)
-  t.ok(roc({1}, {}).auc ~= roc({1}, {}).auc)
+  t.equal(roc({1}, {}), {curve = {false_positives = {0, 0}, true_positives = {0, 1}}})
 end)
 
 test("measures are rated by what survives, in any number of threads", function(t)
@@ -162,6 +162,93 @@ test("measures are rated by what survives, in any number of threads", function(t
   t.equal(tostring(again), tostring(p))
   t.ok(p:chart {width = 300}.width == 300 and p:plot {width = 300}.picture.width == 300)
   t.fails(function() p:plot {series = {}} end, "study.predictors: plot: unknown key 'series'")
+end)
+
+test("where nothing is lost there is nothing to compare, in text, chart and table", function(t)
+  local hand, flask = closed_on_flask()
+  local p = clench.study.predictors({clench.grasp(hand, flask)}, {hand = hand, object = flask, measures = {"epsilon"}, threads = 1,
+                                                                  shake = {seconds = 0.1, settle = 0.1, grip_seconds = 0.1}})
+  local row = p.rows[1]
+  t.ok(p.survived == 1 and row.auc == nil and row.low == nil and row.high == nil)
+  t.ok(tostring(p):find "epsilon +nothing to compare")
+  t.ok(p:chart {width = 300}.width == 300 and p:plot {width = 300}.picture.width == 300)
+  local path = os.tmpname()
+  clench.csv.write(path, {{measure = row.measure, auc = row.auc}}, {columns = {"measure", "auc"}})
+  t.equal(clench.csv.read(path)[1].auc, nil)
+  os.remove(path)
+end)
+
+test("a study begins at rest, whatever moved before, and the base stands still when it has been lifted", function(t)
+  local hand, flask, world = closed_on_flask()
+  local shake = {hand = hand, object = flask, seconds = 0.1, settle = 0.1, grip_seconds = 0.1}
+  local lift = {hand = hand, object = flask, mass = 0.1, height = 0.02, hold = 0.1, settle = 0.1, grip_seconds = 0.1}
+  local first, lifted = clench.study.shake(shake), clench.study.lift(lift)
+  hand.base.velocity = {linear = {0, 0, 0.1}, angular = {0, 1, 0}}
+  flask.velocity = {linear = {0, 1, 1}}
+  local velocities = {}
+  for i in ipairs(hand.dofs) do velocities[i] = 1 end
+  hand.dof_velocities = velocities
+  local before = world:hash()
+  local again = clench.study.shake(shake)
+  for i, row in ipairs(first.directions) do t.equal(again.directions[i].moved, row.moved) end
+  for i, row in ipairs(clench.study.lift(lift).rows) do t.equal(row.moved, lifted.rows[i].moved) end
+  t.ok(world:hash() == before and flask.velocity.linear.z == 1 and hand.base.velocity.linear.z == 0.1)
+end)
+
+test("a trial that is halted stands still", function(t)
+  local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
+  local hand, flask = closed_on_flask()
+  local read = require "clench.options"("test", {hand = hand, object = flask, settle = 0.01, grip_seconds = 0.01})
+  local trial = new_trial(read_motion(read, {}))
+  trial.root.base.velocity = {linear = {0, 0, 0.1}}
+  trial:halt()
+  t.equal(trial.root.base.velocity.linear.z, 0.0)
+end)
+
+test("what no simulation follows is refused by the name of the option", function(t)
+  local hand, flask, world = closed_on_flask()
+  local function refused(study, given, sentence)
+    given.hand, given.object = hand, flask
+    t.fails(function() clench.study[study](given) end, "motion_study_test.lua", ("study.%s: %s"):format(study, sentence))
+  end
+  refused("shake", {force = 1e9}, "force must be at most 100000 N, which accelerates 0.1 kg by 1e+06 m/s^2, got 1000000000")
+  refused("fall_off", {max_force = 1e9}, "max_force must be at most 100000 N")
+  refused("fall_off", {rate = 1e-9}, "rate must be at least 2e-05 N/s, to reach max_force in a million seconds, got 1e-09")
+  refused("lift", {speed = 1e9}, "speed must be a number of at most 1e+06, got 1000000000")
+  refused("lift", {hold = 1e9}, "hold must be a number of at most 1e+06")
+  refused("shake", {gravity = {0, 0, 1e9}}, "gravity must be a vector of at most 1e+06 m/s^2, got 1000000000")
+  refused("shake_base", {frequency = 1e4}, "frequency must be at most 100 Hz, 10 time steps of 0.001 s in a period, got 10000")
+  refused("shake_base", {acceleration = 1e9}, "acceleration must be at most 1e+06 m/s^2, got 1000000000")
+  refused("shake_base", {amplitude = 1e9}, "amplitude must be at most 1013.21 m at that frequency, got 1000000000")
+  refused("lift", {mass = 1e-13}, "body 'flask': mass: expected a number from 1e-12")
+  world.time_step = 0.01
+  refused("shake_base", {frequency = 11}, "frequency must be at most 10 Hz, 10 time steps of 0.01 s in a period, got 11")
+end)
+
+test("an object that is welded cannot be lost", function(t)
+  local hand, flask = closed_on_flask()
+  flask:weld(hand.links[3])
+  for _, study in ipairs {"shake", "lift", "shake_base", "fall_off"} do
+    t.fails(function() clench.study[study] {hand = hand, object = flask} end, "motion_study_test.lua", ("study.%s: object: 'flask' is welded to '%s': unweld it first, for what is welded cannot be lost"):format(study, hand.links[3].name))
+  end
+end)
+
+test("an angle in degrees and a distance in millimetres are told once", function(t)
+  local said = clench.parallel.map(function()
+    local clench, said = require "clench", {}
+    clench.log.sink(function(_, text) said[#said + 1] = text end)
+    local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+    world.robots[1]:autograsp()
+    for _ = 1, 2 do
+      clench.study.shake {hand = world.robots[1], object = world.objects[1], max_angle = 15, max_distance = 50,
+                          seconds = 0.01, settle = 0.01, grip_seconds = 0.01}
+    end
+    return table.concat(said, "\n")
+  end, {1})[1]  -- in a state of its own
+  local _, metres = said:gsub("metres%?", "")
+  local _, radians = said:gsub("radians%?", "")
+  t.ok(radians == 1 and said:find("study.shake: max_angle is 15: radians? clench.rad(15) is 0.2618", 1, true), said)
+  t.ok(metres == 1 and said:find("study.shake: max_distance is 50 m: metres? clench.mm(50) is 0.05", 1, true), said)
 end)
 
 test("what is wrong with a study is said in a sentence", function(t)

@@ -192,6 +192,77 @@ test("wrong options are told", function(t)
   fails("guided", {child_energy = "strct"}, "strct")
 end)
 
+test("what the engine refuses of a planner's options is blamed on the script, by the option's name", function(t)
+  local world, hand, mug = barrett_mug()
+  local before = world:hash()
+  local function refused(name, options, sentence)
+    options.hand, options.object = hand, options.object or mug
+    t.fails(function() clench.plan[name](options) end, "plan_test.lua:", ("plan.%s: %s"):format(name, sentence))
+    t.equal(world:hash(), before)
+  end
+  for _, name in ipairs {"sample", "random", "antipodal"} do
+    refused(name, {standoff = 1e300}, "standoff must be a number of at most 10, got 1e+300")
+  end
+  for _, part in ipairs {hand.links[1], hand.base} do
+    for _, name in ipairs {"sample", "anneal", "online"} do
+      refused(name, {object = part}, ("object: '%s' is a part of the hand"):format(part.name))
+    end
+  end
+  refused("random", {grasp = {edgse = 3}}, "grasp: clench.grasp: unknown key 'edgse'")
+  for _, name in ipairs {"anneal", "guided", "loop"} do
+    refused(name, {limits = {Tx = {0.25, -0.25}}}, "search variable 'Tx': min 0.25 exceeds max -0.25")
+    refused(name, {steps = 0}, "steps must be a whole number from 1 to 1000000000, got 0")
+    refused(name, {steps = 20, energy = function() return math.huge end}, "energy: expected a finite number of at least one state, got inf of all")
+    local calls = 0
+    refused(name, {steps = 20, energy = function()
+      calls = calls + 1
+      return calls < 5 and calls or 0 / 0
+    end}, "energy: expected a number, got nan")
+  end
+end)
+
+test("states that are infinitely bad are passed by", function(t)
+  local _, hand, mug = barrett_mug()
+  local calls = 0
+  local run = clench.plan.anneal {hand = hand, object = mug, steps = 200, energy = function()
+    calls = calls + 1
+    return calls % 50 == 0 and calls or math.huge
+  end}
+  t.equal(run.report.best, 50)
+end)
+
+test("a list of states names what is missing or strange in them", function(t)
+  local _, hand, mug = barrett_mug()
+  local function refused(states, sentence, energy)
+    t.fails(function() clench.plan.list {hand = hand, object = mug, states = states, energy = energy} end, "plan_test.lua:", "plan.list: " .. sentence)
+  end
+  refused({}, "states: expected at least one grasp or state, got none")
+  refused({{dofs = hand.dofs}}, "states[1]: pose is missing: expected a grasp or {pose =, dofs =}")
+  refused({{pose = hand.pose}}, "states[1]: dofs are missing: expected a grasp or {pose =, dofs =}")
+  refused({{pose = 3, dofs = hand.dofs}}, "states[1].pose must be a pose, got 3")
+  refused({{pose = hand.pose, dofs = {1}}}, "states[1].dofs must be 4 numbers, one per DOF, got a table of 1")
+  refused({{pose = hand.pose, dofs = {1, 2, "x", 4}}}, "states[1].dofs[3] must be a finite number, got 'x'")
+  local away = {{pose = clench.pose {xyz = {0, 0, 5}}, dofs = hand.dofs}}
+  refused(away, "energy: expected a finite number, got nan", function() return 0 / 0 end)
+  t.fails(function() clench.plan.list {hand = hand, object = mug, states = away, approach = 1e300} end, "approach must be a number of at most 1e+06")
+end)
+
+test("primitives have sizes, and are in metres", function(t)
+  local _, hand, mug = barrett_mug()
+  local function plan(p)
+    p.pose = clench.pose {}
+    return clench.plan.primitive {hand = hand, object = mug, primitives = {p}}
+  end
+  local function refused(p, sentence) t.fails(function() plan(p) end, "plan_test.lua:", "plan.primitive: primitives[1]: " .. sentence) end
+  refused({kind = "sphere", radius = -1}, "radius must be a number > 0, got -1")
+  refused({kind = "sphere", radius = 0 / 0}, "radius must be a number > 0, got nan")
+  refused({kind = "sphere", radius = 30}, "radius must be at most 10 m, got 30: metres? clench.mm(30) is 0.03")
+  refused({kind = "cone", radius = 0.1, height = "x"}, "height must be a number > 0, got 'x'")
+  refused({kind = "box", size = clench.vec3(0.1, -0.1, 0.1)}, "size.y must be a number > 0, got -0.1")
+  local large = plan {kind = "sphere", radius = 3}
+  t.equal(large.report.causes[1], "no primitive is of a size that a hand can grasp: thumb and fingers span at most 200 mm")
+end)
+
 test("a hand on an arm keeps the grasps that the arm reaches", function(t)
   local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
   local arm, hand = world.robots[1], world.robots[2]

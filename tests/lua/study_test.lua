@@ -74,6 +74,101 @@ test("an object out of place is grasped anew, and the world stays as it is", fun
   t.ok(far.probability == 0 and far.mean == 0)
 end)
 
+test("robustness is that of the grasp, wherever the hand and the object have gone since", function(t)
+  local grasp = closed_on_flask()
+  local hand, flask = grasp.hand, grasp.object
+  local errors = {samples = 4, position = 0.001, angle = 0.01}
+  local first = clench.study.robustness(grasp, errors).samples
+  local function again(tolerance)
+    local before = hand.world:hash()
+    t.close(clench.study.robustness(grasp, errors).samples, first, tolerance)
+    t.equal(hand.world:hash(), before)
+  end
+  hand:open()
+  again(0)
+  -- errors are along the world's axes: the object is moved, not turned
+  flask.pose = clench.pose {xyz = {0.1, 0, 0.02}} * flask.pose
+  again(1e-4)
+  hand:autograsp()
+  again(1e-4)
+end)
+
+test("robustness counts with the centre of mass with which the grasp was measured", function(t)
+  local grasp = closed_on_flask()
+  local epsilon = grasp:quality "epsilon"
+  local moving = {samples = 3, position = 0.001}
+  local first = clench.study.robustness(grasp, moving).samples
+  grasp.object.com = {0, 0, 0.03}
+  t.equal(clench.study.robustness(grasp, {samples = 1}).samples[1], epsilon)
+  local coms = {}
+  moving.close = function(hand, object)
+    hand:autograsp()
+    coms[#coms + 1] = object.com.z
+  end
+  t.close(clench.study.robustness(grasp, moving).samples, first, 0)
+  t.close(coms[1], 0.0743072, 1e-6)  -- as models/objects/flask.iv has it
+  t.equal(grasp.object.com.z, 0.03)
+end)
+
+test("a grasp whose friction has changed is stale for errors of pose, not for those of friction", function(t)
+  local grasp = closed_on_flask()
+  local hand, flask = grasp.hand, grasp.object
+  local first = clench.study.robustness(grasp, {samples = 3, friction = 0.2}).samples
+  hand.world:set_friction(flask.material, hand.links[1].material, {static = 0.7, kinetic = 0.7})
+  t.close(clench.study.robustness(grasp, {samples = 3, friction = 0.2}).samples, first, 0)
+  local ok, problem = pcall(clench.study.robustness, grasp, {samples = 3, position = 0.001})
+  t.ok(not ok and problem.kind == "stale")
+  t.ok(tostring(problem):find("study.robustness: friction has changed since the grasp was measured; measure it anew", 1, true))
+end)
+
+test("a hand on an arm is put back by its joints, and is stale where the arm has moved it", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local hand, glass = world.robots[2], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, glass)
+  local errors = {samples = 3, position = 0.0005}
+  local first = clench.study.robustness(grasp, errors).samples
+  hand:open()
+  t.close(clench.study.robustness(grasp, errors).samples, first, 0)
+  glass.pose = clench.pose {xyz = {0.01, 0, 0}} * glass.pose
+  t.fails(function() clench.study.robustness(grasp, errors) end,
+          "study.robustness: hand and object have moved apart since the grasp was measured; measure it anew")
+end)
+
+test("a grasp that stands in no world is studied as far as that goes, and else the remedy is told", function(t)
+  local grasp = closed_on_flask()
+  local list = clench.grasps()
+  list:add(grasp)
+  local path = os.tmpname()
+  list:save(path .. ".jsonl")
+  local loose = clench.grasps(path .. ".jsonl")[1]
+  os.remove(path)
+  os.remove(path .. ".jsonl")
+  local sentence = "the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does"
+  t.fails(function() clench.study.robustness(loose, {samples = 2, position = 0.001}) end, "study_test.lua", "study.robustness: " .. sentence)
+  t.fails(function() clench.study.compare {grasp, loose} end, "study.compare: grasps[2]: " .. sentence)
+  local errors = {samples = 4, friction = 0.2, normal = 0.1}
+  t.close(clench.study.robustness(loose, errors).samples, clench.study.robustness(grasp, errors).samples, 1e-9)
+end)
+
+test("errors in millimetres and degrees are told once, with the script's line", function(t)
+  local said = clench.parallel.map(function()
+    local clench, said = require "clench", {}
+    clench.log.sink(function(_, text) said[#said + 1] = text end)
+    local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+    local hand, flask = world.robots[1], world.objects[1]
+    hand:autograsp()
+    local grasp = clench.grasp(hand, flask)
+    clench.study.robustness(grasp, {samples = 1, position = 0.2, angle = 6})
+    for _ = 1, 2 do clench.study.robustness(grasp, {samples = 1, position = 3, angle = 15}) end
+    return table.concat(said, "\n")
+  end, {1})[1]  -- in a state of its own, for it is told once in each
+  local _, metres = said:gsub("metres%?", "")
+  local _, radians = said:gsub("radians%?", "")
+  t.ok(radians == 1 and said:find("study.robustness: angle is 15: radians? clench.rad(15) is 0.2618", 1, true), said)
+  t.ok(metres == 1 and said:find("study_test.lua:%d+: study.robustness: position is 3 m, more than the object's size of 0.281 m: metres%? clench.mm%(3%) is 0.003"), said)
+end)
+
 test("where friction may vanish, so may force closure", function(t)
   -- a factor 1 + 3 n, n normal, is below 0 in 37 % of all samples; 0.2 is three deviations of 60 samples
   local r = clench.study.robustness(closed_on_flask(), {samples = 60, friction = 3})

@@ -129,3 +129,74 @@ test("what cannot be welded is told", function(t)
   t.fails(function() c:unweld() end, "'c' is welded to nothing")
   t.fails(function() a.velocity = {linear = {1, 0, 0}} end, "it is welded, and moves with what it is welded to")
 end)
+
+-- a rod that hangs from an axis along y, with a servo
+local function servo(t, force_range)
+  local path = os.tmpname() .. ".xml"
+  clench.files.save_text(path, ([[<mujoco><worldbody><body name="base"><geom type="box" size=".01 .01 .01"/><body name="rod" pos="0 0 1">
+<joint name="j" axis="0 1 0" range="-170 170"/><geom type="box" size="0.02 0.02 0.2" pos="0 0 -0.25" mass="1.5"/></body></body></worldbody>
+<actuator><position joint="j" kp="40" kv="2" %s/></actuator></mujoco>]]):format(force_range))
+  local world = clench.load(path)
+  os.remove(path)
+  return world, world.robots[1]
+end
+
+test("motors carry the weight of links, and not of what is welded to them", function(t)
+  local world, robot = servo(t, "")
+  robot:set_dofs {1}
+  robot:set_targets {1}
+  world:run(0.1)
+  t.close(robot.dofs[1], 1, 1e-9)
+  local load = world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {mass = 2, pose = clench.pose {axis = {0, 1, 0}, angle = 1, xyz = {-0.5 * math.sin(1), 0, 1 - 0.5 * math.cos(1)}}})
+  load:weld(robot.links[1])
+  -- it swings at 8 rad/s, damped by a fifth of the critical; it falls asleep before the last 4e-6 N m are in balance
+  world:run(15)
+  local q = robot.dofs[1]
+  t.ok(q < 0.9)
+  -- the spring of the servo balances the weight
+  t.close(40 * (1 - q), 2 * 9.81 * 0.5 * math.sin(q), 1e-5)
+  t.close(robot.dof_efforts[1], 40 * (1 - q), 1e-5)
+  robot.gravity_compensation = false
+  world:run(15)
+  q = robot.dofs[1]
+  t.close(40 * (1 - q), (2 * 0.5 + 1.5 * 0.25) * 9.81 * math.sin(q), 1e-5)
+end)
+
+test("a motor too weak for what is welded to its link lets it sink", function(t)
+  local world, robot = servo(t, 'forcerange="-1 1"')
+  robot:set_dofs {1}
+  robot:set_targets {1}
+  world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {mass = 10, pose = {xyz = {-0.42, 0, 0.73}}}):weld(robot.links[1])
+  world:run(0.5)
+  t.ok(robot.dofs[1] < 0.5)
+end)
+
+test("what is welded to a body has its velocity at once", function(t)
+  local world = clench.world {gravity = {0, 0, 0}}
+  local a, b, c = ball(world, 0.2, 1), ball(world, 0.1, 1), ball(world, 0, 1)
+  a:weld(b)
+  b:weld(c)
+  c.velocity = {linear = {0, 0, 1}, angular = {0, 1, 0}}
+  close(t, a.velocity.linear, clench.vec3(0, 0, 0.8), 1e-15)
+  close(t, b.velocity.linear, clench.vec3(0, 0, 0.9), 1e-15)
+  close(t, a.velocity.angular, clench.vec3(0, 1, 0), 0)
+  local momentum, energy = world:momentum(), world:energy().kinetic
+  world:run(0.1)
+  close(t, world:momentum().linear, momentum.linear, 1e-12)
+  close(t, world:momentum().angular, momentum.angular, 1e-12)
+  t.close(world:energy().kinetic, energy, 1e-4)
+  c.pose = {xyz = {0, 0, 1}}
+  close(t, a.velocity.linear, clench.vec3(0, 0, 0), 0)
+  -- on the link and on the base of a robot
+  world = servo(t, "")
+  local robot = world.robots[1]
+  local on_link, on_base = ball(world, 0, 1), ball(world, 1, 1)
+  on_link.pose = {xyz = {0, 0, 0.5}}
+  on_link:weld(robot.links[1])
+  on_base:weld(robot.base)
+  robot.dof_velocities = {2}
+  close(t, on_link.velocity.linear, clench.vec3(-1, 0, 0), 1e-15)
+  robot.velocity = {linear = {0, 1, 0}}
+  close(t, on_link.velocity.linear, clench.vec3(-1, 1, 0), 1e-15)
+  close(t, on_base.velocity.linear, clench.vec3(0, 1, 0), 1e-15)
+end)

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "clench/base/random.h"
+#include "clench/math/rpy.h"
 
 using namespace clench;
 
@@ -75,4 +76,21 @@ TEST_CASE("the hash of a pose changes with every number") {
     CHECK_FALSE(X == still);
   }
   CHECK(hash(Pose()) == hash(still));
+}
+
+TEST_CASE("roll, pitch and yaw give back the rotation, at and near a pitch of a quarter turn, too") {
+  Random random(8);
+  const double pi = 3.14159265358979323846;
+  const auto turned = [](const Eigen::Vector3d& rpy) {
+    return Eigen::Matrix3d(Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+                           Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()));
+  };
+  for (int i = 0; i < 500; ++i) {
+    const double lean = std::pow(10, random.uniform(-16, 0)), side = i % 2 ? 1 : -1;
+    const double pitch = i % 3 ? side * (pi / 2 - lean) : random.uniform(-pi / 2, pi / 2);
+    const Eigen::Matrix3d R = turned({random.uniform(-pi, pi), pitch, random.uniform(-pi, pi)});
+    CHECK((turned(rpy_of(R)) - R).norm() < 4e-12);  // of the cosine that counts as 0, and rounding
+  }
+  CHECK(rpy_of(turned({0, pi / 2, 0.3})).isApprox(Eigen::Vector3d(0, pi / 2, 0.3), 1e-12));
 }

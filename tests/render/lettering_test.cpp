@@ -7,6 +7,7 @@
 #include <map>
 #include <thread>
 
+#include "clench/base/text.h"
 #include "clench/render/figure/chart.h"
 
 using namespace clench;
@@ -45,22 +46,6 @@ std::vector<std::string> letters_between(char32_t from, char32_t to) {
 }
 
 }  // namespace
-
-TEST_CASE("UTF-8 is read letter by letter, and each byte that is none is one mark") {
-  CHECK(letters_of("Größe µ") == U"Größe µ");
-  CHECK(letters_of("a\xE2\x82\xAC\xF0\x9F\x98\x80z") == U"a€\U0001F600z");
-  const char32_t none = 0xFFFD;
-  // a lone byte, a letter cut short, a letter too long for what it says, half of a pair, too large
-  CHECK(letters_of("\xFFx") == std::u32string{none, U'x'});
-  CHECK(letters_of("\xE2\x82") == std::u32string{none, none});
-  CHECK(letters_of("\xC0\xAF") == std::u32string{none, none});
-  CHECK(letters_of("\xE0\x80\xAF").front() == none);
-  CHECK(letters_of("\xED\xA0\x80").front() == none);
-  CHECK(letters_of("\xF5\x80\x80\x80").front() == none);
-  CHECK(letters_of("").empty());
-  for (const char* text : {"Größe µ", "a€\U0001F600z", "", "ASCII"})
-    CHECK(text_of(letters_of(text)) == text);
-}
 
 TEST_CASE("a text is as wide as its parts, and twice as wide at twice the height") {
   const Font font;

@@ -62,7 +62,7 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
   out.added += out.velocity_part;
   out.weight.setZero(tree.size());
   if (tree.floating || tree.coordinates.empty()) return;
-  const Eigen::VectorXd weight = dynamics.weight(world.gravity());
+  const Eigen::VectorXd weight = dynamics.weight(world);
   for (int i = 0; i < static_cast<int>(tree.coordinates.size()); ++i) {
     const Coordinate& c = tree.coordinates[i];
     if (world.dynamic_settings().robot(c.robot).gravity_compensation && world.robot(c.robot).dofs[c.dof].driven)
@@ -164,10 +164,10 @@ class RowMaker {
     const double most = bound_of(robot.dofs[c.dof].max_effort);
     const double gain = h_ * (gains.kd + h_ * gains.kp);
     if (!(gain > 0)) return;
-    // both together stay within the largest effort
-    const double given = feedforward_effort(world_, c, state_);
+    // both together stay within the largest effort, whatever each alone would be
+    const double given = feedforward_effort(world_, c, state_), rest = control.effort - given;
     push(RowKind::motor, static_cast<int>(c.dof_index), column,
-         h_ * (gains.kp * (target - q) + gains.kd * velocity) / gain, (-most - given) * h_, (most - given) * h_, 1 / gain);
+         h_ * (gains.kp * (target - q) + gains.kd * velocity + rest) / gain, (-most - given) * h_, (most - given) * h_, 1 / gain);
   }
 
   // a joint that has left its breakaway DOF is locked by its worm gear, which nothing drives back

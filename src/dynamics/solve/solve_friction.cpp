@@ -241,10 +241,4 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   return solution;
 }
 
-FrictionSolution solve_friction(const FrictionProblem& problem, const VectorXd& warm_start,
-                                const FrictionOptions& options) {
-  FrictionSolver solver;
-  return solver.solve(problem, warm_start, options);
-}
-
 }  // namespace clench

@@ -54,7 +54,4 @@ class FrictionSolver {
   Eigen::VectorXd u_, r_, pull_, impulses_, velocities_;
 };
 
-FrictionSolution solve_friction(const FrictionProblem& problem, const Eigen::VectorXd& warm_start,
-                                const FrictionOptions& options = {});
-
 }  // namespace clench

@@ -63,7 +63,7 @@ void add_welded(const World& world, Id<Body> object, Id<Body> to, System& system
   const System::Place place = system.place(to);
   if (place.tree < 0) return;
   auto& bodies = system.trees[place.tree].bodies;
-  bodies.push_back({object, bodies[place.body].joint});
+  bodies.push_back({object, bodies[place.body].joint, true});
   system.places[object.index] = {place.tree, static_cast<int>(bodies.size()) - 1};
 }
 

@@ -20,6 +20,7 @@ struct ArticulationJoint {
 struct TreeBody {
   Id<Body> body;
   int joint = -1;  ///< that moves it, with all before; -1: it is fixed to the root
+  bool welded = false;
 };
 
 /// What a velocity belongs to: a DOF whose joints follow it, or a joint by itself.

@@ -157,12 +157,20 @@ const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd&
   return joint_efforts_;
 }
 
-Eigen::VectorXd TreeDynamics::weight(const Eigen::Vector3d& gravity) const {
+Eigen::VectorXd TreeDynamics::weight(const World& world) const {
+  const auto& joints = tree_->joints;
   Eigen::VectorXd out = Eigen::VectorXd::Zero(tree_->size());
-  for (size_t i = 0; i < tree_->joints.size(); ++i) {
+  const auto carry = [&](int joint, double mass, const Eigen::Vector3d& moment) {
     Vector6d force;
-    force << all_[i + 1].mass * gravity, all_[i + 1].moment.cross(gravity);
-    out[tree_->joints[i].coordinate] -= tree_->joints[i].ratio * S_[i].dot(force);
+    force << mass * world.gravity(), moment.cross(world.gravity());
+    out[joints[joint].coordinate] -= joints[joint].ratio * S_[joint].dot(force);
+  };
+  for (int i = 0; i < static_cast<int>(joints.size()); ++i) carry(i, all_[i + 1].mass, all_[i + 1].moment);
+  for (size_t b = 0; b < tree_->bodies.size(); ++b) {
+    const TreeBody& part = tree_->bodies[b];
+    const double mass = part.welded ? world.body(part.body).mass : 0;
+    if (mass > 0)
+      for (int i = part.joint; i >= 0; i = joints[i].parent) carry(i, -mass, -mass * (com_[b] - about_));
   }
   return out;
 }

@@ -41,8 +41,8 @@ class TreeDynamics {
   /// returns one per joint of the tree, for its own unit [N m or N]
   const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change, const Vector6d& root_twist,
                                               const Eigen::Vector3d& gravity, const std::vector<Vector6d>& loads);
-  /// What on each coordinate carries the weight of all that it moves [N m or N].
-  Eigen::VectorXd weight(const Eigen::Vector3d& gravity) const;
+  /// What on each coordinate carries the weight of all that it moves, less what is welded to it [N m or N].
+  Eigen::VectorXd weight(const World& world) const;
   /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at once.
   Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
   /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at the step's end), and factors.

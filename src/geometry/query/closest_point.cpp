@@ -63,12 +63,4 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   return best;
 }
 
-std::vector<ClosestPoint> closest_points(const Shape& shape, std::span<const Vector3d> points) {
-  std::vector<ClosestPoint> out;
-  out.reserve(points.size());
-  for (const Vector3d& p : points)
-    out.push_back(closest_point(shape, p, out.empty() ? -1 : out.back().triangle));
-  return out;
-}
-
 }  // namespace clench

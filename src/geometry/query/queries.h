@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "clench/geometry/tree/shape.h"
@@ -77,11 +76,6 @@ struct ClosestPoint {
 
 /// Surface point nearest to p. `seed`, a triangle likely to be near, saves time.
 ClosestPoint closest_point(const Shape& shape, const Eigen::Vector3d& p, int seed = -1);
-
-/// The same of many points, each seeded by the one before: points that lie beside each other in the list
-/// and in space cost less.
-std::vector<ClosestPoint> closest_points(const Shape& shape,
-                                         std::span<const Eigen::Vector3d> points);
 
 /// Is p inside the solid? By the winding number, so parts may overlap and faces may look inward;
 /// a part inside out within another is a hollow. Open meshes contain nothing.

@@ -21,12 +21,12 @@ struct BoxOf {
 };
 
 // nothing for single precision: the slack covers it
-template <class F, class Root>
-CLENCH_INLINE void straighten(BoxOf<F>& box, Root root, F grow) {
-  const F first = root(dot(box.axis[0], box.axis[0]));
+template <class F>
+CLENCH_INLINE void straighten(BoxOf<F>& box, const F& grow) {
+  const F first = sqrt(dot(box.axis[0], box.axis[0]));
   box.axis[0] = {box.axis[0].x / first, box.axis[0].y / first, box.axis[0].z / first};
   box.axis[1] = box.axis[1] - box.axis[0].scaled(dot(box.axis[1], box.axis[0]));
-  const F second = root(dot(box.axis[1], box.axis[1]));
+  const F second = sqrt(dot(box.axis[1], box.axis[1]));
   box.axis[1] = {box.axis[1].x / second, box.axis[1].y / second, box.axis[1].z / second};
   box.axis[2] = cross(box.axis[0], box.axis[1]);
   for (F& half : box.half) half = half + grow;
@@ -44,22 +44,7 @@ CLENCH_INLINE BoxOf<F> load_boxes(const BoxBundle& from) {
   }
   out.centre = {F::load(from.centre[0]), F::load(from.centre[1]), F::load(from.centre[2])};
   if constexpr (sizeof(typename F::Real) == 8)
-    straighten(
-        out, [](const F& x) { return sqrt(x); }, F::load(from.size) * straightened);
-  return out;
-}
-
-template <class Real>
-CLENCH_INLINE BoxOf<Real> load_box(const BoxBundle& from, int lane) {
-  BoxOf<Real> out;
-  for (int k = 0; k < 3; ++k) {
-    out.axis[k] = {from.axes[3 * k][lane], from.axes[3 * k + 1][lane], from.axes[3 * k + 2][lane]};
-    out.half[k] = from.half[k][lane];
-  }
-  out.centre = {from.centre[0][lane], from.centre[1][lane], from.centre[2][lane]};
-  if constexpr (sizeof(Real) == 8)
-    straighten(
-        out, [](Real x) { return std::sqrt(x); }, Real{from.size[lane]} * straightened);
+    straighten(out, F::load(from.size) * straightened);
   return out;
 }
 

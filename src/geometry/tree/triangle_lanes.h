@@ -168,16 +168,6 @@ CLENCH_INLINE unsigned edges_within_reach(const TrianglesOf<F>& a, const Triangl
   return expected;
 }
 
-/// The same by the usual separating axes: normals and products of edges. All that meet are among them.
-template <class F>
-CLENCH_INLINE unsigned within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
-                                    typename F::Real reach, unsigned expected) {
-  for (const auto* t : {&a, &b})
-    expected &=
-        ~part(a, b, cross(t->corner[1] - t->corner[0], t->corner[2] - t->corner[1]), reach).set();
-  return edges_within_reach(a, b, reach, expected);
-}
-
 /// What of the distances of a point from eight triangles is sure, up to slack.
 template <class F>
 struct PointBounds {

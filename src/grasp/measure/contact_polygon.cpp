@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "clench/contact/outline.h"
 #include "clench/math/decompositions.h"
 
 namespace clench {
@@ -14,30 +15,6 @@ namespace {
 
 double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-}
-
-// Convex hull, counter-clockwise. A corner that turns by less than rounding is none.
-// source  Andrew (1979), monotone chain
-std::vector<Vector2d> hull_of(std::vector<Vector2d> points) {
-  double size = 0;
-  for (const Vector2d& p : points) size = std::max(size, p.norm());
-  // products of lengths below `size` are good to a few times 1e-16; contacts differ by far more
-  const double flat = 1e-12 * size * size;
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  });
-  std::vector<Vector2d> hull;
-  for (const bool back : {false, true}) {
-    const size_t base = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= flat)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();  // where the other side begins
-    if (!back) std::reverse(points.begin(), points.end());
-  }
-  return hull;
 }
 
 // source  Roa & Suarez (2015), eq. 12: the sum of all deviations over that of a flat polygon
@@ -82,10 +59,14 @@ ContactPolygon contact_polygon(const std::vector<Vector3d>& all) {
   const Vector3d x = axes.col(2), y = axes.col(1);
   polygon.normal = x.cross(y);
 
-  std::vector<Vector2d> flat;
-  for (Eigen::Index i = 0; i < offsets.cols(); ++i)
+  std::vector<Vector2d> flat, corners;
+  double size = 0;
+  for (Eigen::Index i = 0; i < offsets.cols(); ++i) {
     flat.emplace_back(x.dot(offsets.col(i)), y.dot(offsets.col(i)));
-  const std::vector<Vector2d> corners = hull_of(std::move(flat));
+    size = std::max(size, flat.back().norm());
+  }
+  // a corner that stands out by no more than rounding is none
+  for (const int i : outline(flat, 1e-12 * size)) corners.push_back(flat[static_cast<size_t>(i)]);
   for (const Vector2d& c : corners)
     polygon.corners.push_back(polygon.centroid + c.x() * x + c.y() * y);
   if (corners.size() < 3) return polygon;

@@ -44,14 +44,14 @@ void check_unmoved(const World& world, const Grasp& grasp) {
         world.materials().friction(world.body(c.body).material, world.body(c.other).material);
     return f.statics != c.friction.statics;
   });
-  if (friction)
-    fail(ErrorKind::stale,
-         "grasp of {} by {}: friction has changed since it was measured; measure it anew",
-         world.body(grasp.object).name, world.robot(grasp.hand).name);
-  if (object || joints)
+  const bool com = (grasp.com - world.body(grasp.object).com).norm() > moved;
+  if (object || joints || friction || com)
     fail(ErrorKind::stale, "grasp of {} by {}: {} since it was measured; measure it anew",
          world.body(grasp.object).name, world.robot(grasp.hand).name,
-         joints ? "joints of the hand have moved" : "hand and object have moved apart");
+         friction ? "friction has changed"
+         : com    ? "the object's centre of mass has changed"
+         : joints ? "joints of the hand have moved"
+                  : "hand and object have moved apart");
 }
 
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
@@ -129,9 +129,27 @@ static Eigen::VectorXd dofs_for(const World& world, Id<Robot> hand, const GraspS
         fail("{}: the hand has no DOF {}{}", place, in_quotes(grasp.dof_names[i]),
              instead_of(grasp.dof_names[i], names));
     }
+    const std::string unit = i < grasp.dof_units.size() ? grasp.dof_units[i] : "",
+                      own = d < names.size() && dof_slides(robot, static_cast<int>(d)) ? "m" : "rad";
+    if ((unit == "rad" || unit == "m") && unit != own)
+      fail("{}: DOF {}: expected a value in {}, got one in {}", place, in_quotes(names[d]), own, unit);
     q[static_cast<Eigen::Index>(d)] = grasp.dofs[i];
   }
   return q;
+}
+
+// joints of rigid DOFs have no positions of their own
+static void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q, const std::vector<double>& joints,
+                               const std::string& place) {
+  // of metres and radians: far above the rounding of a file
+  constexpr double apart = 1e-6;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    const double by_dof = joint.ratio * q[joint.dof];
+    if (robot.dofs[joint.dof].kind == DofKind::rigid && !(std::abs(joints[j] - by_dof) <= apart))
+      fail("{}: joint {} stands at {}, and its DOF puts it at {}; without 'joints' the DOFs tell all", place, j + 1,
+           joints[j], by_dof);
+  }
 }
 
 void apply_grasp(World& world, const GraspSpec& grasp) {
@@ -160,6 +178,7 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
     fail("{}: it has {} DOFs and {} joints, the hand {} and {}", place, grasp.dofs.size(),
          grasp.joints.size(), robot.dofs.size(), robot.joints.size());
   const Eigen::VectorXd q = dofs_for(world, hand, grasp, place);
+  if (own_joints) check_rigid_joints(robot, q, grasp.joints, place);
   const Pose before = world.pose(robot.base);
   world.set_pose(hand, world.pose(object) * *grasp.X_OH);
   try {

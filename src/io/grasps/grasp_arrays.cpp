@@ -4,6 +4,7 @@
 
 #include "clench/base/file.h"
 #include "clench/base/text.h"
+#include "clench/io/grasps/dof_labels.h"
 #include "clench/io/grasps/npz.h"
 #include "clench/io/text/number_reader.h"
 
@@ -124,6 +125,8 @@ std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions
       return a ? a->texts : std::vector<std::string>();
     };
     const auto names = labels("dof_names"), units = labels("dof_units");
+    check_dof_names(file + ": dof_names", names);
+    check_dof_units(file + ": dof_units", units);
     for (size_t i = 0; i < n; ++i) {
       out[i].dofs.assign(dofs->numbers.begin() + std::ptrdiff_t(i * d),
                          dofs->numbers.begin() + std::ptrdiff_t((i + 1) * d));

@@ -5,6 +5,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/io/grasps/dof_labels.h"
 #include "clench/io/grasps/grasp_arrays.h"
 #include "clench/io/text/number_reader.h"
 
@@ -287,6 +288,7 @@ std::vector<GraspSpec> read_multigripper(const YamlNode& root, const std::string
   if (top.has("dof_names")) {
     const Value list = top.get("dof_names");
     for (size_t i = 0; i < list.list("texts"); ++i) names.push_back(list.item(i).text());
+    check_dof_names(list.place(), names);
   }
   const char* dofs_key = top.has("final_dofs") ? "final_dofs" : "dofs";
   if (top.has(dofs_key)) top.get(dofs_key).list("lists of DOFs", out.size());

@@ -7,7 +7,9 @@
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/io/grasps/dof_labels.h"
 #include "clench/io/text/csv.h"
+#include "clench/io/text/number_reader.h"
 
 namespace clench {
 
@@ -118,6 +120,17 @@ Column column_of(const std::string& name) {
   return out;
 }
 
+/// Units and names of the DOFs, whose columns may differ in their unit alone.
+void check_dof_columns(const std::vector<Column>& columns, const std::string& place) {
+  std::vector<std::string> names;
+  for (const Column& c : columns) {
+    if (c.kind != "dof") continue;
+    check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
+    names.push_back(c.key);
+  }
+  check_dof_names(place + ": DOF", names);
+}
+
 }  // namespace
 
 std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions& options) {
@@ -143,6 +156,7 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
                        std::ranges::count(pose_columns, c.name);
     if (!known) unused.push_back(c.name);
   }
+  check_dof_columns(columns, fmt::format("{}:{}", file, records[0].line));
   if (!unused.empty() && options.warn)
     options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
 

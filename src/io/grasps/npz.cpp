@@ -27,50 +27,19 @@ static uint32_t crc32(std::string_view bytes) {
   return ~crc;
 }
 
-// bytes that are no UTF-8 stand for themselves
-static std::vector<uint32_t> code_points(std::string_view text) {
-  std::vector<uint32_t> out;
-  for (size_t i = 0; i < text.size();) {
-    const size_t size = std::max<size_t>(utf8_size(text, i), 1);
-    uint32_t code = static_cast<unsigned char>(text[i]);
-    if (size > 1) code &= 0x7FU >> size;
-    for (size_t k = 1; k < size; ++k)
-      code = (code << 6) | (static_cast<unsigned char>(text[i + k]) & 63);
-    out.push_back(code);
-    i += size;
-  }
-  return out;
-}
-
-static void append_code_point(std::string& out, uint32_t code) {
-  const auto tail = [&](int shift) { out += static_cast<char>(0x80 | ((code >> shift) & 63)); };
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0 | (code >> 6));
-    tail(0);
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xE0 | (code >> 12));
-    tail(6), tail(0);
-  } else {
-    out += static_cast<char>(0xF0 | (code >> 18));
-    tail(12), tail(6), tail(0);
-  }
-}
-
 static std::string npy_bytes(const NpyArray& array) {
   std::string body, type = "<f8";
   if (array.is_text) {
-    std::vector<std::vector<uint32_t>> words;
+    std::vector<std::u32string> words;
     size_t longest = 1;
     for (const auto& text : array.texts) {
-      words.push_back(code_points(text));
+      words.push_back(letters_of(text, true));
       longest = std::max(longest, words.back().size());
     }
     type = fmt::format("<U{}", longest);
     for (auto& word : words) {
       word.resize(longest, 0);
-      for (const uint32_t code : word) append_little_endian(body, code);
+      for (const char32_t letter : word) append_little_endian(body, uint32_t{letter});
     }
   } else {
     for (const double x : array.numbers) append_little_endian(body, x);
@@ -203,7 +172,7 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes) {
     std::string& text = out.texts.emplace_back();
     for (int k = 0; k < *width; ++k)
       if (const auto code = reader.next<uint32_t>(); code > 0 && code < 0x110000)
-        append_code_point(text, code);
+        text += text_of(std::u32string(1, code));
   }
   return out;
 }

@@ -214,6 +214,9 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   TreeJoint& tied = tree_.joints[follower];
   if (!values.has("joint2")) {
     tied.min = tied.max = tied.start = tied.zero + c[0];
+    cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}, as the equality says",
+                              element.place(), excerpt(tied.name), tied.start,
+                              tied.kind == JointKind::revolute ? "rad" : "m"));
     return;
   }
   if (c[2] != 0 || c[3] != 0 || c[4] != 0)
@@ -271,6 +274,8 @@ void Couplings::read_equality(const XmlElement& element) {
 /// What a position servo is told, it cannot exceed.
 void Couplings::take_control_range(const XmlElement& element, const XmlValues& values,
                                    TreeJoint& joint, double gear) {
+  // a joint that stands still has none to take
+  if (joint.min == joint.max) return;
   if (!values.has("ctrlrange") || values.text("ctrllimited", "auto") == "false") return;
   const auto range = values.range("ctrlrange", document_.repairs());
   // two zeros undo what a class says
@@ -377,10 +382,10 @@ ActuatorSpec Couplings::actuator_spec(const XmlElement& element, const XmlValues
   out.control_range = limits("ctrlrange", "ctrllimited");
   out.force_range = limits("forcerange", "forcelimited");
   if (out.kind == "position") {
-    out.gain = values.number("kp", 1);
-    out.bias = {0, -out.gain, -values.number("kv", 0)};
+    out.gain = values.not_negative("kp", 1, document_.repairs());
+    out.bias = {0, -out.gain, -values.not_negative("kv", 0, document_.repairs())};
   } else if (out.kind == "velocity") {
-    out.gain = values.number("kv", 1);
+    out.gain = values.not_negative("kv", 1, document_.repairs());
     out.bias = {0, 0, -out.gain};
   } else if (out.kind == "general") {
     if (values.has("gainprm")) out.gain = values.numbers("gainprm", 1, 100)[0];

@@ -219,6 +219,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
       {"plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"},
       "sphere");
   const auto skip = [&](const std::string& what) {
+    unused_types_.insert(type);
     cache_.warn(fmt::format("{}: geom: {}; it is not used", element.place(), what));
     return std::nullopt;
   };

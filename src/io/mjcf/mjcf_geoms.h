@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "clench/io/mjcf/mjcf_document.h"
@@ -39,6 +40,8 @@ class MjcfGeoms {
   std::optional<MjcfGeom> read(const XmlElement& element, const std::string& child_class,
                                const Pose& X_frame, bool of_world = false);
   TreeGeometry& geometry() { return geometry_; }
+  /// Types of the geoms that were not used: hfield, sdf, plane.
+  const std::set<std::string>& unused_types() const { return unused_types_; }
 
  private:
   struct Asset {
@@ -60,6 +63,7 @@ class MjcfGeoms {
   bool scene_;
   std::map<std::string, Asset> meshes_;
   std::map<std::string, PieceColor> materials_;
+  std::set<std::string> unused_types_;
   size_t count_ = 0;
 };
 

@@ -41,11 +41,17 @@ Pose KeyReader::pose_at(const std::vector<double>& numbers, size_t at,
           {numbers[at], numbers[at + 1], numbers[at + 2]}};
 }
 
-/// Angles about x, y and z, one after the other.
+/// Angles about x, y and z, one after the other: R = Rx(a) Ry(b) Rz(c). Where b is a right angle, a and c turn about
+/// one axis, and a is 0.
 Eigen::Vector3d three_turns(const Eigen::Quaterniond& q) {
+  constexpr double aligned = 1e-12;  // cosine of b
   const Eigen::Matrix3d R = q.toRotationMatrix();
-  return {std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
-          std::atan2(-R(0, 1), R(0, 0))};
+  const double a =
+      std::hypot(R(1, 2), R(2, 2)) < aligned ? 0 : std::atan2(-R(1, 2), R(2, 2));
+  // what is left when Rx(a) is undone is Ry(b) Rz(c), and its second row is (sin c, cos c, 0)
+  const double cos_a = std::cos(a), sin_a = std::sin(a);
+  return {a, std::atan2(R(0, 2), cos_a * R(2, 2) - sin_a * R(1, 2)),
+          std::atan2(cos_a * R(1, 0) + sin_a * R(2, 0), cos_a * R(1, 1) + sin_a * R(2, 1))};
 }
 
 /// q  one per joint

@@ -19,9 +19,17 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
                                          "contact",  "equality", "tendon", "actuator"};
   if (whole == std::string_view("world")) known.insert(known.end(), {"option", "keyframe"});
   for (const auto& node : document_.root().children)
-    if (std::find(known.begin(), known.end(), node.name()) == known.end())
-      document_.unused().element(node.element);
+    if (std::find(known.begin(), known.end(), node.name()) == known.end()) leave_out(node);
   worldbody_ = read_worldbody(document_, cache, whole);
+}
+
+/// A section that is not read; keyframes are states of a world, and a robot alone has none.
+void MjcfModel::leave_out(const MjcfNode& section) {
+  if (section.name() != "keyframe") return document_.unused().element(section.element);
+  if (section.children.empty()) return;
+  cache_.warn(section.element.place() +
+                ": <keyframe> is not used for a robot alone; clench.load takes it with the option "
+                "'keyframe'");
 }
 
 std::vector<const TopBody*> MjcfModel::joint_trees() const {

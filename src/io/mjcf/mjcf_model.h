@@ -35,6 +35,7 @@ class MjcfModel {
   void tell();
 
  private:
+  void leave_out(const MjcfNode& section);
   void read_excludes(MjcfTree& tree);
   void keep_masks(MjcfTree& tree);
 

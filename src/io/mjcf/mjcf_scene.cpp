@@ -39,6 +39,7 @@ class SceneReader {
   void dress_things();
   void set_friction();
   void read_options();
+  [[noreturn]] void fail_empty();
   void exclude();
   void never_meet();
   ScenePart part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const;
@@ -382,6 +383,13 @@ void SceneReader::read_options() {
   }
 }
 
+void SceneReader::fail_empty() {
+  const auto& types = model_.geoms().unused_types();
+  fail("{}: expected bodies or geoms in <worldbody>, got {}", model_.document().file(),
+       types.empty() ? "none"
+                     : "only geoms that are not used, of type " + name_list(types));
+}
+
 WorldSpec SceneReader::read() {
   const Worldbody& worldbody = model_.worldbody();
   const ReadOptions& options = cache_.options();
@@ -396,8 +404,7 @@ WorldSpec SceneReader::read() {
     else
       add_geom(worldbody.geoms[number]);
   }
-  if (world_.bodies.empty() && world_.robots.empty())
-    fail("{}: expected bodies or geoms in <worldbody>, got none", model_.document().file());
+  if (world_.bodies.empty() && world_.robots.empty()) fail_empty();
   if (trees == 0)
     for (const char* section : {"equality", "tendon", "actuator"})
       for (const MjcfNode* node : model_.document().section(section))

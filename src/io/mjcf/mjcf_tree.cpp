@@ -266,7 +266,8 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
     add_joint(std::move(joint), element, link);
     return;
   }
-  // a ball is three turns, about x, y and z; its range is the most that it leans
+  // a ball is three turns, about the body's x, y and z, whatever frame it stands in; its range is the
+  // most that it leans
   double most = endless_turn / 2;
   if (given_range(values) && values.text("limited", "auto") != "false")
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
@@ -278,7 +279,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   for (int i = 0; i < 3; ++i) {
     TreeJoint turn = joint;
     turn.name += fmt::format("_{}", "xyz"[i]);
-    turn.axis = X_frame.rotation * Eigen::Vector3d::Unit(i);
+    turn.axis = Eigen::Vector3d::Unit(i);
     turn.min = -most, turn.max = most, turn.rest = 0;
     add_joint(std::move(turn), element, link);
   }

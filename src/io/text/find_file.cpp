@@ -81,6 +81,18 @@ void fail_outside(const std::string& name, const ReadOptions& options) {
        options.confine.generic_string());
 }
 
+/// What stands there is no regular file, or a link that leads to none.
+[[noreturn]] static void fail_no_file(const fs::path& found, const std::string& shown) {
+  std::error_code code;
+  const fs::file_type type = fs::status(found, code).type();
+  if (type == fs::file_type::not_found)
+    fail(ErrorKind::file, "no such file: {}, a link that leads to nothing", shown);
+  if (type == fs::file_type::none)
+    fail(ErrorKind::file, "{}: the file cannot be read: {}", shown, system_reason(code.value()));
+  fail(ErrorKind::file, "expected a file, got a {}: {}",
+       type == fs::file_type::directory ? "folder" : "special file", shown);
+}
+
 fs::path find_file(const std::string& name, const fs::path& referrer, const ReadOptions& options) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
@@ -102,8 +114,7 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   for (const auto& place : places)
     if (const fs::path found = exact_or_case(place);
         !found.empty() && lies_within(found, options.confine))
-      fail(ErrorKind::file, "expected a file, got a {}: {}",
-           fs::is_directory(found, code) ? "folder" : "special file", shown);
+      fail_no_file(found, shown);
   // what the system does not let us see may be there
   for (const auto& place : places)
     if (fs::status(place, code).type() == fs::file_type::none)

@@ -11,8 +11,6 @@ bool NumberReader::more() {
   return true;
 }
 
-int NumberReader::words_left() { return more() ? line_.size() - next_ : 0; }
-
 void NumberReader::to_word(std::string_view what) {
   if (!more()) lines_.peek().fail("{}: expected a number, got the end of the file", what);
 }

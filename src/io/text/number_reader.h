@@ -24,8 +24,6 @@ class NumberReader {
 
   /// Is there another word?
   bool more();
-  /// Words left on this line, and at least 1 when there are any on the next.
-  int words_left();
   /// where the last word stood, or the next one when there was none
   const Line& line() const { return line_; }
   /// Tells `warn` of the first word that is left, if there is one.

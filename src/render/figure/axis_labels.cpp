@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/convert.h"
+#include "clench/base/text.h"
 
 namespace clench {
 

@@ -55,11 +55,6 @@ void Canvas::blend(int x, int y, float part, const Color& color) {
   }
 }
 
-void Canvas::fill(const Color& color) {
-  for (int y = 0; y < picture_.height; ++y)
-    for (int x = 0; x < picture_.width; ++x) blend(x, y, 1, color);
-}
-
 void Canvas::rectangle(const Vector2f& low, const Vector2f& high, const Color& color) {
   const PixelRange xs = pixels_of(low.x(), high.x(), picture_.width);
   const PixelRange ys = pixels_of(low.y(), high.y(), picture_.height);

@@ -18,7 +18,6 @@ class Canvas {
 
   const Font& font() const { return font_; }
 
-  void fill(const Color& color);
   void rectangle(const Eigen::Vector2f& low, const Eigen::Vector2f& high, const Color& color);
   /// with round ends; one point to itself is a disc
   void line(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "clench/base/text.h"
 #include "clench/render/figure/canvas.h"
 
 namespace clench {

@@ -17,7 +17,6 @@ namespace clench {
 
 using Eigen::Vector2f;
 
-static constexpr char32_t no_letter = 0xFFFD;     // of bytes that are none
 static constexpr float max_letter_height = 1000;  // [pixels]
 static constexpr float max_letter_place = 1e5f;   // what FreeType counts in 64ths [pixels]
 
@@ -136,30 +135,6 @@ void Font::cover(const TextLine& line, const Eigen::Vector2i& size, const Cover&
     FT_Outline_Translate(&outline, std::lround(64 * at.x()), std::lround(64 * at.y()));
     FT_Outline_Render(face_->library, &outline, &drawing);
   }
-}
-
-std::u32string letters_of(std::string_view text) {
-  std::u32string out;
-  for (size_t i = 0; i < text.size();) {
-    const size_t size = utf8_size(text, i);
-    const auto first = static_cast<unsigned char>(text[i]);
-    char32_t letter = size == 0 ? no_letter : size == 1 ? first : first & (0x7F >> size);
-    for (size_t k = 1; k < size; ++k) letter = letter << 6 | (text[i + k] & 0x3F);
-    out += letter;
-    i += std::max<size_t>(size, 1);
-  }
-  return out;
-}
-
-std::string text_of(std::u32string_view letters) {
-  std::string out;
-  for (const char32_t letter : letters) {
-    const int more = letter < 0x80 ? 0 : letter < 0x800 ? 1 : letter < 0x10000 ? 2 : 3;
-    constexpr unsigned first[] = {0, 0xC0, 0xE0, 0xF0};
-    out += static_cast<char>(first[more] | letter >> 6 * more);
-    for (int i = more - 1; i >= 0; --i) out += static_cast<char>(0x80 | (letter >> 6 * i & 0x3F));
-  }
-  return out;
 }
 
 }  // namespace clench

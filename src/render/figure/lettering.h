@@ -9,12 +9,6 @@
 
 namespace clench {
 
-/// The characters of text in UTF-8; each byte that belongs to none is U+FFFD.
-std::u32string letters_of(std::string_view text);
-
-/// Characters as UTF-8.
-std::string text_of(std::u32string_view letters);
-
 /// A text on a picture: it begins at `at`, on its baseline, and runs along a unit vector. Pixels, x
 /// to the right and y down.
 struct TextLine {

@@ -85,14 +85,6 @@ Eye DrawList::to_scene(const Eye& world) const {
   return out;
 }
 
-Eye DrawList::to_world(const Eye& scene) const {
-  Eye out = scene;
-  out.eye = centre + scale * scene.eye;
-  out.target = centre + scale * scene.target;
-  out.ortho_height = scale * scene.ortho_height;
-  return out;
-}
-
 DrawList make_draw_list(const Scene& scene) {
   check(scene);
   // in this order: solid, seen through, marks, background
@@ -124,7 +116,6 @@ DrawList make_draw_list(const Scene& scene) {
       list.marks.count += batch.count;
     else
       list.behind.push_back(batch);
-    if (i < first_behind || first_behind == 0) list.body_corners = list.corners.size();
   }
   list.floor_corner = list.corners.size();
   if (scene.ground) {

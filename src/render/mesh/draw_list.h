@@ -26,13 +26,11 @@ struct DrawList {
   Batch floor;  ///< a wide level net, finer below the scene: floor_lines each way, row by row
   std::optional<double> ground;  ///< its height [scene units]
   std::vector<Batch> behind;     ///< meshes that are background: solid, throw no shadow
-  size_t body_corners = 0;       ///< corners of all but background and floor, which come after
   size_t floor_corner = 0;       ///< the floor's first
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the scene's bounds, world [m]
   double scale = 1;                                  ///< largest distance from it [m]
 
   Eye to_scene(const Eye& world) const;
-  Eye to_world(const Eye& scene) const;
 };
 
 inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]

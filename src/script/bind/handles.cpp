@@ -76,7 +76,7 @@ std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const 
     }
     return out;
   }
-  fail_expected({L, {}, name}, "a body, a robot, or a list of them", i);
+  fail_expected({L, {}, name}, "a body, a robot, or a list of at least one", i);
 }
 
 BodyHandle self_body(lua_State* L) {

@@ -136,15 +136,15 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
   BodySpec spec;
   if (lua_type(L, i) == LUA_TSTRING) {
     spec = read_body(find_file(check_string(L, i, "path"), {}, reading), reading);
-  } else if (lua_istable(L, i)) {
+  } else if (const ShapePtr* given = to<ShapePtr>(L, i); given || lua_istable(L, i)) {
     const std::string name = options.string("name", "body");
     spec.name = name;
-    Mesh mesh = read_mesh(L, i, reading);
+    Mesh mesh = given ? (*given)->mesh() : read_mesh(L, i, reading);
     if (reading.mesh_scale)
       for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
     spec.shape = Shape::make(std::move(mesh), name);
   } else {
-    fail_expected({L, {}, "body"}, "a file name or a mesh {vertices = ..., triangles = ...}", i);
+    fail_expected({L, {}, "body"}, "a file name, a mesh of a body, or one {vertices = ..., triangles = ...}", i);
   }
   override_spec(L, spec, options);
   return spec;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/base/text.h"
 #include "clench/script/lua/json.h"
 
 namespace clench {
@@ -162,22 +163,6 @@ class Reader {
     return code;
   }
 
-  void add_utf8(unsigned code) {
-    const auto add = [&](unsigned byte) { scratch_ += static_cast<char>(byte); };
-    if (code < 0x80) return add(code);
-    if (code < 0x800) {
-      add(0xC0 | code >> 6);
-    } else if (code < 0x10000) {
-      add(0xE0 | code >> 12);
-      add(0x80 | (code >> 6 & 0x3F));
-    } else {
-      add(0xF0 | code >> 18);
-      add(0x80 | (code >> 12 & 0x3F));
-      add(0x80 | (code >> 6 & 0x3F));
-    }
-    add(0x80 | (code & 0x3F));
-  }
-
   void escape() {
     const size_t start = at_ - 1;
     const char c = peek();
@@ -197,7 +182,7 @@ class Reader {
     } else if (code >= 0xDC00 && code < 0xE000) {
       complain(start, "half of a surrogate pair");
     }
-    add_utf8(code);
+    scratch_ += text_of(std::u32string(1, code));
   }
 
   // stands on the opening quote; valid until the next call

@@ -1,4 +1,6 @@
 --- What all studies of moving grasps are given.
+local bounds = require "clench.study.motion.bounds"
+local suspect = require "clench.suspect"
 local described = require "clench.described"
 
 local function check(read, name, kind)
@@ -12,6 +14,9 @@ local function point(read, name, default)
   if value == nil then return default end
   local ok, vector = pcall(function() return type(value) == "table" and clench.vec3(value[1], value[2], value[3]) or value end)
   if not ok or described(vector) ~= "a vec3" then read:expected(name, "a vector {x, y, z}", value) end
+  if not (vector:norm() <= bounds.acceleration) then
+    read:expected(name, ("a vector of at most %g m/s^2"):format(bounds.acceleration), vector:norm())
+  end
   return vector
 end
 
@@ -25,16 +30,21 @@ return function(read, default)
   if described(job.world) ~= "a world" then read:expected("world", "a world", job.world) end
   if job.hand.world ~= job.world or job.object.world ~= job.world then read:fail("hand and object must be in the same world") end
   if job.object.kind ~= "object" then read:fail("object: '%s' is no object but of kind '%s'", job.object.name, job.object.kind) end
+  if job.object.welded_to then
+    read:fail("object: '%s' is welded to '%s': unweld it first, for what is welded cannot be lost", job.object.name, job.object.welded_to.name)
+  end
   if not job.object.mesh then read:fail("object: '%s' has no surface", job.object.name) end
-  job.mass = read:positive("mass", default.mass or job.object.mass)
+  job.mass = read:positive("mass", default.mass or job.object.mass, bounds.mass)
   job.gravity = point(read, "gravity", default.gravity or job.world.gravity)
   job.grip = read:choice("grip", {"forces", "close"})
-  job.grip_force = read:positive("grip_force", default.grip_force or 10 * 9.81 * job.mass)
-  job.grip_seconds = read:not_negative("grip_seconds", 0.5)
-  job.settle = read:not_negative("settle", 1)
+  job.grip_force = read:positive("grip_force", default.grip_force or 10 * 9.81 * job.mass, bounds.force)
+  job.grip_seconds = read:not_negative("grip_seconds", 0.5, bounds.seconds)
+  job.settle = read:not_negative("settle", 1, bounds.seconds)
   job.friction_share = read:positive("friction_share", 0.75)
   job.max_distance = read:positive("max_distance", 0.05)
   job.max_angle = read:positive("max_angle", math.rad(15))
+  suspect.millimetres(read.subject, "max_distance", job.max_distance)
+  suspect.degrees(read.subject, "max_angle", job.max_angle)
   local surroundings = read:raw "surroundings"
   if surroundings ~= nil and type(surroundings) ~= "boolean" then read:expected("surroundings", "true or false", surroundings) end
   if surroundings == nil then surroundings = default.surroundings == true end

@@ -3,7 +3,7 @@
 
 ---@param good number[]  larger is better
 ---@param bad number[]
----@return {auc: number, low: number, high: number, curve: {false_positives: number[], true_positives: number[]}}  nan where there are no good or no bad ones
+---@return {auc?: number, low?: number, high?: number, curve: {false_positives: number[], true_positives: number[]}}  no area where there are no good or no bad ones: there is nothing to compare
 return function(good, bad)
   local all = {}
   for _, value in ipairs(good) do all[#all + 1] = {value, true} end
@@ -22,7 +22,7 @@ return function(good, bad)
     table.insert(curve.false_positives, #bad > 0 and b / #bad or 0)
     table.insert(curve.true_positives, #good > 0 and g / #good or 0)
   end
-  if #good == 0 or #bad == 0 then return {auc = 0 / 0, low = 0 / 0, high = 0 / 0, curve = curve} end
+  if #good == 0 or #bad == 0 then return {curve = curve} end
   local auc = area / (#good * #bad)
   local q1, q2 = auc / (2 - auc), 2 * auc ^ 2 / (1 + auc)
   local error = math.sqrt(math.max(0, (auc * (1 - auc) + (#good - 1) * (q1 - auc ^ 2) + (#bad - 1) * (q2 - auc ^ 2)) / (#good * #bad)))

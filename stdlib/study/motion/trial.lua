@@ -1,5 +1,6 @@
 --- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
 --- goes from where the hand held it then.
+local at_caller = require "clench.at_caller"
 local share_friction = require "clench.study.motion.share_friction"
 
 local Trial = {}
@@ -31,6 +32,23 @@ local function remove_surroundings(world, hand, object)
   for _, list in ipairs {world.objects, world.obstacles} do
     for _, body in ipairs(list) do
       if body ~= object then world:remove(body) end
+    end
+  end
+end
+
+local still = {linear = {0, 0, 0}, angular = {0, 0, 0}}
+
+-- nothing moves, whatever it did in the world that was copied
+local function bring_to_rest(world)
+  for _, robot in ipairs(world.robots) do
+    local velocities = {}
+    for i in ipairs(robot.dofs) do velocities[i] = 0 end
+    robot.dof_velocities = velocities
+    if not robot.parent then robot.base.velocity = still end
+  end
+  for _, list in ipairs {world.objects, world.obstacles} do
+    for _, body in ipairs(list) do
+      if not body.welded_to then body.velocity = still end
     end
   end
 end
@@ -151,18 +169,17 @@ end
 --- Goes back to where the hand held the object at rest.
 function Trial:reset() self.world:restore(self.ready) end
 
---- Copies the world and lets the hand press: its motors hold its posture, and torques are added that press with forces in
---- equilibrium, the contacts as far inside their friction cones as can be; or they close. There is no gravity while it does so,
---- and until everything has come to rest.
----@param job table  of study.motion.options
-return function(job)
+--- The base that carries all stands still.
+function Trial:halt() self.root.base.velocity = still end
+
+local function new_trial(job)
   local world = job.world:clone()
   local hand = world.robots[place_of(job.world.robots, job.hand)]
   local object = world.bodies[place_of(job.world.bodies, job.object)]
   if not job.surroundings then remove_surroundings(world, hand, object) end
   object.mass = job.mass
   hold_robots(world)
-  object.velocity = {}
+  bring_to_rest(world)
   local failures_before = world.report.failures
   set_gains(hand, object)
   world.gravity = {0, 0, 0}
@@ -179,3 +196,9 @@ return function(job)
   trial.ready = world:snapshot()
   return trial
 end
+
+--- Copies the world, brings all in it to rest, and lets the hand press: its motors hold its posture, and torques are added that press with
+--- forces in equilibrium, the contacts as far inside their friction cones as can be; or they close. There is no gravity while it does so,
+--- and until everything has come to rest.
+---@param job table  of study.motion.options
+return function(job) return at_caller(job.subject, new_trial, job) end

@@ -22,6 +22,15 @@ function verdict.lost_before(trial)
   return {moved = trial.settled.moved, turned = trial.settled.turned, held = false, time = 0.0}
 end
 
+--- The row of a test that begins where the hand held the object at rest, with the gravity of the job.
+---@param watch fun(): table
+function verdict.attempt(trial, job, watch)
+  if not trial.settled.held then return verdict.lost_before(trial) end
+  trial:reset()
+  trial.world.gravity = job.gravity
+  return watch()
+end
+
 --- Appends a row to a list of the result's.
 function verdict.add(result, name, row, trial)
   result[name] = result[name] or {}

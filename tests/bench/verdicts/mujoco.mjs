@@ -4,7 +4,8 @@ import fs from 'fs';
 import path from 'path';
 import {pathToFileURL} from 'url';
 
-const options = {kp: 5, step: 0.002, condim: 3, impratio: 10};
+// soft 0: contacts as stiff as four steps allow; 1: as MuJoCo has them, which lets fingers sink in by a millimetre
+const options = {kp: 5, step: 0.001, condim: 3, impratio: 10, soft: 0};
 const files = [];
 for (const word of process.argv.slice(3)) {
   const [name, value] = word.split('=');
@@ -27,10 +28,11 @@ const relative = (A, B) => [rotate(conjugate(A[1]), sub(B[0], A[0])), product(co
 function model_of(scene, grasp) {
   const {links, dofs} = scene.hand;
   let assets = '', count = 0;
+  const stiff = options.soft ? '' : `solref="${4 * options.step} 1" solimp="0.95 0.99 0.0001"`;
   const geoms = (pieces, kind) => (pieces || []).map((points) => {
     const name = `piece${count++}`;
     assets += `<mesh name="${name}" vertex="${points.flat().join(' ')}"/>`;
-    return `<geom type="mesh" mesh="${name}" ${kind} friction="${scene.mu} 0.005 0.0001" condim="${options.condim}"/>`;
+    return `<geom type="mesh" mesh="${name}" ${kind} friction="${scene.mu} 0.005 0.0001" condim="${options.condim}" ${stiff}/>`;
   }).join('');
   const inertial = ({com, mass, inertia: I}) => `<inertial pos="${com.join(' ')}" mass="${Math.max(mass, 1e-4)}" fullinertia="${
     [I[0][0] + 1e-8, I[1][1] + 1e-8, I[2][2] + 1e-8, I[0][1], I[0][2], I[1][2]].join(' ')}"/>`;

@@ -28,9 +28,18 @@ static int set_velocity(lua_State* L) {
   return 0;
 }
 
-static int apply_force(lua_State* L) {
+static BodyHandle pushed_body(lua_State* L) {
   const auto body = self_body(L);
   if (body->kind == BodyKind::obstacle) fail("{}: an obstacle moves as it is told, whatever pushes it", subject(L));
+  if (body->kind != BodyKind::base) return body;
+  const World& world = *body.world;
+  if (!world.robot(body->robot).mounting && !world.dynamic_settings().robot(body->robot).floating)
+    fail("{}: the base stands or moves as it is told, whatever pushes it, unless `floating` is true", subject(L));
+  return body;
+}
+
+static int apply_force(lua_State* L) {
+  const auto body = pushed_body(L);
   const Eigen::Vector3d force = check_vec3(L, 2, "force");
   const Eigen::Vector3d com = body.world->pose(body.id) * body->com;
   const Eigen::Vector3d point = given(L, 3) ? check_vec3(L, 3, "point") : com;
@@ -43,8 +52,7 @@ static int apply_force(lua_State* L) {
 }
 
 static int apply_torque(lua_State* L) {
-  const auto body = self_body(L);
-  if (body->kind == BodyKind::obstacle) fail("{}: an obstacle moves as it is told, whatever turns it", subject(L));
+  const auto body = pushed_body(L);
   const Eigen::Vector3d torque = check_vec3(L, 2, "torque");
   check(load_rule.called("torque"), torque, subject(L));
   body.world->edit_dynamics().loads[body.id.index].torque += torque;
@@ -114,7 +122,8 @@ The body that it is welded to, or nil.
 
 static const Entry methods[] = {
     {"apply_force", guarded<apply_force>, R"(
-Pushes it in the next step, and in that one alone; pushes add up.
+Pushes it in the next step, and in that one alone; pushes add up. Neither an obstacle nor the base of a robot that does not
+float can be pushed.
 @param force vec3  in world axes [N]
 @param point? vec3  where, in the world; its centre of mass by default [m]
 > flask:apply_force({0, 0, 1})

@@ -140,7 +140,9 @@ static int get_floating(lua_State* L) {
 
 static int set_floating(lua_State* L) {
   const bool on = check_boolean(L, 2);
-  edit_robot(self<RobotHandle>(L), [&](RobotDynamics& settings) { settings.floating = on; });
+  const auto& robot = self<RobotHandle>(L);
+  if (on && robot->mounting) fail("{}: floating: another robot carries it", subject(L));
+  edit_robot(robot, [&](RobotDynamics& settings) { settings.floating = on; });
   return 0;
 }
 
@@ -170,7 +172,8 @@ file drives do at first ("none" is another word for it); "mixed": not all the sa
 > hand.controller = "pid"  --> error: "none")",
      guarded<set_controller>},
     {"gravity_compensation", guarded<get_gravity_compensation>, R"(
-Do its motors carry the weight of its own links? As controllers of real arms do. A floating robot has all its weight.
+Do its motors carry the weight of its own links, without what is welded to them? As controllers of real arms do. A floating
+robot has all its weight.
 @type boolean
 > hand.gravity_compensation  --> true)",
      guarded<set_gravity_compensation>},

@@ -40,8 +40,8 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
 }
 
 static int run(lua_State* L) {
-  const double duration = check_time(L, 2, "seconds", 0);
   const WorldPtr world = self<WorldHandle>(L).world;
+  const double duration = check_time(L, 2, "seconds", 0);
   const StepReport before = world->dynamics() ? world->dynamics()->report : StepReport{};
   if (push_hooks(L, world, false))
     run_with_hooks(L, world, duration);

@@ -209,10 +209,11 @@ static int draw(lua_State* L) {
 }
 
 static int save(lua_State* L) {
+  const Picture& picture = self<Picture>(L);
   const std::string path = check_string(L, 2, "path");
   if (!path.ends_with(".png"))
     fail("{}: expected a name that ends in .png, got '{}'", subject(L), path);
-  save_png(self<Picture>(L), path);
+  save_png(picture, path);
   return 0;
 }
 

@@ -36,6 +36,10 @@ static int save_text(lua_State* L) {
   return 0;
 }
 
+static std::string bytes_of(const fs::path& path, const ReadOptions&) { return read_bytes(path); }
+
+static int read_whole(lua_State* L) { return push(L, std::string_view(read_with(L, bytes_of))); }
+
 // --- comma-separated values, for clench.csv ---
 
 static char check_separator(lua_State* L, int i) {
@@ -171,16 +175,6 @@ static int pregrasps(lua_State* L) {
   });
 }
 
-static int planned_grasps(lua_State* L) {
-  return push_list_of(L, read_with(L, read_planned_grasps), [L](const GraspSpec& g) {
-    push_list(L, 0, 4);
-    set_field(L, "run", floor_int(g.info.at("run")));
-    set_field(L, "pose", *g.X_OH);
-    set_field(L, "spread", g.info.at("spread"));
-    set_field(L, "quality", g.measures.at("quality"));
-  });
-}
-
 static int save_pregrasps(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
   std::vector<Pregrasp> list;
@@ -191,22 +185,6 @@ static int save_pregrasps(lua_State* L) {
                     .spread = item.number("spread", 0)});
   });
   write_pregrasps(list, path);
-  return 0;
-}
-
-static int save_planned_grasps(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
-  std::vector<GraspSpec> list;
-  each_table(L, [&](Table& item) {
-    const int run = item.integer("run", 1);
-    if (run < 1 || run > 1'000'000)
-      fail("{}: run: expected a number from 1 to 1000000, got {}", item.subject(), run);
-    GraspSpec& grasp = list.emplace_back();
-    grasp.X_OH = item.pose("pose");
-    grasp.measures["quality"] = item.number("quality");
-    grasp.info = {{"run", run}, {"spread", item.number("spread", 0)}};
-  });
-  write_planned_grasps(list, path);
   return 0;
 }
 
@@ -304,6 +282,14 @@ Writes a text as a file, whole or not at all: what stood there stays when it can
 @param text string
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
+    {"read_text", guarded<read_whole>, R"(
+The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
+@param path string
+@param options? {root?: string, confine?: string, strict?: boolean}
+@return string
+> clench.files.save_text("build/note.txt", "held")
+> clench.files.read_text "build/note.txt"  --> held
+> clench.files.read_text "/dev/zero"  --> error: expected a file, got a special file: /dev/zero)"},
     {"csv_records", guarded<csv_records>, R"(
 Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
 @param name string  for errors
@@ -324,21 +310,6 @@ Writes pre-grasps as a planner's list.
 @param path string
 @param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
 > clench.files.save_pregrasps("x.txt", {{point = {0, 0, 0}}})  --> error: list[1]: direction)"},
-    {"planned_grasps", guarded<planned_grasps>, R"(
-Grasps that a planner has tried, in the object's frame; `run` counts the planner's runs.
-@param path string
-@param options? {root?: string, confine?: string, strict?: boolean}
-@return {run: integer, pose: pose, spread: number, quality: number}[]
-> path = os.tmpname()
-> clench.files.save_planned_grasps(path, {{pose = {xyz = {0, 0, 0.1}}, quality = 0.5}})
-> list = clench.files.planned_grasps(path)
-> os.remove(path)
-> list[1].quality, list[1].run  --> 0.5, 1)"},
-    {"save_planned_grasps", guarded<save_planned_grasps>, R"(
-Writes grasps as a planner's results; runs in their order.
-@param path string
-@param list {pose: pose, quality: number, spread?: number, run?: integer}[]
-> clench.files.save_planned_grasps("x.txt", {{quality = 1}})  --> error: list[1]: pose)"},
     {"glove_calibration", guarded<glove_calibration>, R"(
 How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
 @param path string

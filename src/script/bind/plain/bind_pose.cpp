@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "clench/math/axes.h"
+#include "clench/math/rpy.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -53,7 +54,7 @@ void suspect_millimetres(lua_State* L, const std::string& subject, double distan
                           far, far, far / 1000));
 }
 
-static Quaterniond rpy_of(lua_State* L, Table& t) {
+static Quaterniond read_rpy(lua_State* L, Table& t) {
   const Vector3d rpy = t.vec3("rpy");
   for (const double angle : rpy) suspect_degrees(L, t, "rpy", angle);
   using Turn = Eigen::AngleAxisd;
@@ -129,7 +130,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   Pose pose;
   if (t.has("matrix")) pose = matrix_of(t);
   if (t.has("quat")) pose.rotation = quat_of(t);
-  if (t.has("rpy")) pose.rotation = rpy_of(L, t);
+  if (t.has("rpy")) pose.rotation = read_rpy(L, t);
   if (turned) pose.rotation = axis_angle_of(L, t);
   if (aligned) pose.rotation = axes_of(t);
   pose.position = t.vec3("xyz", pose.position);
@@ -158,12 +159,7 @@ static int get_quat(lua_State* L) {
 }
 
 static int get_rpy(lua_State* L) {
-  // R = Rz(yaw) Ry(pitch) Rx(roll); at pitch +-90 degrees roll is taken as 0
-  const Matrix3d R = self<Pose>(L).matrix();
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  if (std::hypot(R(2, 1), R(2, 2)) < 1e-12)
-    return push(L, Vector3d(0, pitch, std::atan2(-R(0, 1), R(1, 1))));
-  return push(L, Vector3d(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))));
+  return push(L, rpy_of(self<Pose>(L).matrix()));
 }
 
 static int inverse(lua_State* L) { return push(L, self<Pose>(L).inverse()); }
@@ -183,9 +179,10 @@ static int rotate(lua_State* L) {
 }
 
 static int interpolate_to(lua_State* L) {
+  const Pose& from = self<Pose>(L);
   const double t = check_number(L, 3, "t");
   if (t < 0 || t > 1) fail("{}: t: expected a number from 0 to 1, got {}", subject(L), t);
-  return push(L, interpolate(self<Pose>(L), check_pose(L, 2, "other"), t));
+  return push(L, interpolate(from, check_pose(L, 2, "other"), t));
 }
 
 static int multiply(lua_State* L) {

@@ -234,7 +234,7 @@ The robot of a name.
     {"add_object", guarded<add_object>, R"(
 Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
 give overrides the file.
-@param body string|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
+@param body string|mesh|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
 @param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 @return body
 > world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
@@ -242,7 +242,7 @@ give overrides the file.
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
 Adds a body that only stands in the way; as add_object.
-@param body string|table
+@param body string|mesh|table
 @param options? table
 @return body
 > world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {pose = {xyz = {0, 0, -2}}}).kind  --> obstacle)"},

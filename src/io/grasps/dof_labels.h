@@ -1,0 +1,16 @@
+// Names and units that a list of grasps gives to DOFs.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace clench {
+
+/// Units are rad or m; empty and "rad or m", as we write it, say that it is not known.
+/// throws Error  "g.csv:1: dof a [deg]: expected the unit rad or m, got 'deg'", begun by `place`
+void check_dof_unit(const std::string& place, const std::string& unit);
+void check_dof_units(const std::string& place, const std::vector<std::string>& units);
+
+/// throws Error  "g.jsonl:2: dof_names: 'a' stands there twice", begun by `place`
+void check_dof_names(const std::string& place, const std::vector<std::string>& names);
+
+}  // namespace clench

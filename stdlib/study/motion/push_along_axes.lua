@@ -1,0 +1,27 @@
+--- Pushes the object along each axis of the world in turn, each time from where the hand held it at rest.
+local verdict = require "clench.study.motion.verdict"
+
+--- the six directions, as they are called
+local directions = {{"+x", clench.vec3(1, 0, 0)}, {"-x", clench.vec3(-1, 0, 0)}, {"+y", clench.vec3(0, 1, 0)},
+                    {"-y", clench.vec3(0, -1, 0)}, {"+z", clench.vec3(0, 0, 1)}, {"-z", clench.vec3(0, 0, -1)}}
+
+---@param trial table
+---@param job table  of study.motion.options
+---@param result table  of study.motion.verdict, gets `directions`
+---@param seconds number  in each direction
+---@param force fun(time: number): number  [N]
+---@param note? fun(row: table)  completes a row
+return function(trial, job, result, seconds, force, note)
+  for _, direction in ipairs(directions) do
+    local row = verdict.attempt(trial, job, function()
+      local push = trial:push(function(time) return direction[2] * force(time) end)
+      local watched = trial:watch(seconds)
+      push:remove()
+      return watched
+    end)
+    row.direction = direction[1]
+    if note then note(row) end
+    verdict.add(result, "directions", row, trial)
+  end
+  return verdict.close(result)
+end

@@ -1,0 +1,78 @@
+--- A grasp put back to how it was measured, in a copy of its world: the world may have changed since.
+local raise = require "clench.raise"
+local at_caller = require "clench.at_caller"
+local put_back = {}
+
+--- The object's centre of mass with which a grasp was measured, in the object [m].
+function put_back.com(grasp)
+  local com = clench.json.decode(clench.json.encode(grasp)).com
+  return clench.vec3(com[1], com[2], com[3])
+end
+
+--- Refuses a grasp that stands in no world.
+---@param subject string  "study.compare: grasps[1]"
+function put_back.check_stands(subject, grasp)
+  if pcall(function() return grasp.hand end) then return end
+  raise(subject .. ": the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does")
+end
+
+local same = 1e-6  -- of metres and radians: as the engine compares a grasp with its world
+
+local function stale(subject, what)
+  raise(("%s: %s since the grasp was measured; measure it anew"):format(subject, what), "stale")
+end
+
+local function check_friction(subject, grasp)
+  local world = grasp.hand.world
+  for _, contact in ipairs(grasp.contacts) do
+    if world:friction(contact.body.material, contact.other.material) ~= contact.mu then stale(subject, "friction has changed") end
+  end
+end
+
+-- positions of joints that do not follow their DOFs, as set_dofs takes them; those of a hand that stands freely
+local function joint_positions(grasp, hand)
+  local world = hand.world:clone()
+  local alone = world:robot(hand.name)
+  alone:dismount()
+  grasp:apply(world, {hand = alone, object = world:body(grasp.object_name)})
+  local rows, chains = {}, hand.chains
+  for c, chain in ipairs(alone.chains) do
+    for j, joint in ipairs(chain.joints) do
+      if joint.value ~= chains[c].joints[j].value then rows[#rows + 1] = {c, j, joint.value} end
+    end
+  end
+  return #rows > 0 and rows or nil
+end
+
+-- an arm holds its hand where it is
+local function put_carried(subject, grasp, hand, object)
+  local off = grasp.pose:inverse() * object.pose:inverse() * hand.pose
+  if off.position:norm() > same or off:angle() > same then stale(subject, "hand and object have moved apart") end
+  hand:set_dofs(grasp.dofs)
+  hand:set_dofs(grasp.dofs, {joint_positions = joint_positions(grasp, hand)})
+end
+
+local function copy(subject, grasp)
+  check_friction(subject, grasp)
+  local world = grasp.hand.world:clone()
+  local hand, object = world:robot(grasp.hand.name), world:body(grasp.object.name)
+  if hand.parent then
+    put_carried(subject, grasp, hand, object)
+  else
+    grasp:apply(world, {hand = hand, object = object})
+  end
+  local com = put_back.com(grasp)
+  if object.com ~= com then object.com = com end
+  return {world = world, hand = hand, object = object, pose = object.pose, start = world:snapshot()}
+end
+
+--- A copy of the world in which the hand grasps the object as it did, relative to where that is now, with its DOFs, joints and centre of mass.
+---@param subject string  "study.robustness"
+---@param grasp grasp
+---@return {world: world, hand: robot, object: body, pose: pose, start: snapshot}  pose: of the object
+function put_back.copy(subject, grasp)
+  put_back.check_stands(subject, grasp)
+  return at_caller(subject, copy, subject, grasp)
+end
+
+return put_back

@@ -1,0 +1,32 @@
+--- Warns, once each, of numbers that are more likely degrees or millimetres, as the engine does of poses.
+local script_line = require "clench.script_line"
+local suspect = {}
+
+local max_turn, max_distance = 2 * math.pi, 10
+local told = {}
+
+local function warn_once(kind, format, ...)
+  if told[kind] then return end
+  told[kind] = true
+  clench.log.warning(script_line() .. format:format(...))
+end
+
+---@param subject string  "study.shake"
+---@param name string  of the option
+---@param angle number  [rad]
+function suspect.degrees(subject, name, angle)
+  if math.abs(angle) <= max_turn then return end
+  warn_once("degrees", "%s: %s is %.6g: radians? clench.rad(%.6g) is %.4g", subject, name, angle, angle, math.rad(angle))
+end
+
+---@param subject string
+---@param name string
+---@param length number  [m]
+---@param size? number  of the object that it belongs to, 10 m by default [m]
+function suspect.millimetres(subject, name, length, size)
+  if length <= math.min(size or max_distance, max_distance) then return end
+  local why = size and size <= max_distance and (", more than the object's size of %.3g m"):format(size) or ""
+  warn_once("millimetres", "%s: %s is %.6g m%s: metres? clench.mm(%.6g) is %.4g", subject, name, length, why, length, length / 1000)
+end
+
+return suspect
