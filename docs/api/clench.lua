@@ -520,6 +520,7 @@ function patch:torsion_limit(options) end
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field links string[] # Names of what touches at each of the points.
 ---@field rho number # Length that torques are divided by. [m]
+---@field com vec3 # The object's centre of mass when the grasp was measured, in the object: torques are about it. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
@@ -762,7 +763,7 @@ function world_queries:colliding(a, b) end
 ---Least distance of two things, 0 when they collide, with the closest points in the world frame.
 ---@param a body|robot
 ---@param b body|robot
----@return number distance # [m]; infinite where one has no surface
+---@return number distance # [m]; infinite where one has no surface, and from a body to itself
 ---@return vec3 on_a
 ---@return vec3 on_b
 function world_queries:distance(a, b) end

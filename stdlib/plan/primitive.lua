@@ -93,13 +93,16 @@ return function(options)
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)
   if not thumb then require "clench.raise" "plan.primitive: thumb: this hand has no two fingers to tell it from; say where it is" end
   local X_FH = opposition.base_in_frame(hand, hand.approach.point, thumb)
-  local list = primitive_starts(own.primitives, own.density, own.rule)
+  local list, max_span = primitive_starts(own.primitives, own.density, own.rule)
   local function next_state(number)
     local at = list[number]
     if not at then return end
     return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
   end
-  local told = {planner = "plan.primitive", too_large = #list == 0}
+  local told = {planner = "plan.primitive"}
+  if #list == 0 then
+    told.no_start = ("no primitive is of a size that a hand can grasp: thumb and fingers span at most %g mm"):format(1000 * max_span)
+  end
   local found = batch.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
                                                   approach = 1, back = {count = 20, length = 0.004}})
   job:finish()

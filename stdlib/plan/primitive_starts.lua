@@ -140,7 +140,7 @@ end
 ---@param primitives table[]  of clench.files.primitives
 ---@param density integer  1 and more
 ---@param rule string  "graspit" compares radii with limits of diameters, and begins too far from boxes
----@return {position: vec3, direction: vec3, thumb: vec3, preshape: string, primitive: integer}[]  in the object's frame
+---@return {position: vec3, direction: vec3, thumb: vec3, preshape: string, primitive: integer}[] starts, number max_span  in the object's frame; between thumb and fingers [m]
 return function(primitives, density, rule)
   local of_graspit = rule == "graspit"
   local function round(r) return of_graspit and r or 2 * r end
@@ -151,5 +151,5 @@ return function(primitives, density, rule)
                        preshape = preshape, primitive = number}
     end, of_graspit)
   end
-  return out
+  return out, max_span
 end

@@ -109,10 +109,6 @@ local function rejected_most(told)
   if why then return ("most candidates were rejected: %s (%d of %d)"):format(why, most, told.candidates) end
 end
 
-local function no_start(told)
-  return told.too_large and "no primitive is of a size that a hand can grasp: thumb and fingers span at most 200 mm"
-end
-
 -- were there grasps, but with other links than those that were asked for?
 local function touch_causes(told)
   for _, why in ipairs {touch.forbidden, touch.missing} do
@@ -157,12 +153,12 @@ return function(job, told)
   if told.grasps == 0 and told.stopped then
     told.causes[1] = too_weak(told)
   elseif told.grasps == 0 then
-    for _, cause in ipairs {nothing_closes(job) or false, no_start(told) or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
+    for _, cause in ipairs {nothing_closes(job) or false, told.no_start or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end
     if #told.causes == 0 then told.causes[1] = "none that is known; try more steps or another seed" end
   end
-  told.verify, told.best_load, told.too_large = nil, nil, nil
+  told.verify, told.best_load, told.no_start = nil, nil, nil
   return setmetatable(told, Report)
 end

@@ -3,12 +3,6 @@ local raise = require "clench.raise"
 local at_caller = require "clench.at_caller"
 local put_back = {}
 
---- The object's centre of mass with which a grasp was measured, in the object [m].
-function put_back.com(grasp)
-  local com = clench.json.decode(clench.json.encode(grasp)).com
-  return clench.vec3(com[1], com[2], com[3])
-end
-
 --- Refuses a grasp that stands in no world.
 ---@param subject string  "study.compare: grasps[1]"
 function put_back.check_stands(subject, grasp)
@@ -61,8 +55,7 @@ local function copy(subject, grasp)
   else
     grasp:apply(world, {hand = hand, object = object})
   end
-  local com = put_back.com(grasp)
-  if object.com ~= com then object.com = com end
+  if object.com ~= grasp.com then object.com = grasp.com end
   return {world = world, hand = hand, object = object, pose = object.pose, start = world:snapshot()}
 end
 

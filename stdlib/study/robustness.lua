@@ -77,7 +77,7 @@ return function(grasp, options)
   if type(close) ~= "function" then read:expected("close", "a function", close) end
   read:done()
 
-  local moves, com = position > 0 or angle > 0, put_back.com(grasp)
+  local moves = position > 0 or angle > 0
   local placed = moves and put_back.copy(read.subject, grasp)
   if placed then suspect.millimetres(read.subject, "position", position, size_of(placed.object)) end
   suspect.degrees(read.subject, "angle", angle)
@@ -110,7 +110,7 @@ return function(grasp, options)
         contact.mu = contact.mu * factor
         if normal > 0 then contact.normal = tilted(tilts, contact.normal, normal * tilts:normal()) end
       end
-      epsilon = clench.wrench_space {contacts = contacts, com = com, rho = grasp.rho, edges = edges}:epsilon()
+      epsilon = clench.wrench_space {contacts = contacts, com = grasp.com, rho = grasp.rho, edges = edges}:epsilon()
     end
     epsilons[sample] = epsilon
     if epsilon > 0 then closed = closed + 1 end

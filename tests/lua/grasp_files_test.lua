@@ -52,9 +52,7 @@ test("DOFs go by their names, and a name that no DOF has is refused", function(t
   local world, _, list = closed()
   local file = path ".yaml"
   list:save(file)
-  local input = assert(io.open(file))
-  local text = input:read "a"
-  input:close()
+  local text = clench.files.read_text(file)
   local name = text:match "cspace_position:\n%s+\"([^\"]+)\""
   clench.files.save_text(file, (text:gsub('"' .. name .. '"', '"nothing"')))
   t.fails(function() clench.grasps(file)[1]:apply(world) end, "the hand has no DOF 'nothing'")
@@ -92,9 +90,7 @@ test("DOFs that were edited and joints that were not contradict each other", fun
   local world, _, list = closed()
   local file = path ".jsonl"
   list:save(file)
-  local input = assert(io.open(file))
-  local text = input:read "a"
-  input:close()
+  local text = clench.files.read_text(file)
   local function with(edit)
     clench.files.save_text(file, (edit(text)))
     return clench.grasps(file)[1]

@@ -370,6 +370,10 @@ Names of what touches at each of the points.
 Length that torques are divided by.
 @type number  [m]
 > grasp.rho > 0  --> true)"},
+    {"com", getter<[](const GraspHandle& x) { return x.grasp.com; }>, R"(
+The object's centre of mass when the grasp was measured, in the object: torques are about it.
+@type vec3  [m]
+> grasp.com == flask.com  --> true)"},
     {"edges", guarded<get_edges>, R"(
 Edges of each friction pyramid, or "exact".
 @type integer|string

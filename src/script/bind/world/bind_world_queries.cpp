@@ -98,7 +98,7 @@ Pairs of bodies that collide, of the world, of one entity, or between two. A clo
 Least distance of two things, 0 when they collide, with the closest points in the world frame.
 @param a body|robot
 @param b body|robot
-@return number distance  [m]; infinite where one has no surface
+@return number distance  [m]; infinite where one has no surface, and from a body to itself
 @return vec3 on_a
 @return vec3 on_b
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
