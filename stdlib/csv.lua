@@ -2,6 +2,7 @@
 --- that looks like a number is quoted.
 local raise = require "clench.raise"
 local described = require "clench.described"
+local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
 local csv = {}
 
@@ -107,15 +108,10 @@ function csv.read(path, options)
   local read = read_options("csv.read", options or {})
   local separator, confine = separator_of(read), read:raw "confine"
   read:done()
-  local function try(read_part, ...)
-    local ok, result = pcall(read_part, ...)
-    if not ok then raise("csv.read: " .. tostring(result):gsub("^stdlib/[%w_/]+%.lua:%d+: ", "")) end
-    return result
-  end
-  local text = try(clench.files.read_text, path, {confine = confine})
+  local text = on_behalf_of("csv.read", clench.files.read_text, path, {confine = confine})
   local name = path:match "[^/]+$" or path
   local function fail(line, format, ...) raise(("csv.read: %s:%d: " .. format):format(name, line, ...)) end
-  local all = try(clench.files.csv_records, name, text, separator)
+  local all = on_behalf_of("csv.read", clench.files.csv_records, name, text, separator)
   local header = table.remove(all, 1)
   if not header then fail(1, "expected names of columns, got an empty file") end
   local rows, known = {columns = {}}, {}

@@ -1,5 +1,7 @@
 -- stdlib/described.lua
 --- A value as an error message shows it, on one short line: 3, 'abc', a table of 2, nothing.
+local module_name = require "clench.module_name"
+
 ---@param value any
 ---@return string
 return function(value)
@@ -13,9 +15,11 @@ return function(value)
     local text = value:gsub("%c", "?")
     return #text > 40 and "'" .. text:sub(1, 37) .. "...'" or "'" .. text .. "'"
   end
-  if type(value) == "table" then return "a table of " .. rawlen(value) end
   if value == nil then return "nothing" end
   if type(value) == "boolean" then return tostring(value) end
+  local name = module_name(value)
+  if name then return name .. ", whose functions are called with '.' and not ':'" end
+  if type(value) == "table" then return "a table of " .. rawlen(value) end
   local meta = type(value) == "userdata" and debug.getmetatable(value)
   return "a " .. (meta and meta.__name or type(value))
 end

@@ -3,6 +3,7 @@
 --- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
 local raise = require "clench.raise"
 local described = require "clench.described"
+local module_name = require "clench.module_name"
 local name_list = require "clench.name_list"
 local suggest = require "clench.suggest"
 local within = require "clench.within"
@@ -131,7 +132,7 @@ return function(subject, given, places, largest)
   local self = setmetatable({subject = subject, given = given, read = {}, known = {}, places = {},
                              largest = largest or math.huge}, Options)
   for place, name in ipairs(places or {}) do self.places[name] = place end
-  if type(given) ~= "table" then
+  if type(given) ~= "table" or module_name(given) then
     self:fail("expected one table of options, as in %s {...}, got %s", subject, described(given))
   end
   return self

@@ -17,5 +17,5 @@ end
 ---@param text string
 ---@param kind? string  "input", unless given
 return function(text, kind)
-  error(setmetatable({text = script_line() .. sentence(text), kind = kind or "input"}, error_value), 0)
+  error(setmetatable({place = script_line(), sentence = sentence(text), kind = kind or "input"}, error_value), 0)
 end

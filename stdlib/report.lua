@@ -1,4 +1,5 @@
 --- What a file holds, as tables: what `clench check` prints, or writes as JSON.
+local blamed = require "clench.blamed"
 local error_text = require "clench.host.error_text"
 local reading = require "clench.host.reading"
 local report = {}
@@ -254,7 +255,7 @@ function report.of(path, options)
   if told then ok, result = false, told end
   return {file = path, kind = kind, parsed = ok and result or nil, inferred = heard.inferred, repaired = heard.repaired,
           ignored = heard.ignored, suspicious = heard.suspicious,
-          error = not ok and error_text(result):gsub("^stdlib/report.lua:%d+: ", "") or nil}
+          error = not ok and (blamed(result) or error_text(result)) or nil}
 end
 
 return report

@@ -1,6 +1,7 @@
 --- What a list of measured numbers says.
 local raise = require "clench.raise"
 local described = require "clench.described"
+local module_name = require "clench.module_name"
 local read_options = require "clench.options"
 local stats = {}
 
@@ -8,7 +9,7 @@ local function fail(name, format, ...) raise(("stats.%s: " .. format):format(nam
 
 -- a list of finite numbers, at least one
 local function check_values(name, values)
-  if type(values) ~= "table" then fail(name, "expected a list of numbers, got %s", described(values)) end
+  if type(values) ~= "table" or module_name(values) then fail(name, "expected a list of numbers, got %s", described(values)) end
   local count = 0
   for _ in pairs(values) do count = count + 1 end
   if count == 0 then fail(name, "expected at least one number, got none") end
@@ -41,9 +42,12 @@ local function mean_of(values)
 end
 
 local function std_of(values)
-  local mean, squares = mean_of(values), 0
-  for _, value in ipairs(values) do squares = squares + (value - mean) ^ 2 end
-  return #values > 1 and math.sqrt(squares / (#values - 1)) or 0
+  local mean, largest, squares = mean_of(values), 0, 0
+  for _, value in ipairs(values) do largest = math.max(largest, math.abs(value - mean)) end
+  if largest == 0 or #values == 1 then return 0 end
+  -- in parts of the largest, whose square may be more than there is a number for
+  for _, value in ipairs(values) do squares = squares + ((value - mean) / largest) ^ 2 end
+  return largest * math.sqrt(squares / (#values - 1))
 end
 
 --- The arithmetic mean.

@@ -8,9 +8,9 @@ local tiny = 1e-9  -- parts of a period, and seconds, that are rounding
 -- With where it happened. Ctrl-C stays what it is.
 local function explained(problem, name, trace)
   if type(problem) == "table" and problem.kind == "stopped" then return problem end
-  local text = ("%s\nin a %s\n%s"):format(error_text(problem), name, trace)
-  local kind = getmetatable(problem) == error_value and problem.kind or "input"
-  return setmetatable({text = text, kind = kind}, error_value)
+  local ours = getmetatable(problem) == error_value
+  local place, said = ours and problem.place or "", ours and problem.sentence or error_text(problem)
+  return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input"}, error_value)
 end
 
 local function call(handle, ...)

@@ -12,7 +12,7 @@ function convert.main(root, folder, package, unit, strict, from, to)
     return clench.convert(from, to, reading(clench.file_kind(from), said))
   end)
   if not ok then
-    io.stderr:write("clench convert: ", (error_text(kind):gsub("^stdlib/host/convert.lua:%d+: ", "")), "\n")
+    io.stderr:write("clench convert: ", error_text(kind), "\n")
     return 1
   end
   print(("%s: %s, from %s"):format(to, kind, from))

@@ -91,10 +91,9 @@ local function tell(problem)
   io.stderr:write("clench plan: ", problem, "\n")
 end
 
--- an error of ours without the place where it was raised, which is no line of the user's
 local function sentence(problem)
   if type(problem) == "table" and problem.usage then return problem.usage, 2 end
-  return (error_text(problem):gsub("^stdlib/[%w_/]+%.lua:%d+: ", "")), 1
+  return error_text(problem), 1
 end
 
 --- Loads and searches.

@@ -1,5 +1,4 @@
 --- The files that `clench plan` writes: grasps while it runs, and in the end the list, the sheet and the page.
-local error_text = require "clench.host.error_text"
 local find_three = require "clench.page.three"
 local in_utf8 = require "clench.in_utf8"
 local report_rows = require "clench.plan.report_rows"
@@ -29,7 +28,7 @@ end
 local function begin_list(path, format)
   local ok, problem = pcall(function() clench.grasps():save(path, {format = format}) end)
   if ok then return end
-  if problem.kind == "input" then fail("-o: %s", (error_text(problem):gsub("^stdlib/[%w_/]+%.lua:%d+: ", ""))) end
+  if problem.kind == "input" then fail("-o: %s", problem.sentence) end
   error(problem, 0)
 end
 

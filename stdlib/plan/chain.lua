@@ -1,6 +1,6 @@
 --- What the planners that anneal share: running a chain in pieces until its steps or its time are over, and what its report
 --- says.
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local raise = require "clench.raise"
 local chain = {}
 
@@ -15,7 +15,7 @@ function chain.run(job, search, steps, told)
   job:interruptible(function()
     while done < steps and job:goes_on() do
       local asked = math.min(piece, steps - done)
-      local taken = at_caller(job.subject, search.run, search, asked)
+      local taken = on_behalf_of(job.subject, search.run, search, asked)
       done = done + taken
       bar:step(taken)
       local best = search.best[1]

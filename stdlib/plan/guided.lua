@@ -1,5 +1,5 @@
 -- stdlib/plan/guided.lua
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local chain = require "clench.plan.chain"
@@ -89,7 +89,7 @@ return function(options)
       local asked = math.min(piece, job.steps - done)
       local searches, steps = {parent}, {asked}
       for i, child in ipairs(running) do searches[i + 1], steps[i + 1] = child.search, steps_of_child end
-      local taken = at_caller(job.subject, clench.run_annealings, searches, steps, job.threads)
+      local taken = on_behalf_of(job.subject, clench.run_annealings, searches, steps, job.threads)
       for _, child in ipairs(running) do merge(child) end
       running = {}
       done = done + taken[1]

@@ -1,7 +1,7 @@
 --- What all planners are given: a hand, an object, and a world to move, which is a clone unless a script's function looks
 --- at the world itself.
 local raise = require "clench.raise"
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local closing = require "clench.plan.closing"
@@ -27,8 +27,8 @@ end
 function Job:energy_of(energy)
   if type(energy) ~= "string" then return energy end
   local known, make = pcall(function() return clench.energy[energy] end)
-  if not known then raise(("%s: energy: %s"):format(self.subject, tostring(make):gsub("^stdlib/[^:]*:%d+: ", ""))) end
-  return at_caller(self.subject, make, {hand = self.hand, object = self.object})
+  if not known then raise(("%s: energy: %s"):format(self.subject, make.sentence)) end
+  return on_behalf_of(self.subject, make, {hand = self.hand, object = self.object})
 end
 
 --- Another chain of annealing in a world of its own, or in the job's.
@@ -41,7 +41,7 @@ function Job:annealing(options)
   local best = {max_energy = largest_energy}
   for key, value in pairs(type(all.best) == "table" and all.best or {}) do best[key] = value end
   if all.best == nil or type(all.best) == "table" then all.best = best end
-  return at_caller(self.subject, clench.annealing, all)
+  return on_behalf_of(self.subject, clench.annealing, all)
 end
 
 -- Waits while the search is paused. What an energy of the script moves is meanwhile as the script left it.
@@ -106,7 +106,7 @@ local function check_grasp_options(job)
   for name, value in pairs(job.grasp_options) do
     if name ~= "normal_force" or type(value) ~= "table" then options[name] = value end
   end
-  at_caller(job.subject .. ": grasp", clench.grasp, job.hand, job.object, options)
+  on_behalf_of(job.subject .. ": grasp", clench.grasp, job.hand, job.object, options)
 end
 
 local function is_part_of(robot, body)

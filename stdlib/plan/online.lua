@@ -1,4 +1,4 @@
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local new_job = require "clench.plan.job"
 local closing = require "clench.plan.closing"
 local described = require "clench.described"
@@ -54,7 +54,7 @@ function Online:search(steps)
   local search = job:annealing {energy = self.energy, position = "approach", start = "hand", schedule = "online",
                                 seed = job.seed + self.periods, best = best_states, jumps = {dist = 0.33 * range},
                                 limits = {dist = {-near_object.behind, range - near_object.behind}}}
-  at_caller("planner:search", search.run, search, steps or 500)
+  on_behalf_of("planner:search", search.run, search, steps or 500)
   for _, state in ipairs(search.best) do
     self.tested = self.tested + 1
     local grasp = job:close(job.hand, job.object, state, self, 0.03 + range)

@@ -1,4 +1,4 @@
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
@@ -62,7 +62,7 @@ end
 
 local function read_primitives(read)
   local given = read:raw "primitives"
-  if type(given) == "string" then given = at_caller(read.subject, clench.files.primitives, given) end
+  if type(given) == "string" then given = on_behalf_of(read.subject, clench.files.primitives, given) end
   if type(given) ~= "table" or #given == 0 then
     read:expected("primitives", "a file, or a list {kind =, pose =, size = or radius =, height =}", given)
   end

@@ -72,7 +72,7 @@ return function(grasps, options)
   for i, name in ipairs(measures) do
     if larger[name] == nil then
       local _, message = pcall(grasps[1].quality, grasps[1], name)
-      read:fail("measures[%d]: %s", i, (message:gsub("^stdlib/[^:]*:%d+: ", "")))
+      read:fail("measures[%d]: %s", i, message.sentence)
     end
   end
   local result = {measures = measures, labels = labels, values = {}, best = {}}

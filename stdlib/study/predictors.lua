@@ -102,7 +102,7 @@ return function(grasps, options)
 
   local outcomes, failed = clench.parallel.map("clench.study.motion.survival_worker", list,
     {threads = threads, shared = {hand = hand, object = object, measures = measures, shake = shake}})
-  if failed == #list then raise("study.predictors: " .. outcomes[1].error:gsub("^stdlib/[^:]*:%d+: ", "")) end
+  if failed == #list then raise("study.predictors: " .. outcomes[1].error) end
   local result = {grasps = outcomes, survived = 0, count = #list, failed = failed, rows = {}}
   for _, outcome in ipairs(outcomes) do
     if outcome.survived then result.survived = result.survived + 1 end

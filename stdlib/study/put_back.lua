@@ -1,6 +1,6 @@
 --- A grasp put back to how it was measured, in a copy of its world: the world may have changed since.
 local raise = require "clench.raise"
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local put_back = {}
 
 --- Refuses a grasp that stands in no world.
@@ -65,7 +65,7 @@ end
 ---@return {world: world, hand: robot, object: body, pose: pose, start: snapshot}  pose: of the object
 function put_back.copy(subject, grasp)
   put_back.check_stands(subject, grasp)
-  return at_caller(subject, copy, subject, grasp)
+  return on_behalf_of(subject, copy, subject, grasp)
 end
 
 return put_back

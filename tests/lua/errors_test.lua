@@ -52,7 +52,22 @@ test("an error prints, joins and is searched as its text", function(t)
   t.equal(#message, #message.text)
   t.ok(message:find("clench.rad", 1, true) and message:match "expected a number" and message:gsub("expected", ""))
   t.equal(("%s"):format(message), message.text)
-  t.ok(message.text:find "^[^\n]*errors_test%.lua:%d+: ", message)
+  t.ok(message.place:find "^[^\n]*errors_test%.lua:%d+: $", message)
+  t.equal(message.place .. message.sentence, message.text)
+end)
+
+test("an error blames the script's line, however deep in the library it is raised", function(t)
+  local hand = clench.load("worlds/dlr_flask.wld").robots[1]
+  local function line_of(fn) return error_of(fn).place:match "errors_test%.lua:(%d+): $" end
+  local here = debug.getinfo(1, "l").currentline
+  t.equal(line_of(function() hand:autograsp {velocities = "fast"} end), tostring(here + 1))
+  t.equal(line_of(function() clench.study.robustness(hand) end), tostring(here + 2))
+  t.equal(line_of(function() clench.plan.anneal {hand = hand, object = hand.world.objects[1], energy = "nothing"} end), tostring(here + 3))
+  t.equal(line_of(function() clench.csv.read "no/such.csv" end), tostring(here + 4))
+  local function energy() clench.rad "x" end  -- a function of the script's own knows its line
+  local raised = error_of(function() clench.plan.anneal {hand = hand, object = hand.world.objects[1], steps = 10, energy = energy} end)
+  t.ok(raised.place:find(("errors_test.lua:%d: "):format(here + 5), 1, true), raised)
+  t.ok(raised.sentence:find "^clench%.rad: ", raised)
 end)
 
 test("an error that is raised again, and one out of a coroutine, keep their kind", function(t)
@@ -76,4 +91,13 @@ test("a loop's progress is the loop, and shows nothing where nobody looks", func
   t.equal(p.done, 4.0)
   t.fails(function() p:step(-1) end, "expected a number >= 0")
   t.fails(function() clench.progress("many") end, "expected a number")
+end)
+
+test("a function of a module that is called with a colon is told so", function(t)
+  local dot = "whose functions are called with '.' and not ':'"
+  t.fails(function() return clench:load "worlds/dlr_flask.wld" end, "clench.load: path: expected a string, got clench, " .. dot)
+  t.fails(function() return clench.stats:mean {1, 2} end, "stats.mean: expected a list of numbers, got clench.stats, " .. dot)
+  t.fails(function() return clench.plan:sample {} end, "got clench.plan, " .. dot)
+  t.fails(function() return clench.csv:read "a.csv" end, "got clench.csv, " .. dot)
+  t.fails(function() return clench.load(setmetatable({}, {__name = "clenched"})) end, "got a table")
 end)

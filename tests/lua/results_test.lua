@@ -120,6 +120,8 @@ test("quantiles and summaries agree with their definitions", function(t)
   t.equal({stats.mean(values), stats.std(values)}, {s.mean, s.std})
   -- far from 0, where squares would lose their digits
   t.close(stats.std {1e9 + 1, 1e9 + 2, 1e9 + 3}, 1, 1e-12)
+  t.equal(stats.std {1e200, -1e200, 0}, 1e200)
+  t.equal(stats.std {4, 4, 4}, 0)
 end)
 
 test("what is no list of numbers is refused", function(t)

@@ -200,10 +200,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
   // with every instruction from then on, so that all that catches it ends
   lua_sethook(L, on_hook, all_events, again ? 1 : 1000);
   if (!again && !first) return;
-  luaL_where(L, 0);
-  lua_pushliteral(L, "interrupted");
-  lua_concat(L, 2);
-  make_error_value(L, "stopped");
+  push_error_value(L, "interrupted", "stopped");
   lua_error(L);
 }
 
@@ -219,8 +216,7 @@ void State::on_count(lua_State* L, lua_Debug*) {
   void* data = nullptr;
   lua_getallocf(L, &data);
   if (!static_cast<State*>(data)->ended_) return;
-  lua_pushliteral(L, "stopped");
-  make_error_value(L, "stopped");
+  push_error_value(L, "stopped", "stopped");
   lua_error(L);
 }
 

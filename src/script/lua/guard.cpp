@@ -9,6 +9,7 @@
 #include "clench/base/progress.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/owned.h"
+#include "clench/script/lua/script_place.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {
@@ -18,15 +19,17 @@ static const char error_key = 0;
 
 void set_error_metatable(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &error_key); }
 
-void make_error_value(lua_State* L, const char* kind) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key) != LUA_TTABLE) return lua_pop(L, 1);
-  lua_createtable(L, 0, 2);
-  lua_rotate(L, -3, -1);  // metatable, value, text
-  lua_setfield(L, -2, "text");
+void push_error_value(lua_State* L, const char* sentence, const char* kind) {
+  push_script_place(L);
+  lua_pushstring(L, sentence);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key) != LUA_TTABLE) return lua_pop(L, 1), lua_concat(L, 2);
+  lua_createtable(L, 0, 3);
+  lua_rotate(L, -4, 1);  // value, place, sentence, metatable
+  lua_setmetatable(L, -4);
+  lua_setfield(L, -3, "sentence");
+  lua_setfield(L, -2, "place");
   lua_pushstring(L, kind);
   lua_setfield(L, -2, "kind");
-  lua_rotate(L, -2, 1);  // value, metatable
-  lua_setmetatable(L, -2);
 }
 
 static const char raised_key = 0;  // its address names the place of the waiting error value
@@ -144,13 +147,8 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
     lua_pushnil(L);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
   } else {
-    // a field's getter is called by the lookup, and that by the script
-    luaL_where(L, 1);
-    if (lua_rawlen(L, -1) == 0) luaL_where(L, 2);
     const bool stopped = failure == Failure::stopped;
-    lua_pushstring(L, stopped ? "interrupted" : message.text);
-    lua_concat(L, lua_gettop(L));
-    make_error_value(L, stopped ? "stopped" : name_of(kind));
+    push_error_value(L, stopped ? "interrupted" : message.text, stopped ? "stopped" : name_of(kind));
   }
   return -1;
 }

@@ -27,8 +27,8 @@ int run_guarded(lua_State* L, lua_CFunction fn);
 
 /// Pops what error values have as their metatable.
 void set_error_metatable(lua_State* L);
-/// Makes the text on top of the stack an error's value, that tells its kind. Raises Lua errors only for want of memory.
-void make_error_value(lua_State* L, const char* kind);
+/// Pushes the value of an error at the script's line. Raises Lua errors only for want of memory.
+void push_error_value(lua_State* L, const char* sentence, const char* kind);
 
 /// fn as Lua may call it: a std::exception becomes a Lua error with the calling script's line.
 template <lua_CFunction fn>

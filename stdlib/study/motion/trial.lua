@@ -1,6 +1,6 @@
 --- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
 --- goes from where the hand held it then.
-local at_caller = require "clench.at_caller"
+local on_behalf_of = require "clench.on_behalf_of"
 local share_friction = require "clench.study.motion.share_friction"
 
 local Trial = {}
@@ -201,4 +201,4 @@ end
 --- forces in equilibrium, the contacts as far inside their friction cones as can be; or they close. There is no gravity while it does so,
 --- and until everything has come to rest.
 ---@param job table  of study.motion.options
-return function(job) return at_caller(job.subject, new_trial, job) end
+return function(job) return on_behalf_of(job.subject, new_trial, job) end

@@ -10,6 +10,7 @@
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/script_place.h"
 
 namespace clench {
 
@@ -45,24 +46,16 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-// "a.lua:3: ", of the innermost function that is neither C nor of the standard library; empty: there is none
-static std::string script_line(lua_State* L) {
-  lua_Debug info;
-  for (int level = 1; lua_getstack(L, level, &info); ++level) {
-    lua_getinfo(L, "Sl", &info);
-    if (info.currentline > 0 && !std::string_view(info.source).starts_with("@stdlib/"))
-      return fmt::format("{}:{}: ", info.short_src, info.currentline);
-  }
-  return "";
-}
-
 void warn_once(lua_State* L, const void* key, const std::string& message) {
   const bool told = lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TBOOLEAN;
   lua_pop(L, 1);
   if (told) return;
   lua_pushboolean(L, true);
   lua_rawsetp(L, LUA_REGISTRYINDEX, key);
-  log_warning(L, script_line(L) + message);
+  push_script_place(L);
+  const std::string place = lua_tostring(L, -1);
+  lua_pop(L, 1);
+  log_warning(L, place + message);
 }
 
 // the arguments as text, a space between two
