@@ -505,7 +505,7 @@ function patch:torsion_limit(options) end
 ---@class grasp: measures
 ---@field hand robot # The robot that grasps.
 ---@field object body # The body that is grasped.
----@field hand_name string # Name of the robot that grasps; a grasp that was read from a file has it, too.
+---@field hand_name string # Name of the robot that grasps; a grasp that stands in no world has it, too.
 ---@field object_name string # Name of the body that is grasped.
 ---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
@@ -525,7 +525,7 @@ function patch:torsion_limit(options) end
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Nothing else moves, and collisions are not checked: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. A hand that another robot carries stays, and has to be where the grasp has it. Nothing else moves, and collisions are not checked: see `world:collides`.
 ---@param world? world # default: its own
 ---@param options? {hand?: robot, object?: body}
 ---@return grasp
@@ -795,6 +795,9 @@ function world_dynamics:move_bodies(dt) end
 ---@param h number # what move_bodies gave [s]
 function world_dynamics:solve_velocities(h) end
 
+---Takes back what `apply_force` and `apply_torque` gave for the next step.
+function world_dynamics:clear_forces() end
+
 ---Of all objects and robots; the angular one about the origin of the world.
 ---@return {linear: vec3, angular: vec3} # [kg m/s], [kg m^2/s]
 function world_dynamics:momentum() end
@@ -978,7 +981,7 @@ function clench.catalog() end
 ---@param from string
 ---@param to string
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too
----@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts" # what was written
 function clench.convert(from, to, options) end
 
 ---The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.

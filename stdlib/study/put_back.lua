@@ -23,38 +23,18 @@ local function check_friction(subject, grasp)
   end
 end
 
--- positions of joints that do not follow their DOFs, as set_dofs takes them; those of a hand that stands freely
-local function joint_positions(grasp, hand)
-  local world = hand.world:clone()
-  local alone = world:robot(hand.name)
-  alone:dismount()
-  grasp:apply(world, {hand = alone, object = world:body(grasp.object_name)})
-  local rows, chains = {}, hand.chains
-  for c, chain in ipairs(alone.chains) do
-    for j, joint in ipairs(chain.joints) do
-      if joint.value ~= chains[c].joints[j].value then rows[#rows + 1] = {c, j, joint.value} end
-    end
-  end
-  return #rows > 0 and rows or nil
-end
-
 -- an arm holds its hand where it is
-local function put_carried(subject, grasp, hand, object)
+local function check_held(subject, grasp, hand, object)
   local off = grasp.pose:inverse() * object.pose:inverse() * hand.pose
   if off.position:norm() > same or off:angle() > same then stale(subject, "hand and object have moved apart") end
-  hand:set_dofs(grasp.dofs)
-  hand:set_dofs(grasp.dofs, {joint_positions = joint_positions(grasp, hand)})
 end
 
 local function copy(subject, grasp)
   check_friction(subject, grasp)
   local world = grasp.hand.world:clone()
   local hand, object = world:robot(grasp.hand.name), world:body(grasp.object.name)
-  if hand.parent then
-    put_carried(subject, grasp, hand, object)
-  else
-    grasp:apply(world, {hand = hand, object = object})
-  end
+  if hand.parent then check_held(subject, grasp, hand, object) end
+  grasp:apply(world, {hand = hand, object = object})
   if object.com ~= grasp.com then object.com = grasp.com end
   return {world = world, hand = hand, object = object, pose = object.pose, start = world:snapshot()}
 end

@@ -185,6 +185,7 @@ test("a study begins at rest, whatever moved before, and the base stands still w
   local first, lifted = clench.study.shake(shake), clench.study.lift(lift)
   hand.base.velocity = {linear = {0, 0, 0.1}, angular = {0, 1, 0}}
   flask.velocity = {linear = {0, 1, 1}}
+  flask:apply_force {0, 0, 1000}
   local velocities = {}
   for i in ipairs(hand.dofs) do velocities[i] = 1 end
   hand.dof_velocities = velocities

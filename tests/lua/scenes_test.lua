@@ -159,7 +159,7 @@ test("a robot's new file may be a URDF or a world", function(t)
 end)
 
 test("a scene is converted to a world, and its robots are kept with their actuators", function(t)
-  clench.convert(scene, folder .. "/made.lua")
+  t.equal(clench.convert(scene, folder .. "/made.lua"), "world")
   local world = clench.load(folder .. "/made.lua")
   t.equal(#world.robots, 2)
   t.equal(world.keyframes[1], "home")

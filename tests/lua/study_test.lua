@@ -128,11 +128,18 @@ test("a hand on an arm is put back by its joints, and is stale where the arm has
   local grasp = clench.grasp(hand, glass)
   local errors = {samples = 3, position = 0.0005}
   local first = clench.study.robustness(grasp, errors).samples
+  local closed = hand.dofs
   hand:open()
   t.close(clench.study.robustness(grasp, errors).samples, first, 0)
+  t.equal(grasp:apply():quality "epsilon", grasp:quality "epsilon")
+  t.close(hand.dofs, closed, 1e-15)
+  hand:open()
   glass.pose = clench.pose {xyz = {0.01, 0, 0}} * glass.pose
   t.fails(function() clench.study.robustness(grasp, errors) end,
           "study.robustness: hand and object have moved apart since the grasp was measured; measure it anew")
+  local opened = hand.dofs
+  t.fails(function() grasp:apply() end, "grasp of glass by barrett: robot 'puma560' carries the hand, 0.01 m and 0 rad from where it stood about the object: move that one")
+  t.equal(hand.dofs, opened)
 end)
 
 test("a grasp that stands in no world is studied as far as that goes, and else the remedy is told", function(t)

@@ -30,12 +30,14 @@ static Pose hand_in_object(const World& world, Id<Robot> hand, Id<Body> object) 
   return world.pose(object).inverse() * world.pose(world.robot(hand).base);
 }
 
+// of metres and radians: a hundredth of the usual contact threshold, far above rounding
+static constexpr double moved = 1e-6;
+
+static bool has_moved(const Pose& off) { return off.position.norm() > moved || off.angle() > moved; }
+
 void check_unmoved(const World& world, const Grasp& grasp) {
-  // of metres and radians: a hundredth of the usual contact threshold, far above rounding
-  constexpr double moved = 1e-6;
   if (!grasp.X_OH) return;
-  const Pose off = grasp.X_OH->inverse() * hand_in_object(world, grasp.hand, grasp.object);
-  const bool object = off.position.norm() > moved || off.angle() > moved;
+  const bool object = has_moved(grasp.X_OH->inverse() * hand_in_object(world, grasp.hand, grasp.object));
   const bool joints =
       !std::ranges::equal(grasp.joints, world.joints(grasp.hand),
                           [](double a, double b) { return std::abs(a - b) <= moved; });
@@ -180,11 +182,18 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
   const Eigen::VectorXd q = dofs_for(world, hand, grasp, place);
   if (own_joints) check_rigid_joints(robot, q, grasp.joints, place);
   const Pose before = world.pose(robot.base);
-  world.set_pose(hand, world.pose(object) * *grasp.X_OH);
+  if (robot.mounting) {
+    const Pose off = grasp.X_OH->inverse() * hand_in_object(world, hand, object);
+    if (has_moved(off))
+      fail("{}: robot '{}' carries the hand, {:.3g} m and {:.3g} rad from where it stood about the object: move that one", place,
+           world.robot(robot.mounting->parent).name, off.position.norm(), off.angle());
+  } else {
+    world.set_pose(hand, world.pose(object) * *grasp.X_OH);
+  }
   try {
     world.set_dofs(hand, q);
   } catch (const Error&) {
-    world.set_pose(hand, before);
+    if (!robot.mounting) world.set_pose(hand, before);
     throw;
   }
   if (!own_joints) return;

@@ -29,7 +29,8 @@ void check_unmoved(const World& world, const Grasp& grasp);
 /// Puts hand and joints where they stood about the object, wherever that is now. Nothing else moves; the hand may collide.
 /// DOFs are found by their names where the grasp has them; those that it does not name stay.
 /// throws Error when the world has no such hand or object, the hand has other DOFs or joints, a value lies outside its limits,
-///        the grasp was put together by hand, or another robot carries the hand
+///        the grasp was put together by hand, or another robot carries the hand and holds it
+///        elsewhere
 void apply_grasp(World& world, const GraspSpec& grasp);
 /// The same with another hand and object than those of its names.
 void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object);

@@ -88,6 +88,10 @@ inline void log_warning(lua_State* L, const std::string& message) {
   log(L, LogLevel::warning, message);
 }
 
+/// Is this the first time in this state that it is asked about that?
+/// key  a static thing whose address stands for it
+bool first_time(lua_State* L, const void* key, const std::string& about);
+
 /// Tells a warning, with the script's line, and never again in this state.
 /// key  a static thing whose address stands for it
 void warn_once(lua_State* L, const void* key, const std::string& message);
@@ -319,7 +323,7 @@ inline size_t owned_bytes(const ProjectionHandle& handle) {
 
 // --- grasp. ---
 
-/// A grasp, in its world or, read from a file, in none.
+/// A grasp, in its world or, of a planner or a file, in none.
 struct GraspHandle {
   WorldPtr world;  ///< may be null
   Grasp grasp;
@@ -331,7 +335,7 @@ inline size_t owned_bytes(const GraspHandle& handle) {
          handle.grasp.points.size() * sizeof(PointContact);
 }
 
-/// The world that the grasp stands in.   throws Error when it was read from a file
+/// The world that the grasp stands in.   throws Error when it stands in none
 const World& world_of(lua_State* L, const GraspHandle& grasp);
 
 /// A number > 0, or a list of one per contact, whose values whoever takes them checks; none when absent.

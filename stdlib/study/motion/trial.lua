@@ -40,6 +40,7 @@ local still = {linear = {0, 0, 0}, angular = {0, 0, 0}}
 
 -- nothing moves, whatever it did in the world that was copied
 local function bring_to_rest(world)
+  world:clear_forces()
   for _, robot in ipairs(world.robots) do
     local velocities = {}
     for i in ipairs(robot.dofs) do velocities[i] = 0 end

@@ -99,6 +99,11 @@ static int get_report(lua_State* L) {
   return 1;
 }
 
+static int clear_forces(lua_State* L) {
+  for (Load& load : world_of(L).edit_dynamics().loads) load = {};
+  return 0;
+}
+
 static int get_momentum(lua_State* L) {
   const Momentum m = momentum(world_of(L));
   push_list(L, 0, 2);
@@ -245,6 +250,10 @@ The second half of a step: the velocities that contacts, forces, motors and limi
 @param h number  what move_bodies gave [s]
 > world:solve_velocities(world:move_bodies(0.001))
 > world.report.steps  --> 1)"},
+    {"clear_forces", guarded<clear_forces>, R"(
+Takes back what `apply_force` and `apply_torque` gave for the next step.
+> flask:apply_force({0, 0, 1})
+> world:clear_forces())"},
     {"momentum", guarded<get_momentum>, R"(
 Of all objects and robots; the angular one about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]

@@ -40,20 +40,19 @@ static int measure(lua_State* L) {
   grasp.modulus = read_modulus_rule(options);
   options.done();
   Grasp measured = measure_grasp(*hand.world, hand.id, object.id, grasp);
-  if (measured.contacts_at_edges > 0)
-    log_warning(L, fmt::format("grasp of {} by {}: {} of {} contacts are soft ones on corners or "
-                               "edges, whose patch is a guess",
-                               object->name, hand->name, measured.contacts_at_edges,
-                               measured.contacts.size()));
+  // once, as planners measure thousands
+  static const char at_edges = 0;
+  const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
+  if (measured.contacts_at_edges > 0 && first_time(L, &at_edges, about))
+    log_warning(L, fmt::format("{}: {} of {} contacts are soft ones on corners or edges, whose patch is a guess; of later grasps contact.patch.at_edge tells",
+                               about, measured.contacts_at_edges, measured.contacts.size()));
   return push_object(L, GraspHandle{hand.world, std::move(measured)});
 }
 
 const World& world_of(lua_State* L, const GraspHandle& grasp) {
   if (!grasp.world)
     fail(
-        "{}: the grasp was read from a file and stands in no world; grasp:apply(world) gives one "
-        "that does",
-        subject(L));
+        "{}: the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does", subject(L));
   return *grasp.world;
 }
 
@@ -296,7 +295,7 @@ The body that is grasped.
 > grasp.object == flask  --> true)"},
     {"hand_name", getter<[](const GraspHandle& x) { return std::string_view(x.grasp.hand_name); }>,
      R"(
-Name of the robot that grasps; a grasp that was read from a file has it, too.
+Name of the robot that grasps; a grasp that stands in no world has it, too.
 @type string
 > grasp.hand_name == hand.name  --> true)"},
     {"object_name",
@@ -388,7 +387,7 @@ static const Entry grasp_methods[] = {
     {"apply", guarded<apply>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
 there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
-does not have stay. Nothing else moves, and collisions are not checked: see `world:collides`.
+does not have stay. A hand that another robot carries stays, and has to be where the grasp has it. Nothing else moves, and collisions are not checked: see `world:collides`.
 @param world? world  default: its own
 @param options? {hand?: robot, object?: body}
 @return grasp

@@ -32,7 +32,7 @@ static int convert(lua_State* L) {
   else
     convert_file(kind, found, to, reading,
                  {.root = reading.root, .confine = reading.confine, .warn = reading.warn});
-  return push(L, kind_name(kind));
+  return push(L, kind_name(as_world ? FileKind::world : kind));
 }
 
 static const Entry functions[] = {
@@ -43,7 +43,7 @@ told in warnings.
 @param from string
 @param to string
 @param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too
-@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"
+@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts" # what was written
 > path = os.tmpname()
 > clench.convert("models/objects/flask.iv", path .. ".ply")  --> body
 > world:add_object(path .. ".ply").mesh:is_watertight()  --> true

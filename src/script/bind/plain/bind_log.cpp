@@ -46,12 +46,22 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-void warn_once(lua_State* L, const void* key, const std::string& message) {
-  const bool told = lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TBOOLEAN;
-  lua_pop(L, 1);
-  if (told) return;
+bool first_time(lua_State* L, const void* key, const std::string& about) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) != LUA_TTABLE) {
+    lua_newtable(L);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+    lua_replace(L, -2);
+  }
+  const bool told = lua_getfield(L, -1, about.c_str()) == LUA_TBOOLEAN;
   lua_pushboolean(L, true);
-  lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+  lua_setfield(L, -3, about.c_str());
+  lua_pop(L, 2);
+  return !told;
+}
+
+void warn_once(lua_State* L, const void* key, const std::string& message) {
+  if (!first_time(L, key, "")) return;
   push_script_place(L);
   const std::string place = lua_tostring(L, -1);
   lua_pop(L, 1);
