@@ -83,6 +83,18 @@ Mix mix_at(const Brightness& b, int x, int y) {
   return mix;
 }
 
+// between each pixel of a row and its four neighbours. Bytes alone, so that many are found at once: few are worth more
+void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts) {
+  const uint8_t* row = &b.values[static_cast<size_t>(y) * b.width];
+  const uint8_t *above = row - b.width, *below = row + b.width;
+  uint8_t* out = contrasts.data();
+  for (int x = 1; x + 1 < b.width; ++x) {
+    const uint8_t high = std::max(std::max(std::max(above[x], below[x]), std::max(row[x - 1], row[x + 1])), row[x]);
+    const uint8_t low = std::min(std::min(std::min(above[x], below[x]), std::min(row[x - 1], row[x + 1])), row[x]);
+    out[x] = static_cast<uint8_t>(high - low);
+  }
+}
+
 }  // namespace
 
 void smooth_edges(Picture& picture) {
@@ -92,8 +104,11 @@ void smooth_edges(Picture& picture) {
     const float sum = (1 - part) * values[here] + part * values[across];
     return static_cast<uint8_t>(sum + 0.5f);
   };
-  for (int y = 1; y + 1 < picture.height; ++y)
+  std::vector<uint8_t> contrasts(picture.width);
+  for (int y = 1; y + 1 < picture.height; ++y) {
+    find_contrasts(b, y, contrasts);
     for (int x = 1; x + 1 < picture.width; ++x) {
+      if (contrasts[x] < min_contrast) continue;
       const Mix mix = mix_at(b, x, y);
       if (!(mix.part > 0)) continue;
       const size_t here = static_cast<size_t>(y) * picture.width + x,
@@ -102,6 +117,7 @@ void smooth_edges(Picture& picture) {
         picture.pixels[3 * here + k] = mixed(from.pixels, 3 * here + k, 3 * across + k, mix.part);
       if (!from.alpha.empty()) picture.alpha[here] = mixed(from.alpha, here, across, mix.part);
     }
+  }
 }
 
 }  // namespace clench

@@ -42,7 +42,11 @@ Batch append(Piece& piece, DrawList& list) {
   }
   const float longest = piece.opacity < solid_from ? longest_clear_edge : longest_edge;
   const auto fine = piece.mark ? corners : split_long_edges(corners, longest, max_triangles);
-  Batch batch{.opacity = piece.opacity};
+  Batch batch{.opacity = piece.opacity, .closed = piece.closed};
+  if (const auto ball = ball_around([&](const auto& what) {
+        for (const auto& p : piece.p_W) what(p);
+      }))
+    batch.centre = ball->centre, batch.radius = ball->scale;
   batch.first_caster = static_cast<int>(list.indices.size());
   if (piece.mark || piece.background) corners.clear();
   batch.caster_count = static_cast<int>(corners.size());

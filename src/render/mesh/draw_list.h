@@ -15,6 +15,9 @@ struct Batch {
   int first = 0, count = 0;
   int first_caster = 0, caster_count = 0;
   float opacity = 1;
+  bool closed = false;  ///< faces outward, so that its inside is never seen
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of a ball around it [scene units]
+  double radius = 0;
 };
 
 struct DrawList {

@@ -37,4 +37,8 @@ bool faces_outward(const Shape& shape) {
   return true;
 }
 
+bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye) {
+  return eye.ortho_height > 0 || (centre - eye.eye).norm() > 1.5 * radius + 0.03;
+}
+
 }  // namespace clench

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "clench/base/error.h"
+#include "clench/render/mesh/outward.h"
 
 namespace clench {
 namespace {
@@ -65,7 +66,8 @@ Piece mesh_piece(const DrawMesh& m, size_t number) {
   Piece piece{.triangles = m.shape->mesh().triangles,
               .colors = m.triangle_colors,
               .opacity = m.opacity,
-              .background = m.background};
+              .background = m.background,
+              .closed = faces_outward(*m.shape)};
   if (piece.colors.empty()) piece.colors = {m.color};
   piece.p_W.reserve(m.shape->mesh().vertices.size());
   for (const auto& p : m.shape->mesh().vertices) {

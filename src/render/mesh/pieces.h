@@ -14,6 +14,7 @@ struct Piece {
   float opacity = 1;
   bool mark = false;        ///< drawn as it is, whatever the light
   bool background = false;  ///< throws no shadow, counts for no frame
+  bool closed = false;      ///< faces outward, so that its inside is never seen
 };
 
 /// throws Error naming the mesh, cone, arrow or label and the number that is out of range

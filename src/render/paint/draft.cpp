@@ -10,6 +10,7 @@
 #include "clench/render/figure/smooth_edges.h"
 #include "clench/render/mesh/draw_list.h"
 #include "clench/render/mesh/extent.h"
+#include "clench/render/mesh/outward.h"
 #include "clench/render/mesh/pieces.h"
 #include "clench/render/paint/outline.h"
 #include "clench/render/paint/tile.h"
@@ -110,12 +111,6 @@ Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, con
   load_marks(scene);
   load_floor(scene);
   cast();
-}
-
-// Can the eye see only the sides that face outward? Not from within a body, or with its near plane in it, which lies at less
-// than half the way to the scene.
-static bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye) {
-  return eye.ortho_height > 0 || (centre - eye.eye).norm() > 1.5 * radius + 0.03;
 }
 
 void Draft::load(MeshStore& store, const Scene& scene) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "clench/base/error.h"
+#include "clench/render/mesh/outward.h"
 #include "clench/render/paint/outline.h"
 #include "clench/render/paint/tile.h"
 #include "clench/render/view/frame.h"
@@ -67,6 +68,7 @@ class Painter {
   Eigen::Vector3f shading_eye_;
   RenderOptions options_;
   Eigen::Matrix4d projection_;
+  bool heavy_;
   int lamps_;  // per sample
   std::vector<Light> lamp_;
   std::vector<Eigen::Vector2d> shifts_;
@@ -94,7 +96,8 @@ Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
       eye_(eye),
       shading_eye_(shading_eye(eye)),
       options_(options),
-      lamps_(scene.heavy() ? lamps_per_sample / 2 : lamps_per_sample),
+      heavy_(scene.heavy()),
+      lamps_(heavy_ ? lamps_per_sample / 2 : lamps_per_sample),
       shadows_(programs, map_size(options), lamps_per_sample) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const Eigen::Vector2d depths = depth_range(eye);
@@ -126,8 +129,13 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
   gl::set(programs_.first, "to_clip", clip);
   gl::set(programs_.first, "floor_sign", 1.0f);
   glBindVertexArray(loaded_.array);
-  for (const Batch& batch : list_.solid) draw(batch);
-  for (const Batch& batch : list_.behind) draw(batch);
+  for (const auto* batches : {&list_.solid, &list_.behind})
+    for (const Batch& batch : *batches) {
+      const bool one_side = heavy_ && batch.closed && hides_inside(batch.centre, batch.radius, eye_);
+      (one_side ? glEnable : glDisable)(GL_CULL_FACE);
+      draw(batch);
+    }
+  glDisable(GL_CULL_FACE);
   // seen from below it would only be in the way
   if (list_.ground && shading_eye_.z() > *list_.ground) {
     gl::set(programs_.first, "floor_sign", -1.0f);

@@ -19,7 +19,7 @@ class PaperScene {
   const LoadedList& loaded() const { return loaded_; }
   size_t bytes() const;
 
-  /// Triangles that throw shadows, so many that fewer lights must do?
+  /// Triangles that throw shadows, so many that fewer lights and one side of what is closed must do?
   bool heavy() const { return casters_ > 100000; }
   /// Light of a room that suits a picture of this size and smoothness, kept until another is asked for.
   /// throws  Stopped, and keeps what it had

@@ -105,7 +105,9 @@ void Shadows::cast(const DrawList& list, const LoadedList& loaded,
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps_, 0, static_cast<int>(i));
     glClear(GL_DEPTH_BUFFER_BIT);
     gl::set(program, "axes", std::vector{axes_[i]});
+    // of what is closed only the side that faces the lamp can be nearest to it
     const auto draw = [](const Batch& batch) {
+      (batch.closed ? glEnable : glDisable)(GL_CULL_FACE);
       glDrawElements(GL_TRIANGLES, batch.caster_count, GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(batch.first_caster * sizeof(uint32_t)));
     };
@@ -116,6 +118,7 @@ void Shadows::cast(const DrawList& list, const LoadedList& loaded,
       if (turn - std::floor(turn) < list.clear[b].opacity) draw(list.clear[b]);
     }
   }
+  glDisable(GL_CULL_FACE);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
