@@ -3,6 +3,7 @@
 #include <lua.hpp>
 
 #include "clench/script/bind/library.h"
+#include "clench/script/host/natives.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/library_table.h"
@@ -36,6 +37,7 @@ int clench_open(lua_State* L) {
   add_packed_searcher(L, module);
   push_packed(L, "error_value");
   set_error_metatable(L);
+  add_natives(L);
   return 1;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "clench/base/progress.h"
+#include "clench/base/text.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/owned.h"
 #include "clench/script/lua/script_place.h"
@@ -77,20 +78,14 @@ struct Message {
 
 enum class Failure { none, raised, stopped, message };
 
-static const char* name_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::input:
-      return "input";
-    case ErrorKind::file:
-      return "file";
-    case ErrorKind::stale:
-      return "stale";
-    case ErrorKind::limit:
-      return "limit";
-    case ErrorKind::internal:
-      return "internal";
-  }
-  return "internal";
+static constexpr const char* kind_names[] = {"input", "file", "stale", "limit", "internal"};
+
+static const char* name_of(ErrorKind kind) { return kind_names[static_cast<int>(kind)]; }
+
+ErrorKind error_kind(std::string_view name) {
+  const auto found = std::ranges::find(kind_names, name);
+  if (found == std::end(kind_names)) fail("expected a kind of errors, got {}", in_quotes(name));
+  return static_cast<ErrorKind>(found - std::begin(kind_names));
 }
 
 // as many arguments as the entry takes, or fewer

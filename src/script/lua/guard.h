@@ -5,10 +5,14 @@
 #pragma once
 #include <exception>
 #include <lua.hpp>
+#include <string_view>
 
 #include "clench/base/error.h"
 
 namespace clench {
+
+/// The kind of that name, as error values have it.   throws Error when there is none
+ErrorKind error_kind(std::string_view name);
 
 /// A Lua error on its way through C++; its value waits in the state, and guarded raises it
 /// again unchanged.

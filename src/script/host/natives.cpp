@@ -1,0 +1,40 @@
+#include "clench/script/host/natives.h"
+
+#include "clench/base/suggest.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/script_place.h"
+
+namespace clench {
+
+// raise(sentence, kind): an error at the script's line, "input" unless a kind is given
+static int raise(lua_State* L) {
+  throw Error(std::string(string_at(L, 1)), lua_isnoneornil(L, 2) ? ErrorKind::input : error_kind(string_at(L, 2)));
+}
+
+// script_line(): "a.lua:3: ", where the script called into the standard library, or ""
+static int script_line(lua_State* L) {
+  push_script_place(L);
+  return 1;
+}
+
+// suggest(name, known): "; did you mean 'count'?", or "" when none is near; nothing is near what is no string
+static int suggest(lua_State* L) {
+  std::vector<std::string> known;
+  for (lua_Integer i = 1; lua_type(L, 1) == LUA_TSTRING && lua_rawgeti(L, 2, i) == LUA_TSTRING; ++i) {
+    known.emplace_back(string_at(L, -1));
+    lua_pop(L, 1);
+  }
+  return push(L, known.empty() ? "" : did_you_mean(string_at(L, 1), known));
+}
+
+void add_natives(lua_State* L) {
+  static constexpr luaL_Reg natives[] = {
+      {"clench.raise", guarded<raise>}, {"clench.script_line", script_line}, {"clench.suggest", guarded<suggest>}, {nullptr, nullptr}};
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  luaL_setfuncs(L, natives, 0);
+  lua_pop(L, 1);
+}
+
+}  // namespace clench

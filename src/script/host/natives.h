@@ -1,0 +1,9 @@
+// What the standard library requires of the engine, as it does its own files: clench.raise, clench.script_line, clench.suggest.
+#pragma once
+#include <lua.hpp>
+
+namespace clench {
+
+void add_natives(lua_State* L);
+
+}  // namespace clench
