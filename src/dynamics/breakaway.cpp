@@ -7,7 +7,7 @@ namespace clench {
 
 // A joint of a breakaway DOF leaves it when more is asked of it, in the sense in which the DOF closes, than its clutch gives;
 // the last one that follows stays.
-void Stepper::disengage(double h) {
+void Stepper::disengage() {
   DynamicState& state = world_.edit_dynamics();
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
@@ -36,7 +36,7 @@ void Stepper::disengage(double h) {
       const Load& load = state.loads[tree.bodies[b].body.index];
       add(tree.bodies[b].body, trees_[t].com(static_cast<int>(b)), load.force, load.torque);
     }
-    const auto& efforts = trees_[t].inverse_dynamics(v_before_, (v_ - v_before_) / h, root_twist(static_cast<int>(t)),
+    const auto& efforts = trees_[t].inverse_dynamics(v_before_, (v_ - v_before_) / tree_times_[t], root_twist(static_cast<int>(t)),
                                                      world_.gravity(), loads);
     for (size_t i = 0; i < tree.joints.size(); ++i) {
       const ArticulationJoint& joint = tree.joints[i];

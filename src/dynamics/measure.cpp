@@ -1,5 +1,7 @@
 #include "clench/dynamics/measure.h"
 
+#include "clench/dynamics/control/motors.h"
+
 namespace clench {
 
 template <class Visit>
@@ -34,8 +36,11 @@ MechanicalEnergy mechanical_energy(const World& world) {
     for (size_t j = 0; j < robot.joints.size(); ++j) {
       const Joint& joint = robot.joints[j];
       const double q = world.joints(id)[static_cast<int>(j)];
-      if (robot.dofs[joint.dof].kind != DofKind::compliant)
-        out.potential += 0.5 * joint.spring * (q - joint.rest) * (q - joint.rest);
+      // a tendon turns its joints by springs, which rest where it alone would have them
+      const bool pulled = robot.dofs[joint.dof].kind == DofKind::compliant;
+      const double stiffness = pulled ? tendon_stiffness(world, id, static_cast<int>(j)) : joint.spring;
+      const double away = q - (pulled ? joint.ratio * world.dofs(id)[joint.dof] : joint.rest);
+      out.potential += 0.5 * stiffness * away * away;
       if (const DynamicState* state = world.dynamics(); state && robot.first_joint + j < state->joint_velocities.size()) {
         const double v = state->joint_velocities[robot.first_joint + j];
         out.kinetic += 0.5 * joint.armature * v * v;

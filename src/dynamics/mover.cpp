@@ -47,6 +47,72 @@ Mover::Mover(World& world, const System& system) : world_(world) {
                            from(state.joint_velocities, robot.first_joint, robot.joints.size())});
       if (!robot.mounting && machines_.back().rests()) machines_.pop_back();
     }
+  find_carriers();
+}
+
+// Of all that a free body is pressed to, beginning with what is not free, that along which it slips the least; none where that stands still
+// or only moves straight.
+void Mover::find_carriers() {
+  const DynamicState& state = *world_.dynamics();
+  const auto turns = [&](Id<Body> id) { return !state.twists[id.index].angular.isZero(0); };
+  const auto part_of = [&](Id<Body> id) {
+    return std::ranges::find_if(parts_, [&](const Part& part) { return part.inertia && part.body == id; });
+  };
+  if (std::ranges::none_of(world_.bodies(), [&](Id<Body> id) { return turns(id) && part_of(id) == parts_.end(); })) return;
+  struct Press {
+    Id<Body> a, b;
+    Eigen::Vector3d p_W;
+  };
+  std::vector<Press> presses;
+  for (const Manifold& m : state.manifolds) {
+    const auto point = std::ranges::max_element(m.points, {}, [](const ManifoldPoint& p) { return p.force.squaredNorm(); });
+    if (point == m.points.end() || point->force.isZero(0)) continue;
+    presses.push_back({m.a, m.b, world_.pose(m.a) * point->p_a});
+  }
+  const auto velocity = [&](Id<Body> id, const Eigen::Vector3d& p_W) -> Eigen::Vector3d {
+    const Twist twist = world_.twist(id);
+    return twist.linear + twist.angular.cross(p_W - world_.pose(id) * world_.body(id).com);
+  };
+  std::vector<Part> sorted, waiting;
+  for (Part& part : parts_) (part.inertia ? waiting : sorted).push_back(std::move(part));
+  const auto waits = [&](Id<Body> id) { return std::ranges::any_of(waiting, [&](const Part& part) { return part.body == id; }); };
+  while (!waiting.empty()) {
+    std::vector<Part> found, rest;
+    for (Part& part : waiting) {
+      const Press* best = nullptr;
+      double least = 0;
+      for (const Press& press : presses) {
+        if (press.a != part.body && press.b != part.body) continue;
+        if (waits(press.a == part.body ? press.b : press.a)) continue;
+        const double slip = (velocity(press.a, press.p_W) - velocity(press.b, press.p_W)).norm();
+        if (!best || slip < least) best = &press, least = slip;
+      }
+      if (!best) {
+        rest.push_back(part);
+        continue;
+      }
+      const Id<Body> to = best->a == part.body ? best->b : best->a;
+      if (turns(to)) {
+        part.carrier = to, part.X_WC = world_.pose(to);
+        const Eigen::Matrix3d into = part.X_WC.rotation.conjugate().toRotationMatrix();
+        part.relative = {into * (part.twist.linear - velocity(to, part.X_WB * part.com)),
+                         into * (part.twist.angular - state.twists[to.index].angular)};
+      }
+      found.push_back(part);
+    }
+    // what touches nothing that is held comes last
+    if (found.empty()) found.swap(rest);
+    sorted.insert(sorted.end(), found.begin(), found.end());
+    waiting.swap(rest);
+  }
+  parts_.swap(sorted);
+}
+
+// Along with what carries it, which has been placed, and straight in the frame of that.
+Pose Mover::carried(const Part& part, double s) const {
+  const Pose& X_WC = world_.pose(*part.carrier);
+  const Pose X_CB = part.X_WC.inverse() * part.X_WB;
+  return X_WC * moved_rigidly(X_CB, part.com, part.relative, s);
 }
 
 bool Mover::Machine::rests() const {
@@ -112,7 +178,8 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
 void Mover::place(double s) {
   if (s == placed_) return;
   placed_ = s;
-  for (Part& part : parts_) world_.drift(part.body, moved(part, s, part.after));
+  for (Part& part : parts_)
+    if (!part.carrier) world_.drift(part.body, moved(part, s, part.after));
   for (Machine& machine : machines_) {
     const Robot& robot = world_.robot(machine.robot);
     std::vector<double> dofs = machine.dofs, joints = machine.joints;
@@ -143,6 +210,14 @@ void Mover::place(double s) {
     world_.drift(machine.robot, X_WB, dofs, joints);
   }
   place_welded();
+  bool more = false;
+  for (Part& part : parts_)
+    if (part.carrier) {
+      moved(part, s, part.after);
+      world_.drift(part.body, carried(part, s));
+      more = true;
+    }
+  if (more) place_welded();
 }
 
 void Mover::finish(double s) {

@@ -1,4 +1,5 @@
-// A world along the motion of one step: where everything is at a time, were it to go on with the velocities that it has.
+// A world along the motion of one step: where everything is at a time, were it to go on with the velocities that it has. What is pressed
+// to something that turns has its velocity relative to that: along the tangent it would come away from the arc, step by step.
 #pragma once
 #include <optional>
 
@@ -23,8 +24,12 @@ class Mover {
     Eigen::Vector3d com;        // of all, in the frame of the body [m]
     std::optional<Eigen::Matrix3d> inertia;  // of all about it, in that frame [kg m^2]; none: it moves as it is told
     Twist after = {};  // where it was placed
+    std::optional<Id<Body>> carrier = {};  // what it is pressed to, and goes along with
+    Pose X_WC = {};                        // of that, at the start
+    Twist relative = {};                   // to that, at com, in its axes
   };
   static Part free_part(const World& world, const Articulation& tree);
+  void find_carriers();
   struct Machine {  // a robot
     Id<Robot> robot;
     Pose X_WB;  // of its base, when nobody carries it
@@ -34,11 +39,12 @@ class Mover {
     bool rests() const;
   };
   Pose moved(const Part& part, double s, Twist& after) const;
+  Pose carried(const Part& part, double s) const;
   void place_welded();
 
   World& world_;
   double placed_ = -1;  // where everything is [s]; negative: nobody has been asked to move
-  std::vector<Part> parts_;
+  std::vector<Part> parts_;  // what is carried by others of them after these
   std::vector<Machine> machines_;  // carriers before what they carry
   struct Welded {
     Id<Body> body, to;

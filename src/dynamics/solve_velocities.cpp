@@ -44,11 +44,21 @@ void Stepper::find_free_velocities(double h) {
   }
 }
 
+// An impulse of bodies that meet at the end of a step cut short, and of all that touches them, is no force of that short time.
+void Stepper::find_times(const std::vector<Island>& islands, double h) {
+  const double whole = std::max(h, world_.dynamics()->asked);
+  tree_times_.assign(trees_.size(), h);
+  for (Block& block : blocks_) block.time = h;
+  for (const Island& island : islands) {
+    if (std::ranges::none_of(island.blocks, [&](int i) { return blocks_[i].meets; })) continue;
+    for (const int i : island.blocks) blocks_[i].time = whole;
+    for (const int t : island.trees) tree_times_[t] = whole;
+  }
+}
+
 // What the next step, and whoever looks, wants of this one.
-void Stepper::keep(double h) {
+void Stepper::keep() {
   DynamicState& state = world_.edit_dynamics();
-  // an impulse at the end of a step that an impact has cut short is no force of that short time
-  const double time = std::max(h, state.asked);
   scatter_velocities(system_, world_, v_, state);
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
@@ -67,6 +77,7 @@ void Stepper::keep(double h) {
       if (c.joint < 0) state.dof_efforts[c.dof_index] = feedforward_effort(world_, c, state);
   for (const Block& block : blocks_) {
     const int row = block.law.row;
+    const double time = block.time;
     if (block.row >= 0) {
       const CoordinateRow& c = coordinate_rows_[block.row];
       state.row_forces.push_back({static_cast<int>(c.kind), c.index, r_[row] / time});
@@ -82,7 +93,7 @@ void Stepper::keep(double h) {
     if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / time;
   }
   std::ranges::sort(state.row_forces, {}, [](const RowForce& row) { return std::pair(row.kind, row.index); });
-  disengage(time);
+  disengage();
   for (Load& load : state.loads) load = {};
   state.report.contacts = static_cast<int>(touches_.size());
   state.report.max_residual = std::max(state.report.max_residual, state.report.residual);
@@ -114,14 +125,16 @@ void Stepper::solve_found(double h) {
   update_manifolds();
   find_rows(h);
   r_.setZero(row_count_);
+  const std::vector<Island> islands = find_islands();
   if (world_.dynamic_settings().engine == DynamicsEngine::ode) {
     solve_by_ode(h);
   } else {
     resting_.assign(trees_.size(), false);
-    for (const auto& island : find_islands()) solve_island(island);
+    for (const Island& island : islands) solve_island(island);
     apply_impulses();
   }
-  keep(h);
+  find_times(islands, h);
+  keep();
 }
 
 }  // namespace clench

@@ -11,14 +11,16 @@ namespace clench {
 // Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s], if it is also faster than
 // gravity makes them in a step: a body that comes to rest from next to no height sticks.
 static constexpr double sliding_speed = 1e-3;
-// A gap this near to that at which bodies rest, as a part of the contact threshold, is that one.
+// A gap this near to that at which bodies rest, as a part of the contact threshold, is that one: so points of a pair that has come to
+// rest ask for nothing, and share its force, where the least difference between what they ask would put all of it on a few.
 static constexpr double rest_band = 1e-3;
 // Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s]: so slowly that what is
 // pushed apart presses on each other as if it rested.
 static constexpr double pushed_part = 0.02, pushed_at_most = 0.1;
 // What turns while it slides comes nearer as it does; it is pushed apart by more, up to a part of the speed of sliding.
 static constexpr double pushed_part_sliding = 0.5, pushed_of_slip = 0.1;
-// Below this speed of approach nothing bounces [m/s].
+// From this speed of approach on bodies meet, and below that one nothing bounces [m/s].
+static constexpr double meeting_speed = 1e-6;
 static constexpr double bounces_above = 0.01;
 
 Eigen::Vector3d Stepper::prescribed_velocity(Id<Body> id, const Eigen::Vector3d& p_W) const {
@@ -35,6 +37,13 @@ Eigen::Vector3d Stepper::prescribed_velocity(Id<Body> id, const Eigen::Vector3d&
     out = twist.head<3>() + turning.cross(p_W - trees_[place.tree].about());
   }
   return out;
+}
+
+Eigen::Vector3d Stepper::prescribed_turning(Id<Body> id) const {
+  const System::Place place = system_.place(id);
+  if (place.tree < 0) return world_.twist(id).angular;
+  if (system_.trees[place.tree].floating) return Eigen::Vector3d::Zero();
+  return root_twist(place.tree).tail<3>();
 }
 
 // how its surface runs over it, as that of a conveyor belt [m/s]
@@ -93,6 +102,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const Eigen::Vector3d normal = touch.frame.col(0), belt = surface_velocity(m.b) - surface_velocity(m.a);
   const Eigen::Vector3d prescribed =
       prescribed_velocity(m.b, touch.p_W) - prescribed_velocity(m.a, touch.p_W) + belt - belt.dot(normal) * normal;
+  const Eigen::Vector3d turning = prescribed_turning(m.b) - prescribed_turning(m.a);
   for (int side = 0; side < 2; ++side) {
     const System::Place place = system_.place(bodies[side]);
     if (place.tree < 0 || system_.trees[place.tree].size() == 0) continue;
@@ -111,11 +121,12 @@ void Stepper::add_contact(int manifold, int point, double h) {
   }
   // what touches comes no nearer, and what is too near parts
   const double step = std::max(world_.dynamic_settings().step, h);
-  const double missing = std::max(0.0, (rest_gap - rest_band) * world_.contact_threshold() - p.gap);
+  const double threshold = world_.contact_threshold();
+  const double missing = p.gap < (rest_gap - rest_band) * threshold ? rest_gap * threshold - p.gap : 0;
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   std::array<double, 4> before;
   for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : 0;
+    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : p.torsion_radius * normal.dot(turning);
     before[k] = q;
     for (int side = 0; side < 2; ++side)
       if (const int t = block.tree[side]; t >= 0) {
@@ -133,9 +144,14 @@ void Stepper::add_contact(int manifold, int point, double h) {
   double target = pushed_part * missing / step;
   if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
   target = std::min(target, pushed_at_most);
-  // Newton's law of impact, where the free motion would press
+  // Newton's law of impact, where the free motion would press. Bodies move with the velocity that they had when a step began: what
+  // is pulled together comes by half a step's gain too fast, and would go by as much too far
   double& q_normal = q_[block.law.row];
-  if (q_normal < target && before[0] < -bounces_above) target = std::max(target, -restitution * before[0]);
+  if (q_normal < target && before[0] < -bounces_above) {
+    const double gain = (before[0] - q_normal) / h * step;
+    target = std::max(target, -restitution * q_normal - (1 + restitution) / 2 * gain);
+  }
+  block.meets = before[0] < -meeting_speed;
   q_normal -= target;
   // warm start
   const Eigen::Vector3d force = X_WA.rotation * p.force;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/error.h"
 #include "clench/dynamics/contact/ball_contact.h"
 #include "clench/dynamics/contact/sliding.h"
 #include "clench/model/advance.h"
@@ -46,21 +47,29 @@ bool may_have_met(const World& world, const Manifold& m, const Pose& X_AB) {
   return displacement(m.X_AB, X_AB, *world.body(m.b).shape) >= certain * m.clearance;
 }
 
+// No point of the body is faster [m/s].
+double max_speed(const World& world, Id<Body> id) {
+  const Twist& twist = world.dynamics()->twists[id.index];
+  const Body& body = world.body(id);
+  if (twist.is_zero()) return 0;
+  return twist.linear.norm() + twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
+}
+
+// Do they turn about each other by so much that the chord tells nothing of the way?
+bool turns_far(const World& world, const Manifold& m, double dt) {
+  const auto& twists = world.dynamics()->twists;
+  return dt * (twists[m.a.index].angular.norm() + twists[m.b.index].angular.norm()) > 0.5;
+}
+
 // The least that a body measures along an axis of its own; no way that is shorter leads through it.
 double thickness(const Shape& shape) { return shape.bounds().size().minCoeff(); }
 
 }  // namespace
 
 double Stepper::max_travel(double dt) const {
-  const DynamicState& state = *world_.dynamics();
   double travel = 0;
-  for (const auto id : world_.bodies()) {
-    const Twist& twist = state.twists[id.index];
-    const Body& body = world_.body(id);
-    if (!body.shape || twist.is_zero()) continue;
-    const double radius = body.shape->radius() + (body.shape->centre() - body.com).norm();
-    travel = std::max(travel, dt * (twist.linear.norm() + twist.angular.norm() * radius));
-  }
+  for (const auto id : world_.bodies())
+    if (world_.body(id).shape) travel = std::max(travel, dt * max_speed(world_, id));
   return travel;
 }
 
@@ -112,14 +121,19 @@ double Stepper::move(double dt) {
   std::vector<PairBound> watches;
   std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
   std::vector<std::pair<int, Manifold>> measured;
-  bool near = false;  // is any of those that are followed within the threshold already?
+  double least = 1e-9 * dt;  // that passes, of pairs that start with a gap, as they may meet at any time
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
     const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
-    if (!may_have_met(world_, m, X_AB)) continue;
+    const double chord = displacement(before, X_AB, *world_.body(m.b).shape);
+    // the bound holds on the whole way, which is longer than the chord of a turn
+    const bool far = turns_far(world_, m, dt);
+    const double way = far ? dt * (max_speed(world_, m.a) + max_speed(world_, m.b)) : chord;
+    if (!may_have_met(world_, m, X_AB) &&
+        !(far && displacement(m.X_AB, before, *world_.body(m.b).shape) + way >= m.clearance))
+      continue;
     suspects.push_back(i);
     if (m.clearance == 0) continue;  // they overlap: nothing to stop
-    const double way = displacement(before, X_AB, *world_.body(m.b).shape);
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
     const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
     if (way <= thin) {
@@ -139,8 +153,8 @@ double Stepper::move(double dt) {
         continue;
       }
     }
-    near = near || touching;
-    // the bound holds on the whole way, which is longer than the chord of a turn
+    // those within the threshold already get on, by a hundredth of a step, but not through each other
+    if (touching) least = std::max(least, std::min(0.01 * world_.dynamic_settings().step, dt * thin / way));
     if (has_ball(world_, m))
       balls.push_back({i, 1.1 * way / dt});
     else
@@ -154,9 +168,6 @@ double Stepper::move(double dt) {
     passed = advance.s;
   }
   if (!balls.empty() || !watches.empty()) {
-    // Pairs that start with next to no gap still get on, by a hundredth of a step; one that starts with a gap may meet at
-    // any time.
-    const double least = near ? 0.01 * world_.dynamic_settings().step : 1e-9 * dt;
     passed = std::clamp(passed, std::min(dt, least), dt);
     if (passed < dt) ++state.report.impacts;
   }
@@ -186,6 +197,7 @@ bool Stepper::step(double end) {
   // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
   const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
   double left = std::min(next, end) - now;
+  if (!(now + left > now)) fail(ErrorKind::limit, "world: a step of {} s is no time beside the {} s that it has run", step, now);
   if (std::abs(left - step) < rounding * step) left = step;
   const double h = move(left);
   double& time = world_.edit_dynamics().time;

@@ -43,6 +43,8 @@ class Stepper {
     int touch = -1, row = -1;             // one of both
     std::array<int, 2> tree = {-1, -1};   // that it acts on
     std::array<int, 2> column = {0, 0};   // its first, in the tree's J
+    bool meets = false;                   // bodies that come together in this step
+    double time = 0;                      // in which its impulse acts as a force [s]
   };
   struct TreeRows {
     Eigen::MatrixXd Y;      // L^-1 J^T: coordinates x rows
@@ -60,6 +62,7 @@ class Stepper {
   bool is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
+  Eigen::Vector3d prescribed_turning(Id<Body> body) const;
   Eigen::Vector3d surface_velocity(Id<Body> body) const;
   void carry_welded();
   void find_free_velocities(double h);
@@ -74,8 +77,9 @@ class Stepper {
   void solve_island(const Island& island);
   void apply_impulses();
   void solve_by_ode(double h);
-  void keep(double h);
-  void disengage(double h);
+  void find_times(const std::vector<Island>& islands, double h);
+  void keep();
+  void disengage();
 
   World& world_;
   System system_;
@@ -92,6 +96,7 @@ class Stepper {
   std::vector<int> local_;  // of all rows: which one of its island's problem it is
   std::vector<double> q_, warm_;
   std::vector<bool> resting_;
+  std::vector<double> tree_times_;  // as of the blocks that act on it [s]
   int row_count_ = 0;
   FrictionSolver solver_;
   FrictionProblem problem_;

@@ -33,7 +33,10 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
   settings.welds[object] = to;
   world.set_dynamic_settings(std::move(settings));
   const System system = find_system(world);
-  if (system.place(object).tree < 0) return;
+  if (system.place(object).tree < 0) {
+    state.twists[object.index] = world.carried_twist(object, to);
+    return;
+  }
   const Articulation& tree = system.trees[system.place(object).tree];
   TreeDynamics together;
   together.place(world, tree);

@@ -77,7 +77,7 @@ struct StepReport {
   int64_t impacts = 0;      ///< steps that ended before their time, where bodies met
   int64_t iterations = 0;   ///< of the solver
   int64_t fallbacks = 0;    ///< islands of bodies that needed its slow methods
-  int64_t failures = 0;     ///< islands whose residual stayed above 1e-9 m/s
+  int64_t failures = 0;     ///< islands whose residual stayed above 1e-9 m/s, or 1e-8 m/s of what rests
   int64_t overlaps = 0;     ///< pairs of bodies that stood in each other when a step began
   double residual = 0;      ///< of the last step [m/s]
   double max_residual = 0;  ///< of all

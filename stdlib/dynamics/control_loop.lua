@@ -135,8 +135,10 @@ return function(hooks, world, seconds, stepping, step, events)
     -- one that went to another moment runs as long as it was asked to from there
     if world.time ~= before then last = last + (world.time - before) end
     if not step(stepping, last) then break end
+    before = world.time
     if hooks.listeners and #hooks.listeners > 0 then tell(hooks.listeners, events(stepping, hooks[1])) end
     call_observers(world, hooks.observers)
+    last = last + (world.time - before)
     if #(hooks.tasks or {}) > 64 then clear(hooks.tasks) end
   end
 end

@@ -36,11 +36,22 @@ return function(options)
   -- a short way has no room for the speed
   local length = height / speed + ramp
   local top = height / (length - ramp)
-  local function rise(time)
-    local part = math.min(1, (time + 0.0005) / ramp, (length - time) / ramp)
-    trial.root.base.velocity = {linear = direction * (top * part)}
+  -- as fast as in the middle of the step that comes
+  local function rise()
+    local began = trial.world.time
+    return trial.world:on_step(function(world, dt)
+      local time = world.time - began
+      local part = math.min(1, (time + dt / 2) / ramp, (length - time) / ramp)
+      trial.root.base.velocity = {linear = direction * (top * part)}
+    end)
   end
-  if add("gravity", trial:watch(0.2)) and add("lift", trial:watch(length, rise, 0.001)) then
+  local function lift()
+    local rising = rise()
+    local row = trial:watch(length)
+    rising:remove()
+    return row
+  end
+  if add("gravity", trial:watch(0.2)) and add("lift", lift()) then
     trial:halt()
     if hold > 0 then add("hold", trial:watch(hold)) end
   end

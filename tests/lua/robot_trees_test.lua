@@ -45,6 +45,11 @@ end)
 test("closing and approach are said by options, by name or number", function(t)
   t.ok(gripper {close = {left_slide = 1}}.dof_info[1].default_velocity > 0)
   t.ok(gripper {close = {-1}}.dof_info[1].default_velocity < 0)
+  -- a DOF of a name of digits is meant by the name alone
+  local hand = clench.world():add_robot("tests/data/urdf/digits.urdf", {close = {[1] = -1}})
+  t.equal({hand.dof_names[2], hand.dof_info[1].default_velocity, hand.dof_info[2].default_velocity}, {"1", -1.0, -1.0})
+  hand = clench.world():add_robot("tests/data/urdf/digits.urdf", {close = {["1"] = 1}})
+  t.equal({hand.dof_info[1].default_velocity, hand.dof_info[2].default_velocity}, {1.0, 1.0})
   local frame = clench.pose {xyz = {1, 2, 3}}
   t.ok(gripper {approach = {frame = frame}}.approach.frame == frame)
 end)

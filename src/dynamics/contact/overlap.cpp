@@ -14,7 +14,7 @@ std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, 
     }
   if (apart.norm() > threshold) ways.push_back(apart.normalized());
   const auto at = [&](const Eigen::Vector3d& way, double s) { return Pose{X_AB.rotation, X_AB.position + s * way}; };
-  for (double s = threshold / 2; s <= 128 * threshold; s *= 4) {
+  for (double s = threshold / 2; s <= deepest_parted * threshold; s *= 4) {
     std::optional<Pose> best;
     double least = 2 * s;
     for (const Eigen::Vector3d& way : ways) {

@@ -394,10 +394,10 @@ WorldSpec SceneReader::read() {
   const Worldbody& worldbody = model_.worldbody();
   const ReadOptions& options = cache_.options();
   const size_t trees = model_.joint_trees().size();
-  if (trees != 1 && (!options.closing.empty() || options.approach))
+  if (trees != 1 && (!options.closing.empty() || !options.closing_by_number.empty() || options.approach))
     fail("{}: {}: expected a file of one robot, got {}; world:add_robot with the option 'body' "
          "takes one of them",
-         model_.document().file(), options.closing.empty() ? "approach" : "close", trees);
+         model_.document().file(), options.closing.empty() && options.closing_by_number.empty() ? "approach" : "close", trees);
   for (const auto& [is_body, number] : worldbody.order) {
     if (is_body)
       add_body(worldbody.bodies[number]);

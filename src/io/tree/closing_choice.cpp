@@ -45,8 +45,8 @@ void slow_distal_joints(RobotSpec& robot) {
 void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions& options) {
   std::vector<std::string> names;
   for (const DofSpec& dof : robot.dofs) names.push_back(dof.name);
-  for (const auto& [key, sense] : options.closing) {
-    auto found = key.empty() ? names.end() : std::find(names.begin(), names.end(), key);
+  const auto choose = [&](const std::string& key, double sense, bool by_name) {
+    auto found = key.empty() || !by_name ? names.end() : std::find(names.begin(), names.end(), key);
     const auto number = parse_integer(key);
     if (found == names.end() && number && *number >= 1 && *number <= static_cast<int>(names.size()))
       found = names.begin() + (*number - 1);
@@ -56,7 +56,9 @@ void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions
     if (sense != 1 && sense != -1 && sense != 0)
       fail("{}: close: {}: expected 1, -1 or 0, got {}", file, key, sense);
     set_closing(robot, static_cast<int>(found - names.begin()), sense);
-  }
+  };
+  for (const auto& [key, sense] : options.closing) choose(key, sense, true);
+  for (const auto& [number, sense] : options.closing_by_number) choose(std::to_string(number), sense, false);
   if (options.approach) robot.X_BA = options.approach;
 }
 

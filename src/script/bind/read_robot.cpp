@@ -55,7 +55,11 @@ static void read_closing(lua_State* L, Table& options, ReadOptions& reading) {
     each_key(L, subject, [&](const std::string& key) {
       if (lua_type(L, -1) != LUA_TNUMBER)
         fail("{}: {}: expected 1, -1 or 0, got a {}", subject, key, luaL_typename(L, -1));
-      reading.closing[key] = lua_tonumber(L, -1);
+      const double sense = lua_tonumber(L, -1);
+      if (lua_isinteger(L, -2) && lua_tointeger(L, -2) == static_cast<int>(lua_tointeger(L, -2)))
+        reading.closing_by_number[static_cast<int>(lua_tointeger(L, -2))] = sense;
+      else
+        reading.closing[key] = sense;
     });
   } else if (type != LUA_TNIL) {
     fail_expected(options.what("close"), "a table such as {index = 1, [3] = -1}", -1);

@@ -29,6 +29,11 @@ int push(lua_State* L, int n) {
   return 1;
 }
 
+int push(lua_State* L, lua_Integer n) {
+  lua_pushinteger(L, n);
+  return 1;
+}
+
 int push(lua_State* L, std::string_view text) {
   lua_pushlstring(L, text.data(), text.size());
   return 1;

@@ -15,6 +15,7 @@ int push(lua_State* L, double x);
 int push_unbounded(lua_State* L, double x);  ///< of which infinity is a value, too
 int push(lua_State* L, bool b);
 int push(lua_State* L, int n);
+int push(lua_State* L, lua_Integer n);
 int push(lua_State* L, std::string_view text);
 int push(lua_State* L, const char* text);
 int push(lua_State* L, const Eigen::Vector3d& v);                 ///< a vec3

@@ -96,7 +96,7 @@ static int set_targets(lua_State* L) {
       continue;
     }
     DofControl& control = robot.world->edit_dynamics().controls[robot->first_dof + static_cast<size_t>(i)];
-    control = {.mode = ControlMode::position, .target = target, .trajectory = {}};
+    control = {.mode = ControlMode::position, .target = target, .effort = control.effort, .trajectory = {}};
   }
   return 0;
 }
@@ -106,8 +106,10 @@ static int set_target_velocities(lua_State* L) {
   const auto values = check_numbers(L, 2, "velocities", static_cast<int>(robot->dofs.size()));
   for (const double v : values) check(velocity_rule.called("velocity"), v, subject(L));
   DynamicState& state = robot.world->edit_dynamics();
-  for (size_t i = 0; i < values.size(); ++i)
-    state.controls[robot->first_dof + i] = {.mode = ControlMode::velocity, .velocity = values[i], .trajectory = {}};
+  for (size_t i = 0; i < values.size(); ++i) {
+    DofControl& control = state.controls[robot->first_dof + i];
+    control = {.mode = ControlMode::velocity, .velocity = values[i], .effort = control.effort, .trajectory = {}};
+  }
   return 0;
 }
 

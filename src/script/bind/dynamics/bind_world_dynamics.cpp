@@ -1,3 +1,4 @@
+#include "clench/dynamics/contact/overlap.h"
 #include "clench/dynamics/measure.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/script/bind/bind.h"
@@ -31,8 +32,8 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
     for (const Manifold& m : world.dynamics()->manifolds)
       if (m.clearance == 0) pairs.emplace_back(m.a, m.b);
     const std::string which = pairs.empty() ? "overlapped for a time" : "overlap (" + describe(world, pairs) + ")";
-    warn_once(L, &overlaps, fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps counts them",
-                                        subject(L), which));
+    warn_once(L, &overlaps, fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps counts them; what is deeper than {:.3g} m in each other stays there",
+                                        subject(L), which, deepest_parted * world.contact_threshold()));
   }
   if (report.failures > before.failures)
     warn_once(L, &failures, fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
@@ -87,12 +88,12 @@ static int get_report(lua_State* L) {
   const DynamicState* state = world_of(L).dynamics();
   const StepReport report = state ? state->report : StepReport{};
   push_list(L, 0, 9);
-  set_field(L, "steps", static_cast<int>(report.steps));
-  set_field(L, "impacts", static_cast<int>(report.impacts));
-  set_field(L, "iterations", static_cast<int>(report.iterations));
-  set_field(L, "fallbacks", static_cast<int>(report.fallbacks));
-  set_field(L, "failures", static_cast<int>(report.failures));
-  set_field(L, "overlaps", static_cast<int>(report.overlaps));
+  set_field(L, "steps", static_cast<lua_Integer>(report.steps));
+  set_field(L, "impacts", static_cast<lua_Integer>(report.impacts));
+  set_field(L, "iterations", static_cast<lua_Integer>(report.iterations));
+  set_field(L, "fallbacks", static_cast<lua_Integer>(report.fallbacks));
+  set_field(L, "failures", static_cast<lua_Integer>(report.failures));
+  set_field(L, "overlaps", static_cast<lua_Integer>(report.overlaps));
   set_field(L, "residual", report.residual);
   set_field(L, "max_residual", report.max_residual);
   set_field(L, "contacts", report.contacts);
@@ -224,7 +225,7 @@ contacts by another library; `cone`: friction cones are "round", or a "pyramid" 
      guarded<set_dynamics>},
     {"report", guarded<get_report>, R"(
 What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took
-(`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to 1e-9 m/s),
+(`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to 1e-9 m/s, or 1e-8 m/s of what rests),
 pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have
 as velocities [m/s].
 @type {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number}
@@ -253,7 +254,10 @@ The second half of a step: the velocities that contacts, forces, motors and limi
     {"clear_forces", guarded<clear_forces>, R"(
 Takes back what `apply_force` and `apply_torque` gave for the next step.
 > flask:apply_force({0, 0, 1})
-> world:clear_forces())"},
+> world:clear_forces()
+> world.gravity = {0, 0, 0}
+> world:run(0.001)
+> flask.velocity.linear  --> (0, 0, 0))"},
     {"momentum", guarded<get_momentum>, R"(
 Of all objects and robots; the angular one about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
