@@ -196,6 +196,18 @@ test("a study begins at rest, whatever moved before, and the base stands still w
   t.ok(world:hash() == before and flask.velocity.linear.z == 1 and hand.base.velocity.linear.z == 0.1)
 end)
 
+test("a verdict says what was lost", function(t)
+  local hand, flask = closed_on_flask()
+  local options = {hand = hand, object = flask, force = 300, mass = 0.1, seconds = 0.2, settle = 0.1, grip_seconds = 0.1}
+  local verdict = clench.study.shake(options)
+  local lost = {}
+  for _, row in ipairs(verdict.directions) do
+    if not row.held then lost[#lost + 1] = row.direction end
+  end
+  t.ok(#lost > 0)
+  t.ok(tostring(verdict):find(("lost along %s: "):format(table.concat(lost, ", ")), 1, true), tostring(verdict))
+end)
+
 test("a trial that is halted stands still", function(t)
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
   local hand, flask = closed_on_flask()

@@ -3,8 +3,20 @@ local verdict = {}
 
 local Verdict = {__name = "verdict"}
 
+-- " along +x, -y", " in lift": what was not held of what was asked
+local function where_lost(self)
+  local names = {}
+  for _, key in ipairs {"rows", "directions", "axes"} do
+    for _, row in ipairs(self[key] or {}) do
+      if not row.held then names[#names + 1] = row.phase or row.direction or row.axis end
+    end
+  end
+  if not self.settled.held then return " while it was gripped" end
+  return (self.rows and " in " or " along ") .. table.concat(names, ", ")
+end
+
 function Verdict:__tostring()
-  return ("%s: %s"):format(self.survived and "survived" or "lost", self.protocol)
+  return ("%s: %s"):format(self.survived and "survived" or "lost" .. where_lost(self), self.protocol)
 end
 
 ---@param asked string  what was done, in a few words

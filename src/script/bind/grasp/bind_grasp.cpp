@@ -270,7 +270,7 @@ static int is_force_closure(lua_State* L) {
 static int grasp_text(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   const std::string text = fmt::format("grasp of {} contacts, epsilon {:.6g}",
-                                       g.grasp.contacts.size(), space_of(g.grasp)->epsilon());
+                                       g.grasp.points.size(), space_of(g.grasp)->epsilon());
   return push(L, text);
 }
 
