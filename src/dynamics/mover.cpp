@@ -47,18 +47,22 @@ Mover::Mover(World& world, const System& system) : world_(world) {
                            from(state.joint_velocities, robot.first_joint, robot.joints.size())});
       if (!robot.mounting && machines_.back().rests()) machines_.pop_back();
     }
-  find_carriers();
+  find_carriers(system);
 }
 
-// Of all that a free body is pressed to, beginning with what is not free, that along which it slips the least; none where that stands still
-// or only moves straight.
-void Mover::find_carriers() {
+// What turns otherwise than its carrier, by this part of that, rolls on it.
+static constexpr double turns_along = 0.01;
+
+// Of all that a free body is pressed to, beginning with what is not free, that along which it slips the least; none where it does not turn
+// along with that.
+void Mover::find_carriers(const System& system) {
   const DynamicState& state = *world_.dynamics();
-  const auto turns = [&](Id<Body> id) { return !state.twists[id.index].angular.isZero(0); };
-  const auto part_of = [&](Id<Body> id) {
-    return std::ranges::find_if(parts_, [&](const Part& part) { return part.inertia && part.body == id; });
+  if (std::ranges::all_of(state.twists, [](const Twist& twist) { return twist.angular.isZero(0); })) return;
+  // of bodies that are welded together the first
+  const auto whole = [&](Id<Body> id) {
+    const int tree = system.place(id).tree;
+    return tree >= 0 && system.trees[tree].is_free_body() && system.trees[tree].robots.empty() ? system.trees[tree].root : id;
   };
-  if (std::ranges::none_of(world_.bodies(), [&](Id<Body> id) { return turns(id) && part_of(id) == parts_.end(); })) return;
   struct Press {
     Id<Body> a, b;
     Eigen::Vector3d p_W;
@@ -67,7 +71,7 @@ void Mover::find_carriers() {
   for (const Manifold& m : state.manifolds) {
     const auto point = std::ranges::max_element(m.points, {}, [](const ManifoldPoint& p) { return p.force.squaredNorm(); });
     if (point == m.points.end() || point->force.isZero(0)) continue;
-    presses.push_back({m.a, m.b, world_.pose(m.a) * point->p_a});
+    presses.push_back({whole(m.a), whole(m.b), world_.pose(m.a) * point->p_a});
   }
   const auto velocity = [&](Id<Body> id, const Eigen::Vector3d& p_W) -> Eigen::Vector3d {
     const Twist twist = world_.twist(id);
@@ -92,11 +96,12 @@ void Mover::find_carriers() {
         continue;
       }
       const Id<Body> to = best->a == part.body ? best->b : best->a;
-      if (turns(to)) {
+      const Eigen::Vector3d turning = state.twists[to.index].angular, apart = part.twist.angular - turning;
+      if (apart.norm() < turns_along * turning.norm()) {
         part.carrier = to, part.X_WC = world_.pose(to);
         const Eigen::Matrix3d into = part.X_WC.rotation.conjugate().toRotationMatrix();
         part.relative = {into * (part.twist.linear - velocity(to, part.X_WB * part.com)),
-                         into * (part.twist.angular - state.twists[to.index].angular)};
+                         into * apart};
       }
       found.push_back(part);
     }

@@ -1,5 +1,5 @@
 // A world along the motion of one step: where everything is at a time, were it to go on with the velocities that it has. What is pressed
-// to something that turns has its velocity relative to that: along the tangent it would come away from the arc, step by step.
+// to something and turns along with it has its velocity relative to that: along the tangent it would come away from the arc, step by step.
 #pragma once
 #include <optional>
 
@@ -29,7 +29,7 @@ class Mover {
     Twist relative = {};                   // to that, at com, in its axes
   };
   static Part free_part(const World& world, const Articulation& tree);
-  void find_carriers();
+  void find_carriers(const System& system);
   struct Machine {  // a robot
     Id<Robot> robot;
     Pose X_WB;  // of its base, when nobody carries it

@@ -13,6 +13,8 @@ test("a box stays where it is on a turntable", function(t)
     local disc = table_top(world, {material = "wood"})
     local low = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1, material = "wood", pose = {xyz = {0.5, 0, 0.05003}}})
     local high = world:add_object(clench.shapes.box {0.06, 0.06, 0.06}, {mass = 0.5, material = "wood", pose = {xyz = {0.51, 0, 0.13006}}})
+    local hat = world:add_object(clench.shapes.box {0.02, 0.02, 0.02}, {mass = 0.1, pose = {xyz = {0.5, 0, 0.11}}})
+    hat:weld(low)
     disc.velocity = {angular = {0, 0, 2}}
     for _, box in ipairs {low, high} do box.velocity = {linear = {0, 2 * box.pose.position.x, 0}, angular = {0, 0, 2}} end
     world:run(0.5)
