@@ -49,6 +49,7 @@ void Stepper::find_times(const std::vector<Island>& islands, double h) {
   const double whole = std::max(h, world_.dynamics()->asked);
   tree_times_.assign(trees_.size(), h);
   for (Block& block : blocks_) block.time = h;
+  if (h == whole) return;
   for (const Island& island : islands) {
     if (std::ranges::none_of(island.blocks, [&](int i) { return blocks_[i].meets; })) continue;
     for (const int i : island.blocks) blocks_[i].time = whole;

@@ -102,7 +102,6 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const Eigen::Vector3d normal = touch.frame.col(0), belt = surface_velocity(m.b) - surface_velocity(m.a);
   const Eigen::Vector3d prescribed =
       prescribed_velocity(m.b, touch.p_W) - prescribed_velocity(m.a, touch.p_W) + belt - belt.dot(normal) * normal;
-  const Eigen::Vector3d turning = prescribed_turning(m.b) - prescribed_turning(m.a);
   for (int side = 0; side < 2; ++side) {
     const System::Place place = system_.place(bodies[side]);
     if (place.tree < 0 || system_.trees[place.tree].size() == 0) continue;
@@ -126,7 +125,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   std::array<double, 4> before;
   for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : p.torsion_radius * normal.dot(turning);
+    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : p.torsion_radius * normal.dot(prescribed_turning(m.b) - prescribed_turning(m.a));
     before[k] = q;
     for (int side = 0; side < 2; ++side)
       if (const int t = block.tree[side]; t >= 0) {

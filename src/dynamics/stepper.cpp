@@ -125,15 +125,14 @@ double Stepper::move(double dt) {
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
     const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
-    const double chord = displacement(before, X_AB, *world_.body(m.b).shape);
     // the bound holds on the whole way, which is longer than the chord of a turn
     const bool far = turns_far(world_, m, dt);
-    const double way = far ? dt * (max_speed(world_, m.a) + max_speed(world_, m.b)) : chord;
-    if (!may_have_met(world_, m, X_AB) &&
-        !(far && displacement(m.X_AB, before, *world_.body(m.b).shape) + way >= m.clearance))
+    const double arc = far ? dt * (max_speed(world_, m.a) + max_speed(world_, m.b)) : 0;
+    if (!may_have_met(world_, m, X_AB) && !(far && displacement(m.X_AB, before, *world_.body(m.b).shape) + arc >= m.clearance))
       continue;
     suspects.push_back(i);
     if (m.clearance == 0) continue;  // they overlap: nothing to stop
+    const double way = far ? arc : displacement(before, X_AB, *world_.body(m.b).shape);
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
     const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
     if (way <= thin) {
