@@ -7,12 +7,6 @@
 namespace clench {
 
 void Stepper::solve_by_ode(double h) {
-  const DynamicSettings& settings = world_.dynamic_settings();
-  const auto belt = [&](Id<Body> id) {
-    const auto found = settings.surface_velocities.find(id);
-    return found == settings.surface_velocities.end() ? Eigen::Vector3d(0, 0, 0)
-                                                      : Eigen::Vector3d(world_.pose(id).rotation * found->second);
-  };
   std::vector<OdeContact> contacts;
   for (const Block& block : blocks_) {
     if (block.row >= 0) continue;
@@ -21,7 +15,9 @@ void Stepper::solve_by_ode(double h) {
     OdeContact contact{.a = touch.a, .b = touch.b, .p_W = touch.p_W, .frame = touch.frame, .mu = block.law.mu};
     if (block.law.tangents == 3) contact.spin_radius = block.law.mu * p.torsion_radius;
     contact.target = touch.target;
-    contact.surface_velocity = belt(touch.b) - belt(touch.a);
+    // a surface runs along itself
+    const Eigen::Vector3d normal = touch.frame.col(0), belt = surface_velocity(touch.b) - surface_velocity(touch.a);
+    contact.surface_velocity = belt - belt.dot(normal) * normal;
     const int linear = std::min(block.law.size(), 3);
     contact.free_velocity.head(linear) = Eigen::Map<const Eigen::VectorXd>(q_.data() + block.law.row, linear);
     contacts.push_back(contact);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "clench/base/error.h"
 #include "clench/dynamics/contact/ball_contact.h"
@@ -121,7 +122,8 @@ double Stepper::move(double dt) {
   std::vector<PairBound> watches;
   std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
   std::vector<std::pair<int, Manifold>> measured;
-  double least = 1e-9 * dt;  // that passes, of pairs that start with a gap, as they may meet at any time
+  // what passes at least: next to nothing where all start with a gap, as they may meet at any time
+  std::optional<double> least;
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
     const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
@@ -153,7 +155,7 @@ double Stepper::move(double dt) {
       }
     }
     // those within the threshold already get on, by a hundredth of a step, but not through each other
-    if (touching) least = std::max(least, std::min(0.01 * world_.dynamic_settings().step, dt * thin / way));
+    if (touching) least = std::min({least.value_or(dt), 0.01 * world_.dynamic_settings().step, dt * thin / way});
     if (has_ball(world_, m))
       balls.push_back({i, 1.1 * way / dt});
     else
@@ -167,7 +169,7 @@ double Stepper::move(double dt) {
     passed = advance.s;
   }
   if (!balls.empty() || !watches.empty()) {
-    passed = std::clamp(passed, std::min(dt, least), dt);
+    passed = std::clamp(passed, std::min(dt, least.value_or(1e-9 * dt)), dt);
     if (passed < dt) ++state.report.impacts;
   }
   mover.finish(passed);

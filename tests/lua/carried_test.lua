@@ -166,3 +166,17 @@ test("what is welded to something that stands stands at once", function(t)
   t.equal(box.velocity.linear:norm(), 0.0)
   t.equal(world:energy().kinetic, 0.0)
 end)
+
+test("what does not bounce does not bounce where something slows it down, either", function(t)
+  local world = clench.world {gravity = {0, 0, 0}}
+  table_top(world, {})
+  local ball = world:add_object(clench.shapes.sphere {radius = 0.02}, {mass = 1, pose = {xyz = {0, 0, 0.03}}})
+  ball.velocity = {linear = {0, 0, -1}}
+  local after
+  world:on_step(function()
+    if ball.velocity.linear.z > -0.5 then after = after or ball.velocity.linear.z end
+    ball:apply_force {0, 0, 20}
+  end)
+  world:run(0.015)
+  t.close(after, 0, 1e-9)
+end)

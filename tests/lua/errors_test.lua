@@ -101,3 +101,12 @@ test("a function of a module that is called with a colon is told so", function(t
   t.fails(function() return clench.csv:read "a.csv" end, "got clench.csv, " .. dot)
   t.fails(function() return clench.load(setmetatable({}, {__name = "clenched"})) end, "got a table")
 end)
+
+test("what the standard library requires of the engine bears what a stranger gives it", function(t)
+  local raise, suggest = require "clench.raise", require "clench.suggest"
+  t.equal(suggest("abc", 3), "")
+  t.equal(suggest(nil, {"abc"}), "")
+  t.equal(suggest("abcd", {"abce", {}}), "; did you mean 'abce'?")
+  t.fails(function() raise() end, "expected a string, got nothing")
+  t.fails(function() raise("x", "odd") end, "expected a kind of errors, got 'odd'")
+end)

@@ -10,7 +10,7 @@ namespace clench {
 
 // raise(sentence, kind): an error at the script's line, "input" unless a kind is given
 static int raise(lua_State* L) {
-  throw Error(std::string(string_at(L, 1)), lua_isnoneornil(L, 2) ? ErrorKind::input : error_kind(string_at(L, 2)));
+  throw Error(check_string(L, 1), given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
 }
 
 // script_line(): "a.lua:3: ", where the script called into the standard library, or ""
@@ -22,7 +22,8 @@ static int script_line(lua_State* L) {
 // suggest(name, known): "; did you mean 'count'?", or "" when none is near; nothing is near what is no string
 static int suggest(lua_State* L) {
   std::vector<std::string> known;
-  for (lua_Integer i = 1; lua_type(L, 1) == LUA_TSTRING && lua_rawgeti(L, 2, i) == LUA_TSTRING; ++i) {
+  const bool named = lua_type(L, 1) == LUA_TSTRING && lua_istable(L, 2);
+  for (lua_Integer i = 1; named && lua_rawgeti(L, 2, i) == LUA_TSTRING; ++i) {
     known.emplace_back(string_at(L, -1));
     lua_pop(L, 1);
   }
