@@ -10,7 +10,9 @@ namespace clench {
 
 // raise(sentence, kind): an error at the script's line, "input" unless a kind is given
 static int raise(lua_State* L) {
-  throw Error(check_string(L, 1), given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
+  // a name that a script gave may have zero bytes
+  const std::string sentence = lua_type(L, 1) == LUA_TSTRING ? std::string(string_at(L, 1)) : check_string(L, 1);
+  throw Error(sentence, given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
 }
 
 // script_line(): "a.lua:3: ", where the script called into the standard library, or ""
