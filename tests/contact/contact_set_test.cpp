@@ -212,6 +212,21 @@ TEST_CASE("a face offset over a face touches at the outline of the overlap") {
     }
 }
 
+TEST_CASE("faces whose edges lie above each other touch along their normal, not aslant from edge to edge") {
+  const auto box = shape(test::box(0.06, 0.06, 0.06));
+  const double gap = 2.5e-5;
+  // aside by less than a thirtieth of the gap, in each direction and in both
+  for (const double aside : {2e-9, 2e-8, 2e-7, 6e-7})
+    for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(1, 1, 0), Vector3d(-1, 0.5, 0)}) {
+      const auto touches = contact_set(*box, *box, Pose::translation(Vector3d(0, 0, 0.06 + gap) + aside * way));
+      CHECK(touches.size() == 4);
+      for (const Touch& touch : touches) {
+        CHECK((touch.normal_b - Vector3d::UnitZ()).norm() < 1e-9);  // rounding of 1e-17 m in 25 um
+        CHECK(std::abs(touch.gap - gap) < 1e-15);
+      }
+    }
+}
+
 TEST_CASE("a cylinder lying on a plane touches at the two ends of its line") {
   const auto plane = shape(floor_mesh);
   for (const int sides : {12, 48, 400}) {

@@ -1,4 +1,4 @@
--- What is pressed to something that moves goes along with it; forces, energies and runs beside impacts and snapshots.
+-- What is pressed to something goes along with it, or slides straight; forces, energies and runs beside impacts and snapshots.
 local test, clench = require "test", require "clench"
 
 local function table_top(world, options)
@@ -179,4 +179,29 @@ test("what does not bounce does not bounce where something slows it down, either
   end)
   world:run(0.015)
   t.close(after, 0, 1e-9)
+end)
+
+test("a cube that slips between two pads slides straight down", function(t)
+  -- faces of one size, whose edges lie above each other, and tilt by next to nothing
+  for _, options in ipairs {{}, {time_step = 1e-4}, {engine = "ode"}} do
+    for _, force in ipairs {9.9, 9.75, 9.5} do
+      local world = clench.load "tests/data/mjcf/pads.xml"
+      world.dynamics = options
+      local pads, cube = world.robots[1], world.objects[1]
+      world.gravity = {0, 0, 0}
+      pads.controller = "effort"
+      pads:set_forces {force, force}
+      world:run(0.5)
+      world.gravity = {0, 0, -9.81}
+      local fastest = 0
+      world:on_step(function() fastest = math.max(fastest, cube.velocity.angular:norm()) end)
+      world:run(0.5)
+      -- mu = 0.5 at both pads
+      local acceleration = math.max(0, 9.81 - force)
+      -- the pads take a step or two to press as much as they do; a load on few of the corners turns the cube by 0.1 to 10 rad/s
+      t.close(cube.velocity.linear.z, -0.5 * acceleration, 1e-4)
+      t.ok(fastest < 1e-3, fastest)
+      t.equal(world.report.failures, 0)
+    end
+  end
 end)

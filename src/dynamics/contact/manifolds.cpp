@@ -107,17 +107,38 @@ static void find_patches(const World& world, const Manifold& m, std::vector<Mani
   }
 }
 
+// Directions whose cosine is larger are taken for one: to 4.5e-5 rad.
+static constexpr double one_direction = 1 - 1e-9;
+
 // Where a point lies within a face the direction is that face's normal: taken from there all points of the face have the same one
 // to the bit, while the way between two points a gap apart rounds to some 1e-11.
 static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_AB, const Touch& touch) {
-  constexpr double same = 1 - 1e-9;
   const auto face = [](const Shape& shape, const Feature& at) { return face_normal(shape.mesh().corners(at.first)); };
   Eigen::Vector3d normal = touch.normal_b;
   if (touch.feature_a.kind == Feature::triangle)
     normal = face(a, touch.feature_a);
   else if (touch.feature_b.kind == Feature::triangle)
     normal = -(X_AB.rotation * face(b, touch.feature_b));
-  return normal.dot(touch.normal_b) > same ? normal : touch.normal_b;
+  return normal.dot(touch.normal_b) > one_direction ? normal : touch.normal_b;
+}
+
+// Faces that lie on each other are parallel but for a tiny tilt, and touch along the one's normal here, along the other's there; at
+// edges that lie above each other the way between them is all but theirs. Sliding by v along one direction opens what touches along
+// another by v times the tilt, which rigid bodies can follow at few of the points only: one normal serves all.
+static void share_normals(std::vector<ManifoldPoint>& points) {
+  const auto share = [&](size_t i, const auto& may_lend) {
+    for (size_t k = 0; k < points.size(); ++k)
+      if (k != i && may_lend(k) && points[k].normal.dot(points[i].normal) > one_direction) {
+        points[i].normal = points[k].normal;
+        return;
+      }
+  };
+  const auto on_face = [&](size_t k) {
+    return points[k].feature_a.kind == Feature::triangle || points[k].feature_b.kind == Feature::triangle;
+  };
+  for (size_t i = 0; i < points.size(); ++i)
+    if (!on_face(i)) share(i, on_face);
+  for (size_t i = 1; i < points.size(); ++i) share(i, [&](size_t k) { return k < i; });
 }
 
 void measure(World& world, Manifold& m) {
@@ -162,6 +183,7 @@ void measure(World& world, Manifold& m) {
     inherit(points, m.points);
     points.insert(points.end(), pressing.begin(), pressing.end());
   }
+  share_normals(points);
   m.points = std::move(points);
 }
 

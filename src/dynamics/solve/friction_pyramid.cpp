@@ -1,5 +1,6 @@
 #include "clench/dynamics/solve/friction_pyramid.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -96,6 +97,21 @@ Complementarity put_together(const ScaledFriction& problem, const std::vector<Ma
   return c;
 }
 
+// What is above 0 stays so, and its velocities become 0 in steps that change it as little as can be.
+template <typename Velocities>
+void take_damping_away(const MatrixXd& damped, const Velocities& velocities, VectorXd& z) {
+  std::vector<int> above;
+  for (int i = 0; i < z.size(); ++i)
+    if (z[i] > 0) above.push_back(i);
+  if (above.empty()) return;
+  const Eigen::PartialPivLU<MatrixXd> factors(damped(above, above));
+  for (int round = 0; round < 3; ++round) {
+    const VectorXd next = z(above) - factors.solve(velocities(z)(above));
+    if (!(next.minCoeff() >= 0)) return;
+    z(above) = next;
+  }
+}
+
 }  // namespace
 
 PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& centre,
@@ -125,13 +141,16 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   }
   const MatrixXd M = c.rows.transpose() * S * c.rows + c.coupling;
   const VectorXd q = c.rows.transpose() * (S * c.start + pulled) + c.offset;
-  const LcpSolution lcp = solve_lcp(M, q);
+  LcpSolution lcp = solve_lcp(M, q);
   PyramidSolution solution;
   solution.found = lcp.status == LcpStatus::solved;
-  solution.r = c.start + c.rows * lcp.z;
   solution.iterations = lcp.iterations;
-  // measured without the damping
-  const VectorXd w = c.rows.transpose() * (problem.S * solution.r + problem.q) + c.coupling * lcp.z + c.offset;
+  const auto without_damping = [&](const VectorXd& z) -> VectorXd {
+    return c.rows.transpose() * (problem.S * (c.start + c.rows * z) + problem.q) + c.coupling * z + c.offset;
+  };
+  if (solution.found) take_damping_away(M, without_damping, lcp.z);
+  solution.r = c.start + c.rows * lcp.z;
+  const VectorXd w = without_damping(lcp.z);
   for (int i = 0; i < w.size(); ++i)
     solution.residual = std::max(solution.residual, std::abs(std::min(lcp.z[i], w[i])) * c.units[i]);
   const VectorXd u = problem.S * solution.r + problem.q;
