@@ -57,7 +57,8 @@ static constexpr double turns_along = 0.01;
 // along with that.
 void Mover::find_carriers(const System& system) {
   const DynamicState& state = *world_.dynamics();
-  if (std::ranges::all_of(state.twists, [](const Twist& twist) { return twist.angular.isZero(0); })) return;
+  // one that carries and one that goes along
+  if (std::ranges::count_if(state.twists, [](const Twist& twist) { return !twist.angular.isZero(0); }) < 2) return;
   // of bodies that are welded together the first
   const auto whole = [&](Id<Body> id) {
     const int tree = system.place(id).tree;

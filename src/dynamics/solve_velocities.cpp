@@ -45,12 +45,12 @@ void Stepper::find_free_velocities(double h) {
 }
 
 // An impulse of bodies that meet at the end of a step cut short, and of all that touches them, is no force of that short time.
-void Stepper::find_times(const std::vector<Island>& islands, double h) {
+void Stepper::find_times(double h) {
   const double whole = std::max(h, world_.dynamics()->asked);
   tree_times_.assign(trees_.size(), h);
   for (Block& block : blocks_) block.time = h;
   if (h == whole) return;
-  for (const Island& island : islands) {
+  for (const Island& island : islands_) {
     if (std::ranges::none_of(island.blocks, [&](int i) { return blocks_[i].meets; })) continue;
     for (const int i : island.blocks) blocks_[i].time = whole;
     for (const int t : island.trees) tree_times_[t] = whole;
@@ -126,15 +126,15 @@ void Stepper::solve_found(double h) {
   update_manifolds();
   find_rows(h);
   r_.setZero(row_count_);
-  const std::vector<Island> islands = find_islands();
+  find_islands();
   if (world_.dynamic_settings().engine == DynamicsEngine::ode) {
     solve_by_ode(h);
   } else {
     resting_.assign(trees_.size(), false);
-    for (const Island& island : islands) solve_island(island);
+    for (const Island& island : islands_) solve_island(island);
     apply_impulses();
   }
-  find_times(islands, h);
+  find_times(h);
   keep();
 }
 

@@ -14,34 +14,37 @@ static constexpr double tolerance = 1e-12, failed_above = 1e-9;
 // its forces stay. In a step of 1 ms that is a millionth of gravity [m/s, rad/s].
 static constexpr double rest_speed = 1e-7, rest_tolerance = 1e-8;
 
-std::vector<Stepper::Island> Stepper::find_islands() const {
-  std::vector<int> leader(trees_.size());
-  std::iota(leader.begin(), leader.end(), 0);
+void Stepper::find_islands() {
+  const size_t trees = trees_.size();
+  leader_.resize(trees);
+  std::iota(leader_.begin(), leader_.end(), 0);
   const auto find = [&](int t) {
-    while (leader[t] != t) t = leader[t] = leader[leader[t]];
+    while (leader_[t] != t) t = leader_[t] = leader_[leader_[t]];
     return t;
   };
   for (const Block& block : blocks_)
     if (block.tree[0] >= 0 && block.tree[1] >= 0) {
       const int a = find(block.tree[0]), b = find(block.tree[1]);
-      leader[std::max(a, b)] = std::min(a, b);
+      leader_[std::max(a, b)] = std::min(a, b);
     }
-  std::vector<int> island_of(trees_.size(), -1);
-  std::vector<Island> islands;
+  island_of_.assign(trees, -1);
+  // those of the last step keep their room
+  size_t count = 0;
   for (size_t i = 0; i < blocks_.size(); ++i) {
     const int tree = blocks_[i].tree[0] >= 0 ? blocks_[i].tree[0] : blocks_[i].tree[1];
     if (tree < 0) continue;
-    int& island = island_of[find(tree)];
+    int& island = island_of_[find(tree)];
     if (island < 0) {
-      island = static_cast<int>(islands.size());
-      islands.emplace_back();
+      island = static_cast<int>(count++);
+      if (islands_.size() < count) islands_.emplace_back();
+      islands_[island].blocks.clear(), islands_[island].trees.clear();
     }
-    islands[island].blocks.push_back(static_cast<int>(i));
+    islands_[island].blocks.push_back(static_cast<int>(i));
   }
-  for (size_t t = 0; t < trees_.size(); ++t)
-    if (const int island = island_of[find(static_cast<int>(t))]; island >= 0 && !tree_rows_[t].rows.empty())
-      islands[island].trees.push_back(static_cast<int>(t));
-  return islands;
+  islands_.resize(count);
+  for (size_t t = 0; t < trees; ++t)
+    if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0 && !tree_rows_[t].rows.empty())
+      islands_[island].trees.push_back(static_cast<int>(t));
 }
 
 // Do the forces of the last step hold what rests? Answered by the velocities that they leave, without the matrix of the problem.

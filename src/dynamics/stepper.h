@@ -71,13 +71,13 @@ class Stepper {
   void add_row(int row, double h);
   int add_columns(int tree, int count);
   void find_rows(double h);
-  std::vector<Island> find_islands() const;
+  void find_islands();
   bool holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution);
   void assemble(const Island& island, int count);
   void solve_island(const Island& island);
   void apply_impulses();
   void solve_by_ode(double h);
-  void find_times(const std::vector<Island>& islands, double h);
+  void find_times(double h);
   void keep();
   void disengage();
 
@@ -91,6 +91,8 @@ class Stepper {
   std::vector<CoordinateRow> coordinate_rows_;
   std::vector<Touch> touches_;
   std::vector<Block> blocks_;
+  std::vector<Island> islands_;
+  std::vector<int> leader_, island_of_;  // by tree
   Eigen::VectorXd v_, v_before_, r_, compliance_;
   std::vector<int> rows_;   // of the island that is solved
   std::vector<int> local_;  // of all rows: which one of its island's problem it is
