@@ -718,7 +718,7 @@ function world_settings:set_collision(on, a, b) end
 ---Sets the Coulomb coefficients of a pair of materials; new names become materials.
 ---@param a string
 ---@param b string
----@param friction {static: number, kinetic?: number, restitution?: number} # kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
+---@param friction number|{static: number, kinetic?: number, restitution?: number} # a number is both coefficients; kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 function world_settings:set_friction(a, b, friction) end
 
 ---The coefficients of a pair of materials.
@@ -901,8 +901,8 @@ function joint_dynamics:inverse_dynamics(accelerations) end
 ---@field floating boolean # Is its base free to move? Else it stands, or moves as its velocity says.
 local robot_dynamics = {}
 
----What each motor gives from now on: beside what its controller does, or alone with the controller "none".
----@param forces number[] # one per DOF [N m or N]
+---What each motor gives from now on: beside what its controller does, or alone with the controller "none". DOFs that a table by names leaves out keep what they had.
+---@param forces number[]|table<string, number> # [N m or N]
 function robot_dynamics:set_forces(forces) end
 
 ---Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table by names leaves out go on as they did.
@@ -910,8 +910,8 @@ function robot_dynamics:set_forces(forces) end
 ---@param options? {velocity?: number} # the largest on the way [rad/s or m/s]
 function robot_dynamics:set_targets(dofs, options) end
 
----The velocities that its motors are to keep.
----@param velocities number[] # [rad/s or m/s]
+---The velocities that its motors are to keep. DOFs that a table by names leaves out go on as they did.
+---@param velocities number[]|table<string, number> # [rad/s or m/s]
 function robot_dynamics:set_target_velocities(velocities) end
 
 ---Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which it was to close?

@@ -170,6 +170,28 @@ static const std::string trust =
     "have regular files read that they name, with --confine only those below FOLDER. See "
     "docs/guide/trust.md.";
 
+// What neither the program nor the verb that was read takes: the first of it, and the option that it may have meant.
+static int refuse_extra(const CLI::App& app) {
+  const auto verbs = app.get_subcommands();
+  const CLI::App& verb = verbs.empty() ? app : *verbs.front();
+  const auto extras = app.remaining(true);
+  // an option rather than what would have been its value
+  const auto option = std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with('-'); });
+  const std::string word = option != extras.end() ? *option : extras.front();
+  std::vector<std::string> known;
+  for (const CLI::App* of : {&app, &verb})
+    for (const CLI::Option* one : of->get_options())
+      for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
+  const std::string name = verbs.empty() ? "clench" : "clench " + verb.get_name();
+  if (option != extras.end())
+    std::fprintf(stderr, "%s: there is no option '%s'%s\n", name.c_str(), word.c_str(),
+                 did_you_mean(word.substr(0, word.find('=')), known).c_str());
+  else
+    std::fprintf(stderr, "%s: one argument too many: '%s'\n", name.c_str(), word.c_str());
+  std::fprintf(stderr, "Run %s --help for more information.\n", name.c_str());
+  return 2;
+}
+
 static int main_of(int argc, char** argv) {
   CommandLine line = split(argc, argv);
   CLI::App app("Clench closes robot hands on objects and judges the grasps.", "clench");
@@ -248,7 +270,8 @@ static int main_of(int argc, char** argv) {
     verb->fallthrough();
 
   if (!line.ours.empty()) {
-    const std::string& first = line.ours.front();
+    std::string& first = line.ours.front();
+    if (first == "help" || first == "version") first.insert(0, "--");
     std::vector<std::string> verbs;
     for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
     if (first.front() != '-' && std::ranges::find(verbs, first) == verbs.end()) {
@@ -263,6 +286,8 @@ static int main_of(int argc, char** argv) {
     // it takes the words from the back
     std::vector<std::string> words(line.ours.rbegin(), line.ours.rend());
     app.parse(words);
+  } catch (const CLI::ExtrasError&) {
+    return refuse_extra(app);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
@@ -278,11 +303,18 @@ static int main_of(int argc, char** argv) {
   if (doc_verb->parsed()) return write_docs(doc_folder, check);
   const bool nothing =
       !run_verb->parsed() && !repl_verb->parsed() && run.code.empty() && interactive.empty();
+  // clench < script.lua, as Lua does; in the background there is no input
+  bool piped = false;
   if (nothing && !isatty(STDIN_FILENO)) {
+    const int first = std::getc(stdin);
+    piped = first != EOF && std::ungetc(first, stdin) == first;
+  }
+  if (piped) run.file = "-";
+  if (nothing && !piped && !isatty(STDIN_FILENO)) {
     std::fputs(app.help().c_str(), stdout);
     return 0;
   }
-  run.console = repl_verb->parsed() || !interactive.empty() || nothing;
+  run.console = repl_verb->parsed() || !interactive.empty() || (nothing && !piped);
   if (run.file.empty()) run.file = interactive;
   return run_scripts(run);
 }

@@ -9,12 +9,13 @@ namespace clench {
 static void check_weld(const World& world, Id<Body> object, Id<Body> to) {
   const std::string name = excerpt(world.body(object).name);
   if (world.body(object).kind != BodyKind::object) fail("expected an object to weld, got '{}'", name);
+  if (object == to) fail("'{}' cannot be welded to itself", name);
   const auto& welds = world.dynamic_settings().welds;
   if (const auto old = welds.find(object); old != welds.end())
     fail("'{}' is welded to '{}' already", name, excerpt(world.body(old->second).name));
   Id<Body> carrier = to;
   for (auto next = welds.find(carrier); next != welds.end(); next = welds.find(carrier)) carrier = next->second;
-  if (carrier == object) fail("'{}' hangs on '{}'", excerpt(world.body(to).name), name);
+  if (carrier == object) fail("'{}' is welded to '{}' already", excerpt(world.body(to).name), name);
 }
 
 void weld(World& world, Id<Body> object, Id<Body> to) {

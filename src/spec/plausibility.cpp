@@ -52,13 +52,24 @@ static bool inertia_is_larger(const BodySpec& body) {
   return body.inertia_per_mass->diagonal().maxCoeff() > 4 * r * r;
 }
 
-/// Is it ten times denser than any metal, or lighter than air, by the volume of its surface? Motors that lie elsewhere, and
-/// surfaces that are thinner than the thing, explain less.   returns  its density; else 0 [kg/m^3]
-static double strange_density(const BodySpec& body) {
-  constexpr double heaviest = 250'000, lightest = 1;  // osmium has 22,600, air 1.2
-  if (!body.mass_given || !body.shape || !body.shape->has_volume()) return 0;
-  const double density = body.mass / body.shape->solid().volume;
-  return density > heaviest || density < lightest ? density : 0;
+std::string doubt_mass(double mass, const Shape* shape) {
+  // osmium has 22,600, air 1.2; motors that lie elsewhere, and surfaces that are thinner than the thing, explain less
+  constexpr double heaviest = 250'000, lightest = 1;
+  if (!shape || !shape->has_volume()) return {};
+  const double density = mass / shape->solid().volume;
+  if (density <= heaviest && density >= lightest) return {};
+  return fmt::format("its mass of {:.4g} kg makes {:.3g} kg/m^3: is its unit right?", mass, density);
+}
+
+std::string doubt_modulus(double modulus) {
+  constexpr double softest = 1000;  // gels of food have some 10,000, skin 100,000
+  if (modulus >= softest) return {};
+  return fmt::format("its elastic modulus is {:.4g} Pa, and rubber's some 1,000,000: is its unit right?", modulus);
+}
+
+// of a file that gives a mass
+static std::string doubt_given_mass(const BodySpec& body) {
+  return body.mass_given ? doubt_mass(body.mass, body.shape.get()) : "";
 }
 
 void check_plausible_object(const BodySpec& body, const std::string& place,
@@ -69,9 +80,10 @@ void check_plausible_object(const BodySpec& body, const std::string& place,
     suspect(listeners, place + ": none of its triangles has an area");
   else if (length < min_size || length > max_size)
     suspect(listeners, fmt::format("{}: it is {:.4g} m large: is its unit right?", place, length));
-  else if (const double density = strange_density(body); density > 0)
-    suspect(listeners, fmt::format("{}: its mass of {:.4g} kg makes {:.3g} kg/m^3: is its unit right?",
-                                   place, body.mass, density));
+  else if (const std::string doubt = doubt_given_mass(body); !doubt.empty())
+    suspect(listeners, place + ": " + doubt);
+  if (body.elastic_modulus)
+    if (const std::string doubt = doubt_modulus(*body.elastic_modulus); !doubt.empty()) suspect(listeners, place + ": " + doubt);
   if (com_is_elsewhere(body))
     suspect(listeners, place + ": its centre of mass is far from its surface: is its unit right?");
   if (inertia_is_larger(body))
@@ -95,7 +107,7 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
     if (body.shape && length_of(body) > max_size) large.push_back(body.name);
     if (body.mass > max_mass)
       heavy.push_back(body.name);
-    else if (strange_density(body) > 0)
+    else if (!doubt_given_mass(body).empty())
       dense.push_back(body.name);
     if (com_is_elsewhere(body)) off.push_back(body.name);
     if (inertia_is_larger(body)) broad.push_back(body.name);

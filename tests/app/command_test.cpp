@@ -35,6 +35,8 @@ TEST_CASE("run reads a script from stdin") {
   const auto result = run("run - a b", "print('in', ...)");
   CHECK(result.code == 0);
   CHECK(result.out == "in\ta\tb\n");
+  // as of a pipe into `lua`
+  CHECK(run("", "print('in', ...)").out == "in\n");
 }
 
 TEST_CASE("output before an error comes before the error") {
@@ -69,6 +71,11 @@ TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
     CHECK(has(help.out, "Example"));
   }
   CHECK(has(run("--version").out, "clench 0."));
+  CHECK(has(run("version").out, "clench 0."));
+  CHECK(has(run("help").out, "Usage: clench"));
+  CHECK(has(run("plan --coun 3 a.cfg b.iv").out, "clench plan: there is no option '--coun'; did you mean '--count'?"));
+  CHECK(run("plan --coun 3 a.cfg b.iv").code == 2);
+  CHECK(has(run("plan a.cfg b.iv c.iv").out, "clench plan: one argument too many: 'c.iv'"));
   // no arguments and no terminal
   CHECK(has(run("").out, "Usage: clench"));
 }

@@ -43,6 +43,37 @@ test("a body without area, and objects of a size that no hand grasps, are suspic
   t.equal(doubts(clench.shapes.box {100, 20, 30}, "add_obstacle"), {})
 end)
 
+test("masses, moduli and gravity in another unit are told once", function(t)
+  local world = clench.world()
+  local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "box"})
+  -- without the script's line
+  local function doubts(fn)
+    local said = t.warnings(fn)
+    for i, text in ipairs(said) do said[i] = text:gsub("^%S+%.lua:%d+: ", "") end
+    return said
+  end
+  t.equal(doubts(function()
+    box.mass = 329
+    box.mass = 400
+  end), {"box: its mass of 329 kg makes 3.29e+05 kg/m^3: is its unit right?"})
+  t.equal(doubts(function() box.elastic_modulus = 1.5 end),
+          {"box: its elastic modulus is 1.5 Pa, and rubber's some 1,000,000: is its unit right?"})
+  t.equal(doubts(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 0.3, elastic_modulus = 1.5}) end),
+          {"world:add_object: mesh: its elastic modulus is 1.5 Pa, and rubber's some 1,000,000: is its unit right?"})
+  t.equal(doubts(function() world.gravity = {0, 0, -9810} end), {"gravity is 9810 m/s^2, and the earth's is 9.81: is its unit right?"})
+  t.equal(doubts(function()
+    box.mass, box.elastic_modulus, world.gravity = 0.3, 1.5e6, {0, 0, -1.62}
+  end), {})
+end)
+
+test("a number is both coefficients of friction", function(t)
+  local world = clench.world()
+  world:set_friction("cork", "glass", 0.4)
+  t.equal({world:friction("glass", "cork")}, {0.4, 0.4})
+  t.fails(function() world:set_friction("cork", "glass", -0.4) end, "static: expected a number from 0")
+  t.fails(function() world:set_friction("cork", "glass", 0 / 0) end, "friction: expected a finite number, got nan")
+end)
+
 test("vertices lie within a thousand million metres", function(t)
   local far = {{0, 0, 0}, {0.1, 0, 0}, {0, -1.1e9, 0}, {0, 0, 0.1}}
   t.fails(function() clench.world():add_object {vertices = far, triangles = faces} end,

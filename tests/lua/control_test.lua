@@ -417,6 +417,22 @@ test("targets by name leave the other DOFs as they are", function(t)
   t.equal(hand.controller, "position")
 end)
 
+test("forces and target velocities by name leave the other DOFs as they are", function(t)
+  local hand = clench.load("worlds/barrett_mug.wld").robots[1]
+  hand.controller = "effort"
+  hand:set_forces {0, 0.02, 0.05, 0}
+  hand:set_forces {dof2 = 0.03}
+  hand.world:run(0.01)
+  t.close(hand.dof_efforts[2], 0.03, 1e-12)
+  t.close(hand.dof_efforts[3], 0.05, 1e-12)
+  hand:set_target_velocities {dof2 = 0.1}
+  t.equal(hand.controller, "mixed")
+  hand.world:run(0.05)
+  t.ok(hand.dof_velocities[2] > 0.05, hand.dof_velocities[2])
+  t.fails(function() hand:set_forces {dof9 = 1} end, "has no DOF 'dof9'")
+  t.fails(function() hand:set_target_velocities {1, dof2 = 1} end, "expected")
+end)
+
 test("what is added in a step begins with the next one", function(t)
   local world = falling_box()
   local spawned, called, tasks = 0, 0, 0

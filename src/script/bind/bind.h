@@ -209,7 +209,9 @@ int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result);
 
 extern const Class dofs_class, kinematics_class;
 
-/// Values of all DOFs: a list, or a table by names, which leaves the others as they are.
+/// A number for each DOF: a list of all, or a table by names; none for those that it leaves out.
+std::vector<std::optional<double>> check_some_dofs(lua_State* L, int i, const RobotHandle& robot);
+/// Values of all DOFs: the same, those that are left out as they are.
 Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot);
 /// Numbers, from 0, of DOFs in a list of numbers, from 1, and names.
 std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot);

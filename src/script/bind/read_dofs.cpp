@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "clench/base/suggest.h"
 #include "clench/model/dof.h"
 #include "clench/script/bind/bind.h"
@@ -13,20 +15,19 @@ static int dof_named(const std::string& name, const RobotHandle& robot, const Wh
   fail("{}: robot '{}' has no DOF '{}'{}", what.text(), robot->name, name, instead_of(name, names));
 }
 
-// some values by the names of their DOFs, from the table at index i; the others as they are
-static Eigen::VectorXd read_named_dofs(lua_State* L, int i, const What& what,
-                                       const RobotHandle& robot) {
-  Eigen::VectorXd out = robot.world->dofs(robot.id);
+static std::vector<std::optional<double>> read_named_dofs(lua_State* L, int i, const What& what,
+                                                          const RobotHandle& robot) {
+  std::vector<std::optional<double>> out(robot->dofs.size());
   for (lua_pushnil(L); lua_next(L, i); lua_pop(L, 1)) {
     if (lua_type(L, -2) != LUA_TSTRING)
       fail("{}: expected names of DOFs, or a list of all values, got a table of both", what.text());
     const std::string name(string_at(L, -2));
-    out[dof_named(name, robot, what)] = read_number(L, lua_gettop(L), {L, what.subject, name});
+    out[static_cast<size_t>(dof_named(name, robot, what))] = read_number(L, lua_gettop(L), {L, what.subject, name});
   }
   return out;
 }
 
-Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot) {
+std::vector<std::optional<double>> check_some_dofs(lua_State* L, int i, const RobotHandle& robot) {
   const What what{L, {}, "values"};
   if (lua_istable(L, i)) {
     lua_pushnil(L);
@@ -40,7 +41,15 @@ Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot) {
   if (values.size() != robot->dofs.size())
     fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot->name,
          robot->dofs.size(), values.size());
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<int>(values.size()));
+  return {values.begin(), values.end()};
+}
+
+Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot) {
+  Eigen::VectorXd out = robot.world->dofs(robot.id);
+  const auto some = check_some_dofs(L, i, robot);
+  for (size_t d = 0; d < some.size(); ++d)
+    if (some[d]) out[static_cast<int>(d)] = *some[d];
+  return out;
 }
 
 std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot) {

@@ -60,10 +60,12 @@ static int set_controller(lua_State* L) {
 
 static int set_forces(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  const auto forces = check_numbers(L, 2, "forces", static_cast<int>(robot->dofs.size()));
-  for (const double force : forces) check(load_rule.called("force"), force, subject(L));
+  const auto forces = check_some_dofs(L, 2, robot);
+  for (const auto& force : forces)
+    if (force) check(load_rule.called("force"), *force, subject(L));
   DynamicState& state = robot.world->edit_dynamics();
-  for (size_t i = 0; i < forces.size(); ++i) state.controls[robot->first_dof + i].effort = forces[i];
+  for (size_t i = 0; i < forces.size(); ++i)
+    if (forces[i]) state.controls[robot->first_dof + i].effort = *forces[i];
   return 0;
 }
 
@@ -77,20 +79,14 @@ static int get_efforts(lua_State* L) {
 
 static int set_targets(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  const Eigen::VectorXd targets = check_dofs(L, 2, robot);
+  const auto targets = check_some_dofs(L, 2, robot);
   Table options(L, 3);
   const bool smooth = options.has("velocity");
   const double velocity = smooth ? options.positive("velocity", 1) : 0;
   options.done();
-  // a table by names moves those that it names
-  const bool named = lua_istable(L, 2) && lua_rawlen(L, 2) == 0;
-  for (int i = 0; i < targets.size(); ++i) {
-    if (named) {
-      const bool moves = lua_getfield(L, 2, dof_name(*robot, i).c_str()) != LUA_TNIL;
-      lua_pop(L, 1);
-      if (!moves) continue;
-    }
-    const double target = within_limits(*robot, i, targets[i], "robot");
+  for (int i = 0; i < static_cast<int>(targets.size()); ++i) {
+    if (!targets[static_cast<size_t>(i)]) continue;
+    const double target = within_limits(*robot, i, *targets[static_cast<size_t>(i)], "robot");
     if (smooth && target != robot.world->dofs(robot.id)[i]) {
       send_dof(*robot.world, robot.id, i, target, velocity);
       continue;
@@ -103,12 +99,14 @@ static int set_targets(lua_State* L) {
 
 static int set_target_velocities(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  const auto values = check_numbers(L, 2, "velocities", static_cast<int>(robot->dofs.size()));
-  for (const double v : values) check(velocity_rule.called("velocity"), v, subject(L));
+  const auto values = check_some_dofs(L, 2, robot);
+  for (const auto& v : values)
+    if (v) check(velocity_rule.called("velocity"), *v, subject(L));
   DynamicState& state = robot.world->edit_dynamics();
   for (size_t i = 0; i < values.size(); ++i) {
+    if (!values[i]) continue;
     DofControl& control = state.controls[robot->first_dof + i];
-    control = {.mode = ControlMode::velocity, .velocity = values[i], .effort = control.effort, .trajectory = {}};
+    control = {.mode = ControlMode::velocity, .velocity = *values[i], .effort = control.effort, .trajectory = {}};
   }
   return 0;
 }
@@ -194,8 +192,10 @@ Is its base free to move? Else it stands, or moves as its velocity says.
 
 static const Entry methods[] = {
     {"set_forces", guarded<set_forces>, R"(
-What each motor gives from now on: beside what its controller does, or alone with the controller "none".
-@param forces number[]  one per DOF [N m or N]
+What each motor gives from now on: beside what its controller does, or alone with the controller "none". DOFs that a table by
+names leaves out keep what they had.
+@param forces number[]|table<string, number>  [N m or N]
+> hand:set_forces {dof2 = 0.5}
 > hand:set_forces {1}  --> error: expected 12)"},
     {"set_targets", guarded<set_targets>, R"(
 Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table
@@ -205,8 +205,9 @@ by names leaves out go on as they did.
 > hand:set_targets({dof2 = 0.3}, {velocity = 1})
 > hand:set_targets({dof2 = 100})  --> error: must lie in)"},
     {"set_target_velocities", guarded<set_target_velocities>, R"(
-The velocities that its motors are to keep.
-@param velocities number[]  [rad/s or m/s]
+The velocities that its motors are to keep. DOFs that a table by names leaves out go on as they did.
+@param velocities number[]|table<string, number>  [rad/s or m/s]
+> hand:set_target_velocities {dof2 = 0.1}
 > hand:set_target_velocities {1}  --> error: expected 12)"},
     {"has_closed", guarded<has_closed_now>, R"(
 Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which

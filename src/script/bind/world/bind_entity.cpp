@@ -1,10 +1,10 @@
-#include "clench/script/bind/bind.h"
-
 #include <array>
 
+#include "clench/script/bind/bind.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -23,9 +23,15 @@ static int set_material(lua_State* L) {
 
 static int get_mass(lua_State* L) { return push(L, self_body(L)->mass); }
 
+static void warn_of(lua_State* L, const BodyHandle& body, const void* key, const std::string& doubt) {
+  if (!doubt.empty()) warn_once(L, key, fmt::format("{}: {}", body->name, doubt));
+}
+
 static int set_mass(lua_State* L) {
   const auto body = self_body(L);
   body.world->set_mass(body.id, check_number(L, 2));
+  static const char told = 0;
+  warn_of(L, body, &told, doubt_mass(body->mass, body->shape.get()));
   return 0;
 }
 
@@ -96,6 +102,8 @@ static int set_elastic_modulus(lua_State* L) {
   std::optional<double> modulus;
   if (given(L, 2)) modulus = check_number(L, 2);
   body.world->set_elastic_modulus(body.id, modulus);
+  static const char told = 0;
+  if (modulus) warn_of(L, body, &told, doubt_modulus(*modulus));
   return 0;
 }
 

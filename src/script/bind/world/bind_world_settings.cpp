@@ -49,6 +49,12 @@ static void tell_near_material(lua_State* L, const std::string& name) {
 
 static int set_friction(lua_State* L) {
   const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
+  if (lua_type(L, 4) == LUA_TNUMBER) {
+    const double mu = check_number(L, 4, "friction");
+    for (const std::string& name : {a, b}) tell_near_material(L, name);
+    world_of(L).set_friction(a, b, {.statics = mu, .kinetic = mu});
+    return 0;
+  }
   Table options(L, 4);
   const double statics = options.number("static");
   Friction friction{.statics = statics, .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
@@ -90,6 +96,9 @@ static int get_gravity(lua_State* L) { return push(L, world_of(L).gravity()); }
 
 static int set_gravity(lua_State* L) {
   world_of(L).set_gravity(check_vec3(L, 2, "gravity"));
+  static const char told = 0;
+  if (const double size = world_of(L).gravity().norm(); size > 100)
+    warn_once(L, &told, fmt::format("gravity is {:.4g} m/s^2, and the earth's is 9.81: is its unit right?", size));
   return 0;
 }
 
@@ -197,8 +206,9 @@ Switches collision on or off: for the whole world, for one entity against everyt
 Sets the Coulomb coefficients of a pair of materials; new names become materials.
 @param a string
 @param b string
-@param friction {static: number, kinetic?: number, restitution?: number}  kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
+@param friction number|{static: number, kinetic?: number, restitution?: number}  a number is both coefficients; kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 > world:set_friction("cork", "wood", {static = 0.7})
+> world:set_friction("cork", "cork", 0.6)
 > world:friction("wood", "cork")  --> 0.7, 0.6)"},
     {"friction", guarded<friction>, R"(
 The coefficients of a pair of materials.
