@@ -96,14 +96,22 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
   return stop;
 }
 
-// Do bodies that touch not come into each other at so many places between the ends of a step?
-bool Stepper::is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover) {
+// Until when bodies that touch do not come into each other, looked at every so often on their way: dt where they never do.
+double Stepper::free_until(const Manifold& m, int places, double dt, Mover& mover) {
   const auto [first, second] = ordered(m.a, m.b);
-  bool free = true;
-  for (int k = 1; free && k <= places; ++k) {
-    mover.place(dt * k / (places + 1));
-    free = distance(*world_.body(m.a).shape, *world_.body(m.b).shape, relative_pose(world_, m.a, m.b), world_.contact_threshold(),
+  const auto is_free = [&](double s) {
+    mover.place(s);
+    return distance(*world_.body(m.a).shape, *world_.body(m.b).shape, relative_pose(world_, m.a, m.b), world_.contact_threshold(),
                     &world_.context().pair(first, second)).distance > 0;
+  };
+  double free = 0, met = dt;
+  int k = 1;
+  while (k <= places && is_free(dt * k / (places + 1))) free = dt * k++ / (places + 1);
+  if (k <= places || !is_free(dt)) {
+    met = dt * k / (places + 1);
+    for (int i = 0; i < 6; ++i) (is_free((free + met) / 2) ? free : met) = (free + met) / 2;
+  } else {
+    free = dt;
   }
   mover.place(dt);
   return free;
@@ -117,13 +125,14 @@ double Stepper::move(double dt) {
   mover.place(dt);
 
   // What moves farther than so many thresholds in a step is followed all the way; others are looked at where they arrive.
-  constexpr double short_way = 10;
+  constexpr double short_way = 10, max_looks = 1000;
   std::vector<int> suspects;
   std::vector<PairBound> watches;
   std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
   std::vector<std::pair<int, Manifold>> measured;
   // what passes at least: next to nothing where all start with a gap, as they may meet at any time
   std::optional<double> least;
+  double most = dt;
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
     const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
@@ -133,45 +142,48 @@ double Stepper::move(double dt) {
     if (!may_have_met(world_, m, X_AB) && !(far && displacement(m.X_AB, before, *world_.body(m.b).shape) + arc >= m.clearance))
       continue;
     suspects.push_back(i);
-    if (m.clearance == 0) continue;  // they overlap: nothing to stop
     const double way = far ? arc : displacement(before, X_AB, *world_.body(m.b).shape);
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
-    const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
-    if (way <= thin) {
-      Manifold there = m;
-      bool arrived = follow_sliding(world_, there);
-      if (!arrived) {
-        // what slides is looked at every now and then: following it would ask a thousand times whether it still only touches
-        const double looked_at = short_way * world_.contact_threshold();
-        if (way <= looked_at ||
-            (touching && !has_ball(world_, m) && is_free_on_the_way(m, static_cast<int>(way / looked_at), dt, mover))) {
-          measure(world_, there);
-          arrived = there.clearance > 0;
-        }
-      }
-      if (arrived) {
-        measured.emplace_back(i, std::move(there));
-        continue;
-      }
+    if (m.clearance == 0) {
+      // they overlap: nothing to stop, but they are looked at before one is through the other
+      if (way > thin) most = std::min(most, std::max(dt * thin / way, 1e-3 * world_.dynamic_settings().step));
+      continue;
     }
-    // those within the threshold already get on, by a hundredth of a step, but not through each other
-    if (touching) least = std::min({least.value_or(dt), 0.01 * world_.dynamic_settings().step, dt * thin / way});
-    if (has_ball(world_, m))
+    const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
+    const double looked_at = std::min(short_way * world_.contact_threshold(), thin);
+    Manifold there = m;
+    bool arrived = way <= thin && follow_sliding(world_, there);
+    // following what touches would ask a thousand times whether it still only does
+    const bool looks = !arrived && touching && !has_ball(world_, m) && way > looked_at && way <= max_looks * looked_at;
+    const double free = looks ? free_until(m, static_cast<int>(way / looked_at), dt, mover) : 0;
+    if (!arrived && (way <= looked_at || free == dt)) {
+      measure(world_, there);
+      arrived = there.clearance > 0 || free == dt;
+    }
+    if (arrived) {
+      measured.emplace_back(i, std::move(there));
+      continue;
+    }
+    // those within the threshold already get on, by a hundredth of a step, but not through each other; less where it is known
+    // when they meet
+    const double gets_on = std::min(0.01 * world_.dynamic_settings().step, dt * thin / way);
+    if (touching) least = std::min(least.value_or(dt), gets_on);
+    if (looks)
+      most = std::min(most, std::max(free, 0.1 * gets_on));
+    else if (has_ball(world_, m))
       balls.push_back({i, 1.1 * way / dt});
     else
       watches.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
   }
-  double passed = dt;
-  if (!balls.empty()) passed = advance_balls(balls, dt, mover);
+  double passed = most;
+  if (!balls.empty()) passed = advance_balls(balls, passed, mover);
   if (!watches.empty()) {
     int queries = 0;
     const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, 1000);
     passed = advance.s;
   }
-  if (!balls.empty() || !watches.empty()) {
-    passed = std::clamp(passed, std::min(dt, least.value_or(1e-9 * dt)), dt);
-    if (passed < dt) ++state.report.impacts;
-  }
+  passed = std::clamp(passed, std::min(most, least.value_or(1e-9 * dt)), most);
+  if (passed < dt) ++state.report.impacts;
   mover.finish(passed);
   if (passed < dt)
     for (const int i : suspects) measure(world_, state.manifolds[i]);

@@ -59,7 +59,7 @@ class Stepper {
   void solve_found(double h);  // the manifolds are those of the bodies where they are
   double max_travel(double dt) const;
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
-  bool is_free_on_the_way(const Manifold& m, int places, double dt, Mover& mover);
+  double free_until(const Manifold& m, int places, double dt, Mover& mover);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
   Eigen::Vector3d prescribed_turning(Id<Body> body) const;

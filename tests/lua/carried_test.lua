@@ -205,3 +205,22 @@ test("a cube that slips between two pads slides straight down", function(t)
     end
   end
 end)
+
+test("what is thrown at a thin plate does not come through it", function(t)
+  local random = clench.random(7)
+  for _, speed in ipairs {50, 300} do
+    for i = 1, 20 do
+      local world = clench.world {gravity = {0, 0, 0}}
+      world:add_obstacle(clench.shapes.box {1, 1, 0.001})
+      local function side() return random:uniform(0.01, 0.05) end
+      local box = world:add_object(clench.shapes.box {side(), side(), side()},
+                                   {mass = 0.1, pose = clench.pose {xyz = {0, 0, 0.2}, quat = random:rotation().quat}})
+      local function part() return random:uniform(-0.1, 0.1) * speed end
+      box.velocity = {linear = {part(), part(), -speed}, angular = {part(), part(), part()}}
+      world:run(0.02 + 0.4 / speed)
+      -- one of its corners strikes first, and the others come round at as much speed
+      t.ok(box.pose.position.z > 0.004, box.pose.position)
+      t.equal(world.report.failures, 0)
+    end
+  end
+end)

@@ -146,6 +146,8 @@ void measure(World& world, Manifold& m) {
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
+  constexpr double served = 10;
+  const Pose before = m.X_AB;
   m.X_AB = relative_pose(world, m.a, m.b);
   std::vector<ManifoldPoint> points;
   const double limit = manifold_reach + threshold;
@@ -161,10 +163,18 @@ void measure(World& world, Manifold& m) {
   } else {
     const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
     m.clearance = std::min(d.distance, limit);
-    if (d.distance == 0 && (own || !m.points.empty())) return update_gaps(world, m);
+    const bool overlap = d.distance == 0;
+    // the points of what overlaps serve for a short way, and while one of them lies where it does
+    const auto inside = [&](const ManifoldPoint& p) { return gap_of(p, m.X_AB) < 0; };
+    const bool kept = overlap && std::ranges::any_of(m.points, inside) && displacement(before, m.X_AB, b) <= served * threshold;
     // bodies placed into each other touch where they would on the way out
-    const std::optional<Pose> X_AT = d.distance == 0 ? moved_out(a, b, m.X_AB, threshold) : m.X_AB;
-    if (X_AT && d.distance <= threshold)
+    std::optional<Pose> X_AT = m.X_AB;
+    if (overlap) X_AT = own || kept ? std::nullopt : moved_out(a, b, m.X_AB, threshold);
+    if (overlap && !X_AT) {
+      if (kept) m.X_AB = before;
+      return update_gaps(world, m);
+    }
+    if (d.distance <= threshold)
       for (const Touch& touch : contact_set(a, b, *X_AT, {.threshold = threshold})) {
         points.push_back({.p_a = touch.p_a,
                           .p_b = X_AT->inverse() * touch.p_b,
@@ -172,7 +182,7 @@ void measure(World& world, Manifold& m) {
                           .feature_a = touch.feature_a,
                           .feature_b = touch.feature_b,
                           .gap = touch.gap});
-        if (d.distance == 0) points.back().gap = gap_of(points.back(), m.X_AB);
+        if (overlap) points.back().gap = gap_of(points.back(), m.X_AB);
       }
   }
   if (!points.empty()) find_patches(world, m, points);
