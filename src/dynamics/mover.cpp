@@ -52,13 +52,22 @@ Mover::Mover(World& world, const System& system) : world_(world) {
 
 // What turns otherwise than its carrier, by this part of that, rolls on it.
 static constexpr double turns_along = 0.01;
+// What slips by less than this sticks, and slips that differ by less than that are the same [m/s].
+static constexpr double sticks = 1e-3, same_slip = 1e-6;
 
 // Of all that a free body is pressed to, beginning with what is not free, that along which it slips the least; none where it does not turn
-// along with that.
+// along with that, unless somebody has just given that another velocity: what sticks to it comes along, and gets its velocity in the solve.
 void Mover::find_carriers(const System& system) {
   const DynamicState& state = *world_.dynamics();
+  const auto changed = [&](Id<Body> id) { return state.twists[id.index] != state.solved[id.index]; };
+  const auto jumped = [&](Id<Body> id) {
+    const int tree = system.place(id).tree;
+    return tree < 0 ? changed(id) : !system.trees[tree].floating && !system.trees[tree].is_free_body() && changed(system.trees[tree].root);
+  };
+  const bool jumps = std::ranges::any_of(world_.bodies(), jumped);
   // one that carries and one that goes along
-  if (std::ranges::count_if(state.twists, [](const Twist& twist) { return !twist.angular.isZero(0); }) < 2) return;
+  const auto turning_ones = std::ranges::count_if(state.twists, [](const Twist& twist) { return !twist.angular.isZero(0); });
+  if (turning_ones < 2 && !jumps) return;
   // of bodies that are welded together the first
   const auto whole = [&](Id<Body> id) {
     const int tree = system.place(id).tree;
@@ -67,42 +76,48 @@ void Mover::find_carriers(const System& system) {
   struct Press {
     Id<Body> a, b;
     Eigen::Vector3d p_W;
+    double force;
   };
   std::vector<Press> presses;
   for (const Manifold& m : state.manifolds) {
     const auto point = std::ranges::max_element(m.points, {}, [](const ManifoldPoint& p) { return p.force.squaredNorm(); });
     if (point == m.points.end() || point->force.isZero(0)) continue;
-    presses.push_back({whole(m.a), whole(m.b), world_.pose(m.a) * point->p_a});
+    presses.push_back({whole(m.a), whole(m.b), world_.pose(m.a) * point->p_a, point->force.norm()});
   }
-  const auto velocity = [&](Id<Body> id, const Eigen::Vector3d& p_W) -> Eigen::Vector3d {
-    const Twist twist = world_.twist(id);
-    return twist.linear + twist.angular.cross(p_W - world_.pose(id) * world_.body(id).com);
-  };
   std::vector<Part> sorted, waiting;
   for (Part& part : parts_) (part.inertia ? waiting : sorted).push_back(std::move(part));
   const auto waits = [&](Id<Body> id) { return std::ranges::any_of(waiting, [&](const Part& part) { return part.body == id; }); };
+  std::vector<Id<Body>> along;  // that come along with what has jumped
   while (!waiting.empty()) {
     std::vector<Part> found, rest;
     for (Part& part : waiting) {
+      // before the jump both had the velocities that were solved for
+      const bool before = jumps && !changed(part.body);
+      const auto velocity = [&](Id<Body> id, const Eigen::Vector3d& p_W) -> Eigen::Vector3d {
+        const Twist& twist = (before ? state.solved : state.twists)[id.index];
+        return twist.linear + twist.angular.cross(p_W - world_.pose(id) * world_.body(id).com);
+      };
       const Press* best = nullptr;
       double least = 0;
       for (const Press& press : presses) {
         if (press.a != part.body && press.b != part.body) continue;
         if (waits(press.a == part.body ? press.b : press.a)) continue;
         const double slip = (velocity(press.a, press.p_W) - velocity(press.b, press.p_W)).norm();
-        if (!best || slip < least) best = &press, least = slip;
+        if (!best || slip < least - same_slip || (slip <= least + same_slip && press.force > best->force)) best = &press, least = slip;
       }
       if (!best) {
         rest.push_back(part);
         continue;
       }
       const Id<Body> to = best->a == part.body ? best->b : best->a;
-      const Eigen::Vector3d turning = state.twists[to.index].angular, apart = part.twist.angular - turning;
-      if (apart.norm() < turns_along * turning.norm()) {
+      const bool comes = before && least < sticks && (jumped(to) || std::ranges::find(along, to) != along.end());
+      const Eigen::Vector3d turning = (before ? state.solved : state.twists)[to.index].angular, apart = part.twist.angular - turning;
+      if (comes || apart.norm() < turns_along * turning.norm()) {
         part.carrier = to, part.X_WC = world_.pose(to);
         const Eigen::Matrix3d into = part.X_WC.rotation.conjugate().toRotationMatrix();
         part.relative = {into * (part.twist.linear - velocity(to, part.X_WB * part.com)),
                          into * apart};
+        if (comes) along.push_back(part.body);
       }
       found.push_back(part);
     }

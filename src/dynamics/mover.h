@@ -1,5 +1,6 @@
 // A world along the motion of one step: where everything is at a time, were it to go on with the velocities that it has. What is pressed
-// to something and turns along with it has its velocity relative to that: along the tangent it would come away from the arc, step by step.
+// to something and turns along with it has its velocity relative to that: along the tangent it would come away from the arc, step by step. So
+// has what sticks to something that somebody gives another velocity: it would stay behind by a step.
 #pragma once
 #include <optional>
 

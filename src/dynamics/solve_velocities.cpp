@@ -35,7 +35,7 @@ void Stepper::find_free_velocities(double h) {
     Eigen::VectorXd rhs = h * efforts - forces_[t].velocity_part.cwiseProduct(v);
     if (!tree.floating) {
       Vector6d last;
-      last << state.prescribed[tree.root.index].linear, state.prescribed[tree.root.index].angular;
+      last << state.solved[tree.root.index].linear, state.solved[tree.root.index].angular;
       rhs += dynamics.base_impulse(root_twist(static_cast<int>(t)) - last);
     }
     dynamics.half_solve(rhs);
@@ -64,12 +64,12 @@ void Stepper::keep() {
   for (size_t t = 0; t < trees_.size(); ++t) {
     const Articulation& tree = system_.trees[t];
     const Vector6d root = root_twist(static_cast<int>(t));
-    if (!tree.floating) state.prescribed[tree.root.index] = world_.twist(tree.root);
     for (size_t b = 0; b < tree.bodies.size(); ++b)
       if (tree.bodies[b].body != tree.root)
         state.twists[tree.bodies[b].body.index] =
             trees_[t].twist(static_cast<int>(b), v_.segment(tree.first, tree.size()), root);
   }
+  state.solved = state.twists;
   for (Manifold& m : state.manifolds)
     for (ManifoldPoint& p : m.points) p.force.setZero(), p.torsion = 0;
   state.row_forces.clear();

@@ -144,10 +144,10 @@ void Stepper::add_contact(int manifold, int point, double h) {
   if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
   target = std::min(target, pushed_at_most);
   // Newton's law of impact, where the free motion would press. Bodies move with the velocity that they had when a step began: what
-  // gravity pulls together comes by half a step's gain too fast, and would go by as much too far
+  // gravity or a motor draws together comes by half a step's gain too fast, and would go by as much too far
   double& q_normal = q_[block.law.row];
   if (q_normal < target && before[0] < -bounces_above) {
-    const double gain = std::clamp((before[0] - q_normal) / h, 0.0, world_.gravity().norm()) * step;
+    const double gain = std::max((before[0] - q_normal) / h, 0.0) * step;
     target = std::max(target, -restitution * q_normal - (1 + restitution) / 2 * gain);
   }
   block.meets = before[0] < -meeting_speed;

@@ -96,7 +96,7 @@ struct DynamicState {
   double time = 0;                           ///< [s]
   double asked = 0;                          ///< length of the last step, were it not for an impact [s]
   std::vector<Twist> twists;                 ///< by the index of the body's id; of links too, as of the last step
-  std::vector<Twist> prescribed;             ///< likewise: of bases that move as prescribed, in the last step
+  std::vector<Twist> solved;                 ///< likewise: as the last step left them, whatever somebody has set since
   std::vector<double> dof_velocities;        ///< [rad/s or m/s]
   std::vector<double> joint_velocities;      ///< likewise
   std::vector<DofControl> controls;          ///< one per DOF

@@ -291,7 +291,7 @@ void World::erase(Id<Body> id) {
   if (state_.dynamics) {
     DynamicState& state = edit_dynamics();
     std::erase_if(state.manifolds, [&](const Manifold& m) { return m.a == id || m.b == id; });
-    state.twists[id.index] = state.prescribed[id.index] = {};
+    state.twists[id.index] = state.solved[id.index] = {};
     state.loads[id.index] = {};
   }
   scratch_.context.forget(id);

@@ -28,7 +28,7 @@ DynamicState& World::edit_dynamics() {
   std::atomic_thread_fence(std::memory_order_acquire);
   DynamicState& state = *shared;
   state.twists.resize(state_.X_WB.size());
-  state.prescribed.resize(state_.X_WB.size());
+  state.solved.resize(state_.X_WB.size());
   state.loads.resize(state_.X_WB.size());
   state.dof_velocities.resize(state_.dofs.size());
   state.dof_efforts.resize(state_.dofs.size());
@@ -156,7 +156,8 @@ void World::set_follows_dof(Id<Robot> id, int joint, bool follows) {
 
 void World::come_to_rest(Id<Body> id) {
   if (!state_.dynamics) return;
-  edit_dynamics().twists[id.index] = {};
+  DynamicState& state = edit_dynamics();
+  state.twists[id.index] = state.solved[id.index] = {};
   carry_welded();
 }
 
@@ -164,7 +165,7 @@ void World::come_to_rest(Id<Robot> id) {
   if (!state_.dynamics) return;
   DynamicState& state = edit_dynamics();
   const Robot& r = robot(id);
-  for (const auto part : bodies_of(id)) state.twists[part.index] = state.prescribed[part.index] = {};
+  for (const auto part : bodies_of(id)) state.twists[part.index] = state.solved[part.index] = {};
   for (size_t i = r.first_dof; i < r.first_dof + r.dofs.size(); ++i) {
     state.dof_velocities[i] = 0;
     state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .trajectory = {}};

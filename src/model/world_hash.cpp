@@ -53,7 +53,7 @@ static void add_motion(Hasher& h, const World& world) {
   const DynamicState& s = state ? *state : rest;
   h.add(s.time);
   for (const auto id : world.bodies()) {
-    for (const Twist& twist : {at(s.twists, id.index), at(s.prescribed, id.index)}) add(h, twist.linear), add(h, twist.angular);
+    for (const Twist& twist : {at(s.twists, id.index), at(s.solved, id.index)}) add(h, twist.linear), add(h, twist.angular);
     const Load load = at(s.loads, id.index);
     add(h, load.force), add(h, load.torque);
   }

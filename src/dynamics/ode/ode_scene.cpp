@@ -153,7 +153,7 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
 void OdeScene::base_impulse(const Articulation& tree, int number) {
   if (tree.floating) return;
   OdeTree& out = trees_[number];
-  const Twist twist = world_.twist(tree.root), last = world_.dynamics()->prescribed[tree.root.index];
+  const Twist twist = world_.twist(tree.root), last = world_.dynamics()->solved[tree.root.index];
   const Eigen::Vector3d dv = twist.linear - last.linear, dw = twist.angular - last.angular;
   const Eigen::Vector3d about = world_.pose(tree.root) * world_.body(tree.root).com;
   for (size_t i = 1; i < out.nodes.size(); ++i) {
