@@ -64,7 +64,7 @@ void Mover::find_carriers(const System& system) {
     const int tree = system.place(id).tree;
     return tree < 0 ? changed(id) : !system.trees[tree].floating && !system.trees[tree].is_free_body() && changed(system.trees[tree].root);
   };
-  const bool jumps = std::ranges::any_of(world_.bodies(), jumped);
+  const bool jumps = state.twists != state.solved && std::ranges::any_of(world_.bodies(), jumped);
   // one that carries and one that goes along
   const auto turning_ones = std::ranges::count_if(state.twists, [](const Twist& twist) { return !twist.angular.isZero(0); });
   if (turning_ones < 2 && !jumps) return;

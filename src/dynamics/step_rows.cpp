@@ -94,6 +94,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
   Block block;
   block.touch = static_cast<int>(touches_.size());
   block.law.row = row_count_;
+  block.law.pair = manifold;
   block.law.tangents = friction.statics > 0 ? (p.torsion_radius > 0 ? 3 : 2) : 0;
   const int size = block.law.size();
 

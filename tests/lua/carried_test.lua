@@ -181,9 +181,11 @@ test("what does not bounce does not bounce where something slows it down, either
   t.close(after, 0, 1e-9)
 end)
 
-test("a cube that slips between two pads slides straight down", function(t)
+test("a cube that slips between two pads slides straight along gravity", function(t)
   -- faces of one size, whose edges lie above each other, and tilt by next to nothing
-  for _, options in ipairs {{}, {time_step = 1e-4}, {engine = "ode"}} do
+  for _, case in ipairs {{}, {way = {0, 0.6, -0.8}}, {time_step = 1e-4}, {engine = "ode"}} do
+    local way = clench.vec3(case.way or {0, 0, -1})
+    local options = {time_step = case.time_step, engine = case.engine}
     for _, force in ipairs {9.9, 9.75, 9.5} do
       local world = clench.load "tests/data/mjcf/pads.xml"
       world.dynamics = options
@@ -192,14 +194,14 @@ test("a cube that slips between two pads slides straight down", function(t)
       pads.controller = "effort"
       pads:set_forces {force, force}
       world:run(0.5)
-      world.gravity = {0, 0, -9.81}
+      world.gravity = 9.81 * way
       local fastest = 0
       world:on_step(function() fastest = math.max(fastest, cube.velocity.angular:norm()) end)
       world:run(0.5)
       -- mu = 0.5 at both pads
       local acceleration = math.max(0, 9.81 - force)
       -- the pads take a step or two to press as much as they do; a load on few of the corners turns the cube by 0.1 to 10 rad/s
-      t.close(cube.velocity.linear.z, -0.5 * acceleration, 1e-4)
+      t.ok((cube.velocity.linear - 0.5 * acceleration * way):norm() < 1e-4, cube.velocity.linear)
       t.ok(fastest < 1e-3, fastest)
       t.equal(world.report.failures, 0)
     end

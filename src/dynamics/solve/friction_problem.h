@@ -19,6 +19,7 @@ struct FrictionProblem {
     int row = 0;       ///< its first one
     int tangents = -1; ///< of a contact: 0 (frictionless), 2, or 3 with torsion; -1: a bounded row
     double mu = 0;     ///< of a contact
+    int pair = -1;     ///< of contacts that follow each other: those of the same two bodies share their load alike; -1: of none
     double low = 0, high = std::numeric_limits<double>::infinity();  ///< of a bounded row: low <= 0 <= high
 
     bool is_contact() const { return tangents >= 0; }

@@ -14,7 +14,7 @@ struct ScaledFriction {
   Eigen::MatrixXd S;
   Eigen::VectorXd q;
   Eigen::VectorXd units;    ///< one of a row is so many of the problem's: impulses times it, velocities divided by it
-  Eigen::VectorXd weights;  ///< d of the row's block
+  Eigen::VectorXd weights;  ///< d of the row's block; of contacts of one pair their mean
   std::vector<Block> blocks;
 
   void set(const FrictionProblem& problem);

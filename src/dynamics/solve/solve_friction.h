@@ -20,9 +20,10 @@ struct FrictionOptions {
 /// Solves one problem after another; memory is kept between them, nothing else: the same problem and the same warm start
 /// give the same bits.
 ///
-/// Of many solutions, as at the four corners of a box, it is the one of least sum of W_ii r_i^2 of its states (open,
-/// sticking, sliding), wherever it starts from. A warm start that already solves the problem is returned as it is, for the
-/// price of W r; one that all but does may end in a solution near it. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
+/// Of many solutions, as at the four corners of a box, it is the one of least sum of w_i r_i^2 of its states (open,
+/// sticking, sliding), wherever it starts from: w_i is the mean of W_ii over all contacts of the same two bodies.
+/// A warm start that already solves the problem is returned as it is, for the price of W r; one that all but does may end in
+/// a solution near it. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
 /// with least squares of what is missing and without great impulses; then the solution is not `solved`.
 ///
 /// The ways, the next where one does not end: from the warm start along a path of states, with a damping that is 1e-8 of
