@@ -98,29 +98,6 @@ static Elasticity elasticity(const Body& body) {
   return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
 }
 
-// Gives each point's force of the last step to one touch: that on the same features, else the nearest.
-static void add_forces(const Manifold& manifold, const std::vector<Touch>& touches, const Pose& X_WA, bool on_b,
-                       std::span<Contact> contacts) {
-  constexpr double near = 1e-3;
-  std::vector<bool> taken(touches.size());
-  for (const ManifoldPoint& p : manifold.points) {
-    size_t best = touches.size();
-    double nearest = near;
-    for (size_t i = 0; i < touches.size(); ++i) {
-      if (taken[i]) continue;
-      const bool same = p.feature_a == touches[i].feature_a && p.feature_b == touches[i].feature_b;
-      const double d = same ? 0 : (p.p_a - touches[i].p_a).norm();
-      if (d < nearest) best = i, nearest = d;
-      if (same) break;
-    }
-    if (best == touches.size()) continue;
-    taken[best] = true;
-    const Eigen::Vector3d force = X_WA.rotation * p.force;
-    contacts[best].force_W = on_b ? force : Eigen::Vector3d(-force);
-    contacts[best].torsion = p.torsion;
-  }
-}
-
 static const Manifold* manifold_of(const World& world, Id<Body> a, Id<Body> b) {
   if (!world.dynamics()) return nullptr;
   for (const Manifold& m : world.dynamics()->manifolds)
@@ -128,15 +105,69 @@ static const Manifold* manifold_of(const World& world, Id<Body> a, Id<Body> b) {
   return nullptr;
 }
 
+// Does something press there, and has nobody placed the two elsewhere since?
+static bool presses(const World& world, const Manifold& m) {
+  return std::ranges::any_of(m.points, [](const ManifoldPoint& p) { return !p.force.isZero(0); }) &&
+         relative_pose(world, m.a, m.b) == m.X_AB_left;
+}
+
+// The touch of each point of the last step: that on the same features, else the nearest. One that presses where none is becomes one;
+// of balls the step knows better than their facets where they touch.   returns  -1: none
+static std::vector<int> match(const World& world, const Manifold& manifold, const Pose& X_AB, std::vector<Touch>& touches) {
+  constexpr double near = 1e-3;
+  const bool press = presses(world, manifold);
+  if (press && (world.body(manifold.a).shape->ball() || world.body(manifold.b).shape->ball())) touches.clear();
+  const size_t count = touches.size();
+  std::vector<bool> taken(count);
+  std::vector<int> out;
+  for (const ManifoldPoint& p : manifold.points) {
+    size_t best = count;
+    double nearest = near;
+    for (size_t i = 0; i < count; ++i) {
+      if (taken[i]) continue;
+      const bool same = p.feature_a == touches[i].feature_a && p.feature_b == touches[i].feature_b;
+      const double d = same ? 0 : (p.p_a - touches[i].p_a).norm();
+      if (d < nearest) best = i, nearest = d;
+      if (same) break;
+    }
+    out.push_back(best < count ? static_cast<int>(best) : -1);
+    if (best < count) taken[best] = true;
+  }
+  if (!press) return out;
+  for (size_t k = 0; k < out.size(); ++k) {
+    const ManifoldPoint& p = manifold.points[k];
+    if (out[k] >= 0 || p.force.isZero(0)) continue;
+    out[k] = static_cast<int>(touches.size());
+    touches.push_back({.p_a = p.p_a, .p_b = X_AB * p.p_b, .normal_b = p.normal, .gap = std::max(p.gap, 0.0),
+                       .feature_a = p.feature_a, .feature_b = p.feature_b});
+  }
+  return out;
+}
+
+// Pairs that press and are not among those that are near by their facets.
+template <typename Wanted>
+static void add_pressing(const World& world, const Wanted& wanted, std::vector<BodyPair>& pairs) {
+  if (!world.dynamics()) return;
+  for (const Manifold& m : world.dynamics()->manifolds) {
+    if (!presses(world, m)) continue;
+    for (const BodyPair& pair : {BodyPair{m.a, m.b}, BodyPair{m.b, m.a}})
+      if (wanted(pair) && std::ranges::find(pairs, pair) == pairs.end() && std::ranges::find(pairs, BodyPair{pair.second, pair.first}) == pairs.end())
+        pairs.push_back(pair);
+  }
+}
+
 static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                          std::vector<Contact>& out) {
   const auto [first, second] = ordered(other, body);
   const Body &a = world.body(first), &b = world.body(second);
   const double threshold = world.contact_threshold();
-  if (sphere_gap(world, first, second) > threshold) return;
+  const Manifold* manifold = manifold_of(world, first, second);
+  if (sphere_gap(world, first, second) > threshold && !manifold) return;
   const Pose X_AB = relative_pose(world, first, second);
   const Pose& X_WA = world.pose(first);
-  const auto touches = contact_set(*a.shape, *b.shape, X_AB, {.threshold = threshold});
+  auto touches = contact_set(*a.shape, *b.shape, X_AB, {.threshold = threshold});
+  std::vector<int> matches;
+  if (manifold) matches = match(world, *manifold, X_AB, touches);
   const Friction friction = world.materials().friction(a.material, b.material);
   const bool soft = friction.statics > 0 && (a.elastic_modulus || b.elastic_modulus);
   const ContactKind kind = soft                   ? ContactKind::soft
@@ -145,7 +176,7 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
   std::vector<SoftSitePtr> sites(touches.size());
   if (soft) sites = soft_sites(a.shape, b.shape, X_AB, elasticity(a), elasticity(b), touches);
   const bool on_b = body == second;
-  const Manifold* manifold = manifold_of(world, first, second);
+  const size_t begin = out.size();
   for (size_t i = 0; i < touches.size(); ++i) {
     const Touch& touch = touches[i];
     const Eigen::Vector3d n_W = X_WA.rotation * touch.normal_b;
@@ -162,13 +193,22 @@ static void add_contacts(const World& world, Id<Body> other, Id<Body> body,
                    .X_WA = X_WA,
                    .body_is_b = on_b});
   }
-  if (manifold) add_forces(*manifold, touches, X_WA, on_b, std::span(out).last(touches.size()));
+  for (size_t k = 0; k < matches.size(); ++k) {
+    if (matches[k] < 0) continue;
+    const ManifoldPoint& p = manifold->points[k];
+    const Eigen::Vector3d force = X_WA.rotation * p.force;
+    Contact& contact = out[begin + static_cast<size_t>(matches[k])];
+    contact.force_W = on_b ? force : Eigen::Vector3d(-force);
+    contact.torsion = p.torsion;
+  }
 }
 
 std::vector<Contact> contacts(const World& world, QueryContext* context) {
   Remember memory(world, context);
   std::vector<Contact> out;
-  for (auto [a, b] : near_bodies(world, world.contact_threshold(), *memory)) {
+  std::vector<BodyPair> pairs = near_bodies(world, world.contact_threshold(), *memory);
+  add_pressing(world, [](const BodyPair& pair) { return pair == ordered(pair.first, pair.second); }, pairs);
+  for (auto [a, b] : pairs) {
     memory->progress().check();
     if (first_is_held(world.body(a), world.body(b))) std::swap(a, b);
     add_contacts(world, a, b, out);
@@ -180,8 +220,10 @@ std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> othe
                               std::span<const Id<Body>> bodies, QueryContext* context) {
   Remember memory(world, context);
   std::vector<Contact> out;
-  for (const auto& [a, b] :
-       near_bodies(world, others, bodies, world.contact_threshold(), *memory)) {
+  std::vector<BodyPair> pairs = near_bodies(world, others, bodies, world.contact_threshold(), *memory);
+  const auto among = [](std::span<const Id<Body>> some, Id<Body> id) { return std::ranges::find(some, id) != some.end(); };
+  add_pressing(world, [&](const BodyPair& pair) { return among(others, pair.first) && among(bodies, pair.second); }, pairs);
+  for (const auto& [a, b] : pairs) {
     memory->progress().check();
     add_contacts(world, a, b, out);
   }

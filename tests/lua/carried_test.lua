@@ -281,3 +281,20 @@ test("what a force presses on a table bounces as under as much gravity, and come
   -- impacts lie at other places of a step, by rounding: 0.4 m/s may be off by a step's gain of 0.05, and so heights
   for k, z in ipairs(heavy) do t.close(pressed[k], z, 0.4 * 0.05 / 50) end
 end)
+
+test("contacts are where the step has them, also of a ball whose facets are farther away than they", function(t)
+  for _, subdivisions in ipairs {2, 3, 5} do
+    local world = clench.world()
+    table_top(world, {})
+    local ball = world:add_object(clench.shapes.sphere {radius = 0.02, subdivisions = subdivisions},
+                                  {mass = 0.5, pose = clench.pose {xyz = {0, 0, 0.02003}, rpy = {0.3, 0.2, 0.1}}})
+    world:run(0.2)
+    local contacts = world:contacts(ball)
+    t.equal(#contacts, 1)
+    t.close(contacts[1].force:norm(), 0.5 * 9.81, 1e-9)
+    t.close(contacts[1].point, clench.vec3(0, 0, 0), 1e-4)
+    -- once it is placed elsewhere its facets count again
+    ball.pose = {xyz = {0, 0, 0.025}}
+    t.equal(world:contacts(ball), {})
+  end
+end)
