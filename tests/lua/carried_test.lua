@@ -298,3 +298,29 @@ test("contacts are where the step has them, also of a ball whose facets are fart
     t.equal(world:contacts(ball), {})
   end
 end)
+
+test("what lies askew between pads, and a little in them, is pressed flush and not swallowed", function(t)
+  local shapes = {capsule = clench.shapes.capsule {0.004, 0.04}, cylinder = clench.shapes.cylinder {0.004, 0.04}}
+  for _, step in ipairs {5e-4, 1e-3, 5e-3} do
+    for name, shape in pairs(shapes) do
+      for _, overlap in ipairs {0, 5e-5, 5e-4} do
+        local world = clench.load "tests/data/mjcf/pads.xml"
+        world.dynamics, world.gravity = {time_step = step}, {0, 0, 0}
+        world:remove(world.objects[1])
+        local pads = world.robots[1]
+        local body = world:add_object(shape, {mass = 0.045, pose = clench.pose {xyz = {0, 0, 1}, rpy = {0.7, 0.02, 0}}})
+        local half = body.bounds_in_world.high.x
+        pads:set_dofs {0.05 - half + overlap, 0.05 - half + overlap}
+        pads.controller = "effort"
+        pads.gains = {{kp = 0, kd = 0}, {kp = 0, kd = 0}}
+        pads:set_forces {1, 1}
+        local nearest = 1
+        world:on_step(function() nearest = math.min(nearest, 0.1 - pads.dofs[1] - pads.dofs[2]) end)
+        world:run(0.5)
+        -- flush they are 8 mm apart; it was squeezed to nothing
+        t.ok(nearest > 0.006, ("%s, step %g, overlap %g: %g"):format(name, step, overlap, nearest))
+        t.ok(0.1 - pads.dofs[1] - pads.dofs[2] > 0.0075, pads.dofs)
+      end
+    end
+  end
+end)

@@ -87,6 +87,24 @@ static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& befo
   return out;
 }
 
+// The same of bodies that overlap: points that still lie deep beside the fresh ones, which are those of the shortest way out alone. What
+// is squeezed askew would rock from one end to the other, and get deeper at each.
+static std::vector<ManifoldPoint> take_deep(const std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold,
+                                            const std::vector<ManifoldPoint>& fresh) {
+  constexpr double beside = 1e-3, opposite = 10;  // [m], of the threshold
+  constexpr size_t most = 4;
+  std::vector<ManifoldPoint> out;
+  for (ManifoldPoint p : before) {
+    p.gap = gap_of(p, X_AB);
+    const Eigen::Vector3d aside = X_AB * p.p_b - p.p_a - p.gap * p.normal;
+    const auto near = [&](const ManifoldPoint& q) { return (q.p_a - p.p_a).norm() < beside || (q.p_b - p.p_b).norm() < beside; };
+    if (p.gap < 0 && aside.norm() <= opposite * threshold && std::ranges::none_of(fresh, near)) out.push_back(p);
+  }
+  std::ranges::stable_sort(out, {}, &ManifoldPoint::gap);
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
 static Elasticity elasticity(const Body& body) {
   return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
 }
@@ -146,7 +164,7 @@ void measure(World& world, Manifold& m) {
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
-  constexpr double served = 10;
+  constexpr double served = 1;
   const Pose before = m.X_AB;
   m.X_AB = relative_pose(world, m.a, m.b);
   std::vector<ManifoldPoint> points;
@@ -189,7 +207,7 @@ void measure(World& world, Manifold& m) {
   if (!points.empty() && !m.points.empty()) {
     std::vector<ManifoldPoint> pressing;
     const double mu = world.materials().friction(world.body(m.a).material, world.body(m.b).material).kinetic;
-    if (m.clearance > 0) pressing = take_pressing(m.points, m.X_AB, threshold, mu, points);
+    pressing = m.clearance > 0 ? take_pressing(m.points, m.X_AB, threshold, mu, points) : take_deep(m.points, m.X_AB, threshold, points);
     inherit(points, m.points);
     points.insert(points.end(), pressing.begin(), pressing.end());
   }
