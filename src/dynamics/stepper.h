@@ -66,6 +66,7 @@ class Stepper {
   Eigen::Vector3d surface_velocity(Id<Body> body) const;
   void carry_welded();
   void find_free_velocities(double h);
+  void add_mean_bias(int tree, double h, Eigen::VectorXd& change);
   void update_manifolds();
   void add_contact(int manifold, int point, double h);
   void add_row(int row, double h);

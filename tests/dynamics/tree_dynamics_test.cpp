@@ -138,7 +138,7 @@ TEST_CASE("a double pendulum keeps its energy, nearer with shorter steps in prop
       worst = std::max(worst, std::abs(total(world) - energy));
     }
     // of some 20 J
-    CHECK(worst < 200 * step);
+    CHECK(worst < 40 * step);
     if (before > 0) CHECK(worst / before < 0.65);
     before = worst;
   }

@@ -184,6 +184,12 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
   }
   // springs and what motors are told to give; armature and dampers as motors that give way
   const JointForces& forces = problem_.forces[number];
+  if (tree.floating && !tree.is_free_body()) {
+    OdeNode& root = out.nodes[0];
+    const Eigen::Vector3d f = forces.efforts.head<3>();
+    root.force += f;
+    root.torque += forces.efforts.segment<3>(3) + (centre(world_, tree) - root.com).cross(f);
+  }
   for (size_t i = 0; i < tree.coordinates.size(); ++i) {
     const int c = tree.root_size() + static_cast<int>(i), lead = out.lead[c];
     if (lead < 0) continue;
