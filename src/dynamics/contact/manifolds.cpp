@@ -159,57 +159,67 @@ static void share_normals(std::vector<ManifoldPoint>& points) {
   for (size_t i = 1; i < points.size(); ++i) share(i, [&](size_t k) { return k < i; });
 }
 
-void measure(World& world, Manifold& m) {
-  if (follow_sliding(world, m)) return;
+// Its links may be made so that they overlap.
+static bool are_of_one_robot(const World& world, const Manifold& m) {
+  return world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
+}
+
+// Of two meshes; sets the clearance.   returns  false: the points that it has serve on
+static bool find_points(World& world, Manifold& m, double limit, std::vector<ManifoldPoint>& points) {
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
-  constexpr double served = 1;
   const Pose before = m.X_AB;
   m.X_AB = relative_pose(world, m.a, m.b);
+  const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
+  m.clearance = std::min(d.distance, limit);
+  if (d.distance > threshold) return true;
+  std::optional<Pose> X_AT = m.X_AB;
+  const bool overlap = d.distance == 0;
+  if (overlap) {
+    if (are_of_one_robot(world, m)) return false;
+    // points serve for a short way, and while one of them lies where bodies overlap
+    const auto inside = [&](const ManifoldPoint& p) { return gap_of(p, m.X_AB) < 0; };
+    if (std::ranges::any_of(m.points, inside) && displacement(before, m.X_AB, b) <= threshold) {
+      m.X_AB = before;
+      return false;
+    }
+    // bodies placed into each other touch where they would on the way out
+    X_AT = moved_out(a, b, m.X_AB, threshold);
+    if (!X_AT) return false;
+  }
+  for (const Touch& touch : contact_set(a, b, *X_AT, {.threshold = threshold})) {
+    points.push_back({.p_a = touch.p_a,
+                      .p_b = X_AT->inverse() * touch.p_b,
+                      .normal = normal_of(a, b, *X_AT, touch),
+                      .feature_a = touch.feature_a,
+                      .feature_b = touch.feature_b,
+                      .gap = touch.gap});
+    if (overlap) points.back().gap = gap_of(points.back(), m.X_AB);
+  }
+  return true;
+}
+
+void measure(World& world, Manifold& m) {
+  if (follow_sliding(world, m)) return;
+  const double threshold = world.contact_threshold(), limit = manifold_reach + threshold;
   std::vector<ManifoldPoint> points;
-  const double limit = manifold_reach + threshold;
-  m.clearance = 0;
-  // links of a robot may be made so that they overlap
-  const bool own = world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
-  const double spheres = sphere_gap(world, m.a, m.b);
-  if (spheres > limit) {
+  if (const double spheres = sphere_gap(world, m.a, m.b); spheres > limit) {
+    m.X_AB = relative_pose(world, m.a, m.b);
     m.clearance = spheres;
   } else if (has_ball(world, m)) {
+    m.X_AB = relative_pose(world, m.a, m.b);
     m.clearance = std::max(0.0, ball_distance(world, m, limit));
-    if (m.clearance <= threshold && !(m.clearance == 0 && own)) points = ball_points(world, m, threshold);
-  } else {
-    const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
-    m.clearance = std::min(d.distance, limit);
-    const bool overlap = d.distance == 0;
-    // the points of what overlaps serve for a short way, and while one of them lies where it does
-    const auto inside = [&](const ManifoldPoint& p) { return gap_of(p, m.X_AB) < 0; };
-    const bool kept = overlap && std::ranges::any_of(m.points, inside) && displacement(before, m.X_AB, b) <= served * threshold;
-    // bodies placed into each other touch where they would on the way out
-    std::optional<Pose> X_AT = m.X_AB;
-    if (overlap) X_AT = own || kept ? std::nullopt : moved_out(a, b, m.X_AB, threshold);
-    if (overlap && !X_AT) {
-      if (kept) m.X_AB = before;
-      return update_gaps(world, m);
-    }
-    if (d.distance <= threshold)
-      for (const Touch& touch : contact_set(a, b, *X_AT, {.threshold = threshold})) {
-        points.push_back({.p_a = touch.p_a,
-                          .p_b = X_AT->inverse() * touch.p_b,
-                          .normal = normal_of(a, b, *X_AT, touch),
-                          .feature_a = touch.feature_a,
-                          .feature_b = touch.feature_b,
-                          .gap = touch.gap});
-        if (overlap) points.back().gap = gap_of(points.back(), m.X_AB);
-      }
+    if (m.clearance <= threshold && !(m.clearance == 0 && are_of_one_robot(world, m))) points = ball_points(world, m, threshold);
+  } else if (!find_points(world, m, limit, points)) {
+    return update_gaps(world, m);
   }
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) {
-    std::vector<ManifoldPoint> pressing;
     const double mu = world.materials().friction(world.body(m.a).material, world.body(m.b).material).kinetic;
-    pressing = m.clearance > 0 ? take_pressing(m.points, m.X_AB, threshold, mu, points) : take_deep(m.points, m.X_AB, threshold, points);
+    const auto stay = m.clearance > 0 ? take_pressing(m.points, m.X_AB, threshold, mu, points) : take_deep(m.points, m.X_AB, threshold, points);
     inherit(points, m.points);
-    points.insert(points.end(), pressing.begin(), pressing.end());
+    points.insert(points.end(), stay.begin(), stay.end());
   }
   share_normals(points);
   m.points = std::move(points);
