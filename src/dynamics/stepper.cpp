@@ -146,7 +146,7 @@ double Stepper::move(double dt) {
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
     if (m.clearance == 0) {
       // they overlap: nothing to stop, but they are looked at before one is through the other
-      if (way > thin) most = std::min(most, std::max(dt * thin / way, 1e-3 * world_.dynamic_settings().step));
+      if (way > thin && !m.points.empty()) most = std::min(most, std::max(dt * thin / way, 1e-3 * world_.dynamic_settings().step));
       continue;
     }
     const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
