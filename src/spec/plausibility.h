@@ -7,10 +7,10 @@ namespace clench {
 
 /// Ten times denser than any metal, or lighter than air, by the volume of its surface?   returns  a sentence; "" when it is plausible
 std::string doubt_mass(double mass, const Shape* shape);
-/// Softer than anything that is grasped?   [Pa]   returns  likewise
+/// Is a modulus that of nothing that is grasped?   [Pa]   returns  likewise, "1.5 Pa is ..."
 std::string doubt_modulus(double modulus);
 
-/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area; a mass, a modulus, a
+/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area; a mass, a
 /// centre of mass or an inertia that contradicts its surface.
 /// `place`: what the sentence begins with, "w.wld:3"
 void check_plausible_object(const BodySpec& body, const std::string& place,

@@ -57,9 +57,9 @@ test("masses, moduli and gravity in another unit are told once", function(t)
     box.mass = 400
   end), {"box: its mass of 329 kg makes 3.29e+05 kg/m^3: is its unit right?"})
   t.equal(doubts(function() box.elastic_modulus = 1.5 end),
-          {"box: its elastic modulus is 1.5 Pa, and rubber's some 1,000,000: is its unit right?"})
+          {"box: elastic_modulus 1.5 Pa is softer than any rubber; is it meant in MPa?"})
   t.equal(doubts(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 0.3, elastic_modulus = 1.5}) end),
-          {"world:add_object: mesh: its elastic modulus is 1.5 Pa, and rubber's some 1,000,000: is its unit right?"})
+          {"world:add_object: mesh: elastic_modulus 1.5 Pa is softer than any rubber; is it meant in MPa?"})
   t.equal(doubts(function() world.gravity = {0, 0, -9810} end), {"gravity is 9810 m/s^2, and the earth's is 9.81: is its unit right?"})
   t.equal(doubts(function()
     box.mass, box.elastic_modulus, world.gravity = 0.3, 1.5e6, {0, 0, -1.62}

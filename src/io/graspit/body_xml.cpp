@@ -9,6 +9,7 @@
 #include "clench/io/text/repairs.h"
 #include "clench/spec/inertia.h"
 #include "clench/spec/material_names.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -133,10 +134,8 @@ void read_matter(const XmlElement& body, const FileCache& cache, Repairs& repair
   }
   if (const XmlElement youngs = body.child("youngs")) {
     out.elastic_modulus = number_of(youngs, elastic_modulus_rule, repairs);
-    if (*out.elastic_modulus < 1e4)
-      cache.suspected(
-          fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
-                      youngs.place(), *out.elastic_modulus));
+    if (const std::string doubt = doubt_modulus(*out.elastic_modulus); !doubt.empty())
+      cache.suspected(fmt::format("{}: youngs {}", youngs.place(), doubt));
   }
   if (const XmlElement bird = body.child("useFlockOfBirds"))
     out.tracker = repairs.count(bird.text(), bird.place() + ": useFlockOfBirds");

@@ -7,6 +7,7 @@
 #include "clench/io/text/repairs.h"
 #include "clench/spec/inertia.h"
 #include "clench/spec/material_names.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -74,10 +75,8 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.material_given = true;
     } else if (key == "youngs") {
       body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
-      if (*body.elastic_modulus < 1e4 && options.warn)
-        options.suspected(
-            fmt::format("{}: youngs {} Pa is softer than any rubber; is it meant in MPa?",
-                        line.place(), *body.elastic_modulus));
+      if (const std::string doubt = doubt_modulus(*body.elastic_modulus); !doubt.empty() && options.warn)
+        options.suspected(fmt::format("{}: youngs {}", line.place(), doubt));
     } else if (key == "useFlockOfBirds") {
       body.tracker = repairs.count(line.word(1), line.place() + ": useFlockOfBirds");
     } else if (key == "mass") {

@@ -103,7 +103,8 @@ static int set_elastic_modulus(lua_State* L) {
   if (given(L, 2)) modulus = check_number(L, 2);
   body.world->set_elastic_modulus(body.id, modulus);
   static const char told = 0;
-  if (modulus) warn_of(L, body, &told, doubt_modulus(*modulus));
+  if (const std::string doubt = modulus ? doubt_modulus(*modulus) : ""; !doubt.empty())
+    warn_of(L, body, &told, "elastic_modulus " + doubt);
   return 0;
 }
 

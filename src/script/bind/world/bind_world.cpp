@@ -40,6 +40,8 @@ static int add_body(lua_State* L, BodyKind kind) {
   Listeners told = reading.listeners();
   // a script knows what it leaves open
   if (file.empty()) told.note = {};
+  if (const std::string doubt = options.has("elastic_modulus") ? doubt_modulus(*spec.elastic_modulus) : ""; !doubt.empty())
+    tell(told.suspect, told.warn, place + ": elastic_modulus " + doubt);
   if (kind == BodyKind::object) {
     check_plausible_object(spec, place, reading.listeners());
     tell_assumed(std::array{&spec}, place, told);
