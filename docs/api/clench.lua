@@ -768,7 +768,7 @@ function world_queries:colliding(a, b) end
 ---@return vec3 on_b
 function world_queries:distance(a, b) end
 
----Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
+---Where surfaces touch: everywhere, on one entity, or of `a` on `b`. After a step all that pressed in it are among them; a ball touches as a sphere, outside its facets.
 ---@param a? body|robot
 ---@param b? body|robot
 ---@return contact[] # on b; without arguments on the object of each pair

@@ -132,7 +132,7 @@ double Stepper::move(double dt) {
   std::vector<std::pair<int, Manifold>> measured;
   // what passes at least: next to nothing where all start with a gap, as they may meet at any time
   std::optional<double> least;
-  double most = dt;
+  double most = dt, divided = dt;  // what passes at most; where bodies overlap
   for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
     const Manifold& m = state.manifolds[i];
     const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
@@ -146,7 +146,7 @@ double Stepper::move(double dt) {
     const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
     if (m.clearance == 0) {
       // they overlap: nothing to stop, but they are looked at before one is through the other
-      if (way > thin && !m.points.empty()) most = std::min(most, std::max(dt * thin / way, 1e-3 * world_.dynamic_settings().step));
+      if (way > thin && !m.points.empty()) divided = std::min(divided, std::max(dt * thin / way, 1e-3 * world_.dynamic_settings().step));
       continue;
     }
     const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
@@ -175,6 +175,7 @@ double Stepper::move(double dt) {
     else
       watches.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
   }
+  most = std::min(most, divided);
   double passed = most;
   if (!balls.empty()) passed = advance_balls(balls, passed, mover);
   if (!watches.empty()) {
@@ -183,7 +184,7 @@ double Stepper::move(double dt) {
     passed = advance.s;
   }
   passed = std::clamp(passed, std::min(most, least.value_or(1e-9 * dt)), most);
-  if (passed < dt) ++state.report.impacts;
+  if (passed < divided) ++state.report.impacts;
   mover.finish(passed);
   if (passed < dt)
     for (const int i : suspects) measure(world_, state.manifolds[i]);

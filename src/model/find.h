@@ -54,7 +54,8 @@ struct Contact {
   double torsion = 0;
 };
 
-/// Contacts of all pairs that may collide; `body` is the later group's.
+/// Contacts of all pairs that may collide; `body` is the later group's. As long as nobody places a pair elsewhere, all that pressed in the
+/// last step are among them, and those of balls are the step's, whose surface lies outside their facets.
 std::vector<Contact> contacts(const World& world, QueryContext* context = nullptr);
 std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
                               std::span<const Id<Body>> bodies, QueryContext* context = nullptr);

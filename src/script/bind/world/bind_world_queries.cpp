@@ -103,7 +103,8 @@ Least distance of two things, 0 when they collide, with the closest points in th
 @return vec3 on_b
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
     {"contacts", guarded<find_contacts>, R"(
-Where surfaces touch: everywhere, on one entity, or of `a` on `b`.
+Where surfaces touch: everywhere, on one entity, or of `a` on `b`. After a step all that pressed in it are among them; a ball touches
+as a sphere, outside its facets.
 @param a? body|robot
 @param b? body|robot
 @return contact[]  on b; without arguments on the object of each pair
