@@ -11,18 +11,13 @@ local function warn_once(kind, format, ...)
   clench.log.warning(script_line() .. format:format(...))
 end
 
----@param subject string  "study.shake"
----@param name string  of the option
----@param angle number  [rad]
+-- subject: "study.shake"; name: of the option; angle [rad]
 function suspect.degrees(subject, name, angle)
   if math.abs(angle) <= max_turn then return end
   warn_once("degrees", "%s: %s is %.6g: radians? clench.rad(%.6g) is %.4g", subject, name, angle, angle, math.rad(angle))
 end
 
----@param subject string
----@param name string
----@param length number  [m]
----@param size? number  of the object that it belongs to, 10 m by default [m]
+-- length [m]; size: of the object that it belongs to, 10 m by default [m]
 function suspect.millimetres(subject, name, length, size)
   if length <= math.min(size or max_distance, max_distance) then return end
   local why = size and size <= max_distance and (", more than the object's size of %.3g m"):format(size) or ""

@@ -66,6 +66,11 @@ std::string doubt_modulus(double modulus) {
   return modulus >= softest ? "" : fmt::format("{} Pa is softer than any rubber; is it meant in MPa?", modulus);
 }
 
+std::string doubt_gravity(const Eigen::Vector3d& gravity) {
+  const double size = gravity.norm();
+  return size > 100 ? fmt::format("gravity is {:.4g} m/s^2, and the earth's is 9.81: is its unit right?", size) : "";
+}
+
 // of a file that gives a mass
 static std::string doubt_given_mass(const BodySpec& body) {
   return body.mass_given ? doubt_mass(body.mass, body.shape.get()) : "";

@@ -9,6 +9,8 @@ namespace clench {
 std::string doubt_mass(double mass, const Shape* shape);
 /// Is a modulus that of nothing that is grasped?   [Pa]   returns  likewise, "1.5 Pa is ..."
 std::string doubt_modulus(double modulus);
+/// Is gravity ten times that of the earth?   [m/s^2]   returns  likewise
+std::string doubt_gravity(const Eigen::Vector3d& gravity);
 
 /// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area; a mass, a
 /// centre of mass or an inertia that contradicts its surface.

@@ -4,6 +4,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/random.h"
+#include "clench/geometry/mesh/mass.h"
 #include "support/linear.h"
 
 using namespace clench;
@@ -105,6 +106,19 @@ TEST_CASE("a hull turned, moved and scaled is the same hull") {
       CHECK(hull.facets.size() == plain.facets.size());
       check_facets(hull, moved, 200 * scale);
     }
+  }
+}
+
+TEST_CASE("the triangles of a hull enclose its volume, seen counter-clockwise from outside") {
+  for (int seed = 0; seed < 5; ++seed) {
+    const MatrixXd points = random_points(3, 60, seed);
+    const Hull hull = convex_hull(points);
+    Mesh mesh;
+    for (int i = 0; i < points.cols(); ++i) mesh.vertices.push_back(points.col(i));
+    mesh.triangles = hull_triangles(hull, points);
+    CHECK(find_faults(mesh).closed());
+    // two sums of some hundred terms
+    CHECK(solid_mass(mesh).volume == doctest::Approx(hull.volume).epsilon(1e-12));
   }
 }
 

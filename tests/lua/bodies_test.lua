@@ -61,6 +61,7 @@ test("masses, moduli and gravity in another unit are told once", function(t)
   t.equal(doubts(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 0.3, elastic_modulus = 1.5}) end),
           {"world:add_object: mesh: elastic_modulus 1.5 Pa is softer than any rubber; is it meant in MPa?"})
   t.equal(doubts(function() world.gravity = {0, 0, -9810} end), {"gravity is 9810 m/s^2, and the earth's is 9.81: is its unit right?"})
+  t.equal(doubts(function() clench.world {gravity = {0, 0, -9810}} end), {"clench.world: gravity is 9810 m/s^2, and the earth's is 9.81: is its unit right?"})
   t.equal(doubts(function()
     box.mass, box.elastic_modulus, world.gravity = 0.3, 1.5e6, {0, 0, -1.62}
   end), {})

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "clench/geometry/mesh/mesh.h"
+
 namespace clench {
 
 struct Hull {
@@ -23,6 +25,9 @@ struct Hull {
 /// throws  Error when a coordinate is not finite or dimension is outside 2..6
 /// source  Barber, Dobkin & Huhdanpaa (1996)
 Hull convex_hull(const Eigen::MatrixXd& points);
+
+/// The surface of a hull of points in space: their numbers, counter-clockwise from outside.
+std::vector<Triangle> hull_triangles(const Hull& hull, const Eigen::MatrixXd& points);
 
 /// Rank of the affine hull, by singular values relative to the largest.
 int affine_rank(const Eigen::MatrixXd& points, double tolerance = 1e-10);

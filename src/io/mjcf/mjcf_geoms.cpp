@@ -67,18 +67,10 @@ std::shared_ptr<const Geometry> MjcfGeoms::inline_mesh(const Asset& asset) {
           {floor_int(faces[i]), floor_int(faces[i + 1]), floor_int(faces[i + 2])});
     }
   } else {
-    const Hull hull = convex_hull(Eigen::Map<const Eigen::MatrixXd>(numbers.data(), 3, count));
+    const Eigen::Map<const Eigen::MatrixXd> points(numbers.data(), 3, count);
+    const Hull hull = convex_hull(points);
     if (!hull.full()) asset.values.fail("vertex", "expected points that span a solid");
-    for (size_t f = 0; f < hull.facets.size(); ++f) {
-      const auto& facet = hull.facets[f];
-      for (size_t k = 2; k < facet.size(); ++k) {
-        Triangle t = {facet[0], facet[k - 1], facet[k]};
-        const auto c = [&](int i) { return mesh.vertices[t[i]]; };
-        if ((c(1) - c(0)).cross(c(2) - c(0)).dot(hull.normals.col(static_cast<int>(f))) < 0)
-          std::swap(t[1], t[2]);
-        mesh.triangles.push_back(t);
-      }
-    }
+    mesh.triangles = hull_triangles(hull, points);
   }
   Geometry geometry;
   geometry.mesh = std::move(mesh);

@@ -49,30 +49,31 @@ Principal principal(const GripBody& body) {
   return out;
 }
 
-class Grip {
+class BulletGrip : public Grip {
  public:
-  Grip(const GripScene& scene, const StoredGrasp& grasp, const BulletGripOptions& options)
-      : scene_(scene), grasp_(grasp), options_(options), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  BulletGrip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options, const BulletOptions& bullet)
+      : scene_(scene), grasp_(grasp), kp_(options.kp), options_(bullet), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     world_.setGravity(btVector3(0, 0, 0));
-    world_.getSolverInfo().m_numIterations = options.iterations;
+    world_.getSolverInfo().m_numIterations = bullet.iterations;
     world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     add_object();
     add_hand();
   }
-  ~Grip() {
+  ~BulletGrip() override {
     for (const auto& limit : limits_) world_.removeMultiBodyConstraint(limit.get());
     for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
     world_.removeMultiBody(hand_.get());
     world_.removeRigidBody(object_.get());
   }
-  Grip(const Grip&) = delete;
+  BulletGrip(const BulletGrip&) = delete;
 
-  void step(double share, const Vector3d& force) {
+  double step_length() const override { return options_.step; }
+  void step(double share, const Vector3d& force) override {
     for (size_t j = 0; j < joints_.size(); ++j) {
       const GripLink& link = scene_.links[joints_[j].link];
       const int i = joints_[j].index;
       const double scale = link.turns ? 1 : 100;
-      double torque = scale * (options_.kp * (joints_[j].target - hand_->getJointPos(i)) - options_.kd * hand_->getJointVel(i));
+      double torque = scale * (kp_ * (joints_[j].target - hand_->getJointPos(i)) - options_.kd * hand_->getJointVel(i));
       torque -= scene_.dofs[link.dof].damping * hand_->getJointVel(i);
       if (!grasp_.torques.empty()) torque += share * grasp_.torques[link.dof] / link.ratio;
       hand_->addJointTorque(i, torque);
@@ -80,30 +81,23 @@ class Grip {
     object_->applyCentralForce(to_bullet(force));
     world_.stepSimulation(options_.step, 0);
   }
-  // of the object's frame
-  Isometry3d pose() const { return from_bullet(object_->getWorldTransform()) * object_frame_.inverse(); }
-  Vector3d com() const { return from_bullet(object_->getWorldTransform()).translation(); }
+  Isometry3d pose() const override { return from_bullet(object_->getWorldTransform()) * object_frame_.inverse(); }
 
-  int contacts(double* depth = nullptr) {
+  int contacts() override {
     int count = 0;
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
       const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(m);
-      for (int p = 0; p < manifold->getNumContacts(); ++p) {
-        const double distance = manifold->getContactPoint(p).getDistance();
-        count += distance < 1e-3;
-        if (depth) *depth = std::min(*depth, distance);
-      }
+      for (int p = 0; p < manifold->getNumContacts(); ++p) count += manifold->getContactPoint(p).getDistance() < 1e-3;
     }
     return count;
   }
-  void find_contacts() { world_.performDiscreteCollisionDetection(); }
 
-  void save() {
+  void save() override {
     saved_.q.clear();
     for (int i = 0; i < hand_->getNumLinks(); ++i) saved_.q.push_back(hand_->getJointPos(i)), saved_.q.push_back(hand_->getJointVel(i));
     saved_.X = object_->getWorldTransform(), saved_.v = object_->getLinearVelocity(), saved_.w = object_->getAngularVelocity();
   }
-  void restore() {
+  void restore() override {
     for (int i = 0; i < hand_->getNumLinks(); ++i) {
       if (hand_->getLink(i).m_dofCount == 0) continue;
       hand_->setJointPos(i, saved_.q[2 * i]);
@@ -112,6 +106,8 @@ class Grip {
     object_->setWorldTransform(saved_.X), object_->setInterpolationWorldTransform(saved_.X);
     object_->setLinearVelocity(saved_.v), object_->setAngularVelocity(saved_.w);
     update_hand();
+    // contacts are found again
+    for (double t = 0; t < 0.02; t += options_.step) step(1, Vector3d::Zero());
   }
 
  private:
@@ -185,7 +181,7 @@ class Grip {
       if (link.has_joint) {
         // what an implicit servo adds to the inertia about its axis; without it explicit ones swing up
         const GripDof& dof = scene_.dofs[link.dof];
-        moments.array() += options_.step * options_.kd + options_.step * options_.step * options_.kp + options_.step * dof.damping + dof.armature;
+        moments.array() += options_.step * options_.kd + options_.step * options_.step * kp_ + options_.step * dof.damping + dof.armature;
       }
       if (!link.has_joint)
         hand_->setupFixed(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(pivot), to_bullet(to_com));
@@ -225,7 +221,8 @@ class Grip {
 
   const GripScene& scene_;
   const StoredGrasp& grasp_;
-  BulletGripOptions options_;
+  double kp_;
+  BulletOptions options_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
@@ -245,48 +242,10 @@ class Grip {
   } saved_;
 };
 
-struct Displacement {
-  double moved, turned;
-};
-
-Displacement between(const Isometry3d& from, const Isometry3d& to, const Vector3d& com) {
-  const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
-  return {(to * com - from * com).norm(), std::abs(turn.angle())};
-}
-
 }  // namespace
 
-BulletVerdict shake_in_bullet(const GripScene& scene, const StoredGrasp& grasp, const BulletGripOptions& options) {
-  BulletVerdict out;
-  Grip grip(scene, grasp, options);
-  grip.find_contacts();
-  grip.contacts(&out.depth);
-  const auto steps = [&](double seconds) { return int(std::lround(seconds / options.step)); };
-  const Isometry3d start = grip.pose();
-  const auto lost = [&](const Displacement& d) { return !(d.moved <= options.max_distance && d.turned <= options.max_angle); };
-  for (int i = 1; i <= steps(options.grip_seconds); ++i) grip.step(double(i) / steps(options.grip_seconds), Vector3d::Zero());
-  const Isometry3d pressed = grip.pose();
-  for (int i = 0; i < steps(options.settle); ++i) grip.step(1, Vector3d::Zero());
-  const Isometry3d rest = grip.pose();
-  const Displacement all = between(start, rest, scene.object.com);
-  out.moved = all.moved, out.turned = all.turned;
-  out.settled = !lost(between(pressed, rest, scene.object.com)) && grip.contacts() > 0;
-  if (!out.settled) return out;
-  grip.save();
-  for (int d = 0; d < 6; ++d) {
-    grip.restore();
-    for (int i = 0; i < steps(0.02); ++i) grip.step(1, Vector3d::Zero());  // contacts are found again
-    const Isometry3d from = grip.pose();
-    bool held = true;
-    const Vector3d force = (d % 2 == 0 ? 1 : -1) * scene.force * Vector3d::Unit(d / 2);
-    for (int i = 0; held && i < steps(options.seconds); ++i) {
-      grip.step(1, force);
-      held = !lost(between(from, grip.pose(), scene.object.com));
-    }
-    out.held += held;
-  }
-  out.survived = out.held == 6;
-  return out;
+std::unique_ptr<Grip> bullet_grip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options, const BulletOptions& bullet) {
+  return std::make_unique<BulletGrip>(scene, grasp, options, bullet);
 }
 
 }  // namespace clench::bench

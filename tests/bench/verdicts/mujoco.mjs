@@ -1,5 +1,5 @@
 // The six-direction force test in MuJoCo: node tests/bench/verdicts/mujoco.mjs FOLDER_OF_mujoco-js [option=value...] FILE...
-// FILE: as `bench_verdicts --pieces` writes it. Prints the same table as bench_verdicts does of Bullet.
+// FILE: as `bench_verdicts --pieces` writes it. Prints how many grasps are held, and how often its verdicts agree with study.shake, and with our engine's on the same pieces.
 import fs from 'fs';
 import path from 'path';
 import {pathToFileURL} from 'url';
@@ -111,17 +111,19 @@ function shake(scene, grasp) {
   return held === 6;
 }
 
-const print = (name, t) => console.log(name.padEnd(28), String(t.count).padStart(5), String(t.ours).padStart(9), String(t.theirs).padStart(9),
-  `${(100 * t.agree / Math.max(1, t.count)).toFixed(1)} %`.padStart(11), String(t.verified).padStart(9), String(t.verified_survived).padStart(9));
-const none = () => ({count: 0, ours: 0, theirs: 0, agree: 0, verified: 0, verified_survived: 0});
-console.log(''.padEnd(28), 'count', ' survived', 'in MuJoCo', '  agreement', ' verified', 'in MuJoCo');
+const share = (part, t) => `${(100 * part / Math.max(1, t.count)).toFixed(1)} %`;
+const print = (name, t) => console.log(name.padEnd(28), [t.count, t.study, t.ours, t.theirs].map((n) => String(n).padStart(9)).join(' '),
+  [t.study_agrees, t.ours_agrees].map((n) => share(n, t).padStart(9)).join(' '), [t.verified, t.verified_survived].map((n) => String(n).padStart(9)).join(' '));
+const none = () => ({count: 0, study: 0, ours: 0, theirs: 0, study_agrees: 0, ours_agrees: 0, verified: 0, verified_survived: 0});
+console.log('held'.padEnd(28), ['of', 'by study', 'pieces', 'in MuJoCo', 'agree', 'agree', 'verified', 'in MuJoCo'].map((word) => word.padStart(9)).join(' '));
 const all = none();
 for (const file of files) {
   const scene = JSON.parse(fs.readFileSync(file)), tally = none();
   for (const grasp of scene.grasps) {
     const survived = shake(scene, grasp);
     for (const t of [tally, all]) {
-      t.count++, t.ours += grasp.survived, t.theirs += survived, t.agree += grasp.survived === survived;
+      t.count++, t.study += grasp.survived, t.ours += grasp.survived_on_pieces, t.theirs += survived;
+      t.study_agrees += grasp.survived === survived, t.ours_agrees += grasp.survived_on_pieces === survived;
       t.verified += grasp.verified, t.verified_survived += grasp.verified && survived;
     }
   }

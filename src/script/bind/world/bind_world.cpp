@@ -25,6 +25,8 @@ static int new_world(lua_State* L) {
   const auto world = std::make_shared<World>();
   world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
   world->set_gravity(options.vec3("gravity", world->gravity()));
+  static const char told = 0;
+  if (const std::string doubt = doubt_gravity(world->gravity()); !doubt.empty()) warn_once(L, &told, subject(L) + ": " + doubt);
   world->set_dynamic_settings(read_dynamic_settings(options));
   options.done();
   return push_world(L, world);

@@ -7,6 +7,7 @@
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -97,8 +98,7 @@ static int get_gravity(lua_State* L) { return push(L, world_of(L).gravity()); }
 static int set_gravity(lua_State* L) {
   world_of(L).set_gravity(check_vec3(L, 2, "gravity"));
   static const char told = 0;
-  if (const double size = world_of(L).gravity().norm(); size > 100)
-    warn_once(L, &told, fmt::format("gravity is {:.4g} m/s^2, and the earth's is 9.81: is its unit right?", size));
+  if (const std::string doubt = doubt_gravity(world_of(L).gravity()); !doubt.empty()) warn_once(L, &told, doubt);
   return 0;
 }
 
