@@ -8,14 +8,19 @@ namespace clench {
 
 Vector6d Stepper::root_twist(int tree) const { return prescribed_twist(world_, system_.trees[tree]); }
 
+// Do joints, or a floating base, turn by more than half a radian in the step? What that causes would grow from step to step.
+bool Stepper::whirls(int tree, double h) const {
+  constexpr double most = 0.5;
+  const Articulation& of = system_.trees[tree];
+  return !of.is_free_body() && of.size() > 0 && v_.segment(of.first, of.size()).cwiseAbs().maxCoeff() * h > most;
+}
+
 // What velocities cause is quadratic in them: taken at those of the step's middle rather than of its beginning a double pendulum gains a
 // twentieth of the energy. c(v + d) = c(v) + (c(v + d) - c(v - d)) / 2 but for what is quadratic in d, half the change.
 void Stepper::add_mean_bias(int tree, double h, Eigen::VectorXd& change) {
   auto v = v_.segment(system_.trees[tree].first, system_.trees[tree].size());
-  const double fastest = v.cwiseAbs().maxCoeff();
-  // what all but rests has none; what turns by half a radian in a step is not followed in any case
-  constexpr double slow = 1e-3, most = 0.5;
-  if (fastest < slow || fastest * h > most) return;
+  constexpr double slow = 1e-3;  // what all but rests has none
+  if (v.cwiseAbs().maxCoeff() < slow || whirls(tree, h)) return;
   TreeDynamics& dynamics = trees_[tree];
   const Vector6d root = root_twist(tree);
   const Eigen::VectorXd before = v;
@@ -42,7 +47,8 @@ void Stepper::find_free_velocities(double h) {
     const int n = tree.size();
     dynamics.place(world_, tree);
     if (n == 0) continue;
-    Eigen::VectorXd efforts = -dynamics.find_bias(v_, root_twist(static_cast<int>(t)), world_.gravity());
+    const Eigen::VectorXd still = whirls(static_cast<int>(t), h) ? Eigen::VectorXd::Zero(v_.size()) : Eigen::VectorXd();
+    Eigen::VectorXd efforts = -dynamics.find_bias(still.size() > 0 ? still : v_, root_twist(static_cast<int>(t)), world_.gravity());
     find_joint_forces(world_, tree, dynamics, h, state, forces_[t]);
     efforts += forces_[t].efforts;
     for (size_t i = 0; i < tree.coordinates.size(); ++i)
@@ -146,7 +152,10 @@ void Stepper::solve_found(double h) {
   DynamicState& state = world_.edit_dynamics();
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, state);
   state.report.residual = 0;
-  for (const Manifold& m : state.manifolds) state.report.overlaps += m.clearance == 0;
+  // surfaces that lie in each other by no more only touch
+  const auto is_inside = [deep = -0.01 * world_.contact_threshold()](const ManifoldPoint& p) { return p.gap < deep; };
+  for (const Manifold& m : state.manifolds)
+    state.report.overlaps += m.clearance == 0 && (m.points.empty() || std::ranges::any_of(m.points, is_inside));
   find_free_velocities(h);
   update_manifolds();
   find_rows(h);
@@ -156,8 +165,8 @@ void Stepper::solve_found(double h) {
     solve_by_ode(h);
   } else {
     resting_.assign(trees_.size(), false);
-    for (const Island& island : islands_) solve_island(island);
-    apply_impulses();
+    for (const Island& island : islands_) solve_island(island, h);
+    apply_impulses(h);
   }
   find_times(h);
   keep();

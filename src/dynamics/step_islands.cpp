@@ -10,9 +10,10 @@ namespace clench {
 
 // Faults of a solution [m/s]: what is asked of the solver, and what counts as a failure, a micrometre in a quarter of an hour.
 static constexpr double tolerance = 1e-12, failed_above = 1e-9;
-// What touches, is slower than this and would gain no more than that in a step under the forces that it had rests: it stops, and
-// its forces stay. In a step of 1 ms that is a millionth of gravity [m/s, rad/s].
-static constexpr double rest_speed = 1e-7, rest_tolerance = 1e-8;
+// What touches, is slower than this and would gain no more than that under the forces that it had rests: it stops, and its forces
+// stay. That is a millionth of gravity.
+static constexpr double rest_speed = 1e-7;          // [m/s, rad/s]
+static constexpr double rest_acceleration = 1e-5;   // [m/s^2, rad/s^2]
 
 void Stepper::find_islands() {
   const size_t trees = trees_.size();
@@ -48,7 +49,7 @@ void Stepper::find_islands() {
 }
 
 // Do the forces of the last step hold what rests? Answered by the velocities that they leave, without the matrix of the problem.
-bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution) {
+bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution, double h) {
   const Eigen::Index count = warm.size();
   // of the matrix its diagonal is enough
   if (problem_.W.rows() != count) problem_.W.resize(count, count);
@@ -71,7 +72,7 @@ bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionS
     for (size_t i = 0; i < rows.rows.size(); ++i)
       solution.u[local_[rows.rows[i]]] += rows.Y.col(static_cast<Eigen::Index>(i)).dot(change);
   }
-  const FrictionFault fault = friction_fault(problem_, warm, solution.u, rest_tolerance);
+  const FrictionFault fault = friction_fault(problem_, warm, solution.u, rest_acceleration * h);
   solution.r = warm;
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
@@ -93,7 +94,7 @@ void Stepper::assemble(const Island& island, int count) {
   }
 }
 
-void Stepper::solve_island(const Island& island) {
+void Stepper::solve_island(const Island& island, double h) {
   problem_.blocks.clear();
   rows_.clear();
   int count = 0;
@@ -116,7 +117,7 @@ void Stepper::solve_island(const Island& island) {
   }
   const DynamicSettings& settings = world_.dynamic_settings();
   FrictionSolution solution;
-  const bool held = at_rest && settings.cone == FrictionCone::round && holds(island, warm, solution);
+  const bool held = at_rest && settings.cone == FrictionCone::round && holds(island, warm, solution, h);
   if (!held) {
     assemble(island, count);
     solution = solver_.solve(
@@ -134,7 +135,7 @@ void Stepper::solve_island(const Island& island) {
   report.residual = std::max(report.residual, solution.residual);
 }
 
-void Stepper::apply_impulses() {
+void Stepper::apply_impulses(double h) {
   for (size_t t = 0; t < trees_.size(); ++t) {
     const TreeRows& rows = tree_rows_[t];
     if (rows.rows.empty()) continue;
@@ -143,7 +144,7 @@ void Stepper::apply_impulses() {
     trees_[t].other_half_solve(change);
     auto v = v_.segment(system_.trees[t].first, system_.trees[t].size());
     v += change;
-    if (resting_[t] && v.cwiseAbs().maxCoeff() < rest_speed) v.setZero();
+    if (resting_[t] && v.cwiseAbs().maxCoeff() < rest_acceleration * h) v.setZero();
   }
 }
 

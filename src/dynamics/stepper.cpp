@@ -56,10 +56,10 @@ double max_speed(const World& world, Id<Body> id) {
   return twist.linear.norm() + twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
 }
 
-// Do they turn about each other by so much that the chord tells nothing of the way?
-bool turns_far(const World& world, const Manifold& m, double dt) {
+// By how much they turn about each other at most [rad].
+double turn(const World& world, const Manifold& m, double dt) {
   const auto& twists = world.dynamics()->twists;
-  return dt * (twists[m.a.index].angular.norm() + twists[m.b.index].angular.norm()) > 0.5;
+  return dt * (twists[m.a.index].angular.norm() + twists[m.b.index].angular.norm());
 }
 
 // The least that a body measures along an axis of its own; no way that is shorter leads through it.
@@ -85,7 +85,7 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
     for (int steps = 0; s < stop && steps < 1000; ++steps) {
       mover.place(s);
       const double gap = ball_distance(world_, m, speed * (stop - s) + 2 * threshold);
-      // one that rolls or leaves goes on
+      // one that leaves goes on
       if (gap <= there * threshold && gap < before && steps > 0) break;
       before = gap;
       s = std::min(stop, s + std::max(gap - aim * threshold, 0.05 * threshold) / speed);
@@ -101,6 +101,7 @@ double Stepper::free_until(const Manifold& m, int places, double dt, Mover& move
   const auto [first, second] = ordered(m.a, m.b);
   const auto is_free = [&](double s) {
     mover.place(s);
+    if (has_ball(world_, m)) return ball_distance(world_, m, world_.contact_threshold()) > 0;
     return distance(*world_.body(m.a).shape, *world_.body(m.b).shape, relative_pose(world_, m.a, m.b), world_.contact_threshold(),
                     &world_.context().pair(first, second)).distance > 0;
   };
@@ -126,6 +127,8 @@ double Stepper::move(double dt) {
 
   // What moves farther than so many thresholds in a step is followed all the way; others are looked at where they arrive.
   constexpr double short_way = 10, max_looks = 1000;
+  // Beyond the one turn the chord tells nothing of the way, beyond the other [rad] nobody follows it.
+  constexpr double far_turn = 0.5, whirl = 20;
   std::vector<int> suspects;
   std::vector<PairBound> watches;
   std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
@@ -137,7 +140,8 @@ double Stepper::move(double dt) {
     const Manifold& m = state.manifolds[i];
     const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
     // the bound holds on the whole way, which is longer than the chord of a turn
-    const bool far = turns_far(world_, m, dt);
+    const double turned = turn(world_, m, dt);
+    const bool far = turned > far_turn;
     const double arc = far ? dt * (max_speed(world_, m.a) + max_speed(world_, m.b)) : 0;
     if (!may_have_met(world_, m, X_AB) && !(far && displacement(m.X_AB, before, *world_.body(m.b).shape) + arc >= m.clearance))
       continue;
@@ -153,8 +157,9 @@ double Stepper::move(double dt) {
     const double looked_at = std::min(short_way * world_.contact_threshold(), thin);
     Manifold there = m;
     bool arrived = way <= thin && follow_sliding(world_, there);
+    if (turned > whirl) measure(world_, there), arrived = true;
     // following what touches would ask a thousand times whether it still only does
-    const bool looks = !arrived && touching && !has_ball(world_, m) && way > looked_at && way <= max_looks * looked_at;
+    const bool looks = !arrived && touching && way > looked_at && way <= max_looks * looked_at;
     const double free = looks ? free_until(m, static_cast<int>(way / looked_at), dt, mover) : 0;
     if (!arrived && (way <= looked_at || free == dt)) {
       measure(world_, there);
@@ -180,8 +185,10 @@ double Stepper::move(double dt) {
   if (!balls.empty()) passed = advance_balls(balls, passed, mover);
   if (!watches.empty()) {
     int queries = 0;
-    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, 1000);
-    passed = advance.s;
+    // of each pair the gap is measured at first, and some times on its way
+    const int most_steps = 1000 + 10 * static_cast<int>(watches.size());
+    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, most_steps);
+    passed = advance.iteration_limit ? std::max(advance.s, std::min(passed, 0.01 * world_.dynamic_settings().step)) : advance.s;
   }
   passed = std::clamp(passed, std::min(most, least.value_or(1e-9 * dt)), most);
   if (passed < divided) ++state.report.impacts;

@@ -66,6 +66,7 @@ class Stepper {
   Eigen::Vector3d surface_velocity(Id<Body> body) const;
   void carry_welded();
   void find_free_velocities(double h);
+  bool whirls(int tree, double h) const;
   void add_mean_bias(int tree, double h, Eigen::VectorXd& change);
   void update_manifolds();
   void add_contact(int manifold, int point, double h);
@@ -73,10 +74,10 @@ class Stepper {
   int add_columns(int tree, int count);
   void find_rows(double h);
   void find_islands();
-  bool holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution);
+  bool holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution, double h);
   void assemble(const Island& island, int count);
-  void solve_island(const Island& island);
-  void apply_impulses();
+  void solve_island(const Island& island, double h);
+  void apply_impulses(double h);
   void solve_by_ode(double h);
   void find_times(double h);
   void keep();

@@ -6,6 +6,7 @@
 #include "clench/io/read.h"
 #include "clench/io/text/find_file.h"
 #include "clench/io/text/xml.h"
+#include "clench/io/tree/tree_model.h"
 #include "clench/io/urdf_clench_text.h"
 #include "clench/io/urdf_losses.h"
 #include "clench/io/urdf_plan.h"
@@ -137,7 +138,8 @@ void UrdfText::add_joint(const UrdfJoint& joint) {
     const double factor = std::abs(joint.factor);
     add("    ",
         fmt::format("<limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"{}\"/>", joint.min,
-                    joint.max, dof.max_effort / factor, dof.max_velocity * factor));
+                    joint.max, dof.max_effort > 0 ? dof.max_effort / factor : unlimited,
+                    dof.max_velocity > 0 ? dof.max_velocity * factor : unlimited));
     if (spec->viscous != 0 || spec->coulomb != 0)
       add("    ",
           fmt::format("<dynamics damping=\"{}\" friction=\"{}\"/>", spec->viscous, spec->coulomb));

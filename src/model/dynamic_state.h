@@ -106,6 +106,7 @@ struct DynamicState {
   std::vector<Pose> sweep_poses;             ///< poses when the pairs were last looked for
   double sweep_reach = 0;                    ///< how near pairs had to be then [m]
   uint64_t sweep_model = 0, sweep_settings = 0;  ///< stamps then
+  double sweep_threshold = 0;                ///< within which they touched then [m]
   std::vector<RowForce> row_forces;          ///< of what is no contact, by kind and index, for a warm start
   StepReport report;
 

@@ -191,8 +191,10 @@ class World {
   void carry_welded();
   DofControl first_control(const Robot& robot, size_t dof) const;
   void come_to_rest(Id<Body> body);
-  /// with all that it carries; its motors hold it where it is
+  /// with all that it carries
   void come_to_rest(Id<Robot> robot);
+  /// Its motors hold its DOFs where they are, or give nothing.
+  void hold_dofs(Id<Robot> robot);
   void check_dof_count(Id<Robot> robot, const Eigen::VectorXd& q) const;
   /// A pose of a robot's base, and of all that moves with it: where they are to be.
   void find_places(Id<Robot> robot, const Pose& X_WB);

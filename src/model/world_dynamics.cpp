@@ -72,8 +72,13 @@ Twist World::carried_twist(Id<Body> id, Id<Body> carrier) const {
 // whatever is welded to something moves as that does
 void World::carry_welded() {
   const auto& welds = dynamic_settings().welds;
-  for (size_t pass = 0; pass < welds.size(); ++pass)
-    for (const auto& [object, carrier] : welds) edit_dynamics().twists[object.index] = carried_twist(object, carrier);
+  if (welds.empty()) return;
+  DynamicState& state = edit_dynamics();
+  for (const auto& [object, carrier] : welds) {
+    Id<Body> first = carrier;  // that is itself welded to nothing
+    for (auto next = welds.find(first); next != welds.end(); next = welds.find(first)) first = next->second;
+    state.twists[object.index] = carried_twist(object, first);
+  }
 }
 
 void World::set_twist(Id<Body> id, const Twist& twist) {
@@ -134,6 +139,7 @@ void World::update_link_twists(Id<Robot> id) {
     if (!mounting || mounting->parent != id) continue;
     const Id<Body> carried = robot(other).base;
     state.twists[carried.index] = carried_twist(carried, r.links[mounting->link].body);
+    if (mounting->piece) state.twists[mounting->piece->index] = carried_twist(*mounting->piece, carried);
     update_link_twists(other);
   }
 }
@@ -165,15 +171,22 @@ void World::come_to_rest(Id<Robot> id) {
   if (!state_.dynamics) return;
   DynamicState& state = edit_dynamics();
   const Robot& r = robot(id);
-  for (const auto part : bodies_of(id)) state.twists[part.index] = state.solved[part.index] = {};
-  for (size_t i = r.first_dof; i < r.first_dof + r.dofs.size(); ++i) {
-    state.dof_velocities[i] = 0;
-    state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .trajectory = {}};
-  }
-  for (size_t i = r.first_joint; i < r.first_joint + r.joints.size(); ++i) state.joint_velocities[i] = 0;
+  state.twists[r.base.index] = r.mounting ? carried_twist(r.base, robot(r.mounting->parent).links[r.mounting->link].body) : Twist{};
+  for (size_t i = 0; i < r.dofs.size(); ++i) state.dof_velocities[r.first_dof + i] = 0;
+  for (size_t i = 0; i < r.joints.size(); ++i) state.joint_velocities[r.first_joint + i] = 0;
+  update_link_twists(id);
+  for (const auto part : bodies_of(id)) state.solved[part.index] = state.twists[part.index];
   for (const auto other : robots())
     if (robot(other).mounting && robot(other).mounting->parent == id) come_to_rest(other);
   carry_welded();
+}
+
+void World::hold_dofs(Id<Robot> id) {
+  if (!state_.dynamics) return;
+  DynamicState& state = edit_dynamics();
+  const Robot& r = robot(id);
+  for (size_t i = r.first_dof; i < r.first_dof + r.dofs.size(); ++i)
+    state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .trajectory = {}};
 }
 
 }  // namespace clench

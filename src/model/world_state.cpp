@@ -143,6 +143,7 @@ void World::set_joints(Id<Robot> id, const Pose& X_WB, const Eigen::VectorXd& q,
     throw;
   }
   come_to_rest(id);
+  hold_dofs(id);
 }
 
 }  // namespace clench

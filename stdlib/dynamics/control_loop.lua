@@ -134,9 +134,13 @@ return function(hooks, world, seconds, stepping, step, events)
     each(hooks.tasks, function(handle) go_on(handle, world) end)
     -- one that went to another moment runs as long as it was asked to from there
     if world.time ~= before then last = last + (world.time - before) end
+    local listens = hooks.listeners and #hooks.listeners > 0
+    -- what went on while nobody listened is no news
+    if listens and not hooks.listened then events(stepping, hooks[1]) end
+    hooks.listened = listens
     if not step(stepping, last) then break end
     before = world.time
-    if hooks.listeners and #hooks.listeners > 0 then tell(hooks.listeners, events(stepping, hooks[1])) end
+    if listens then tell(hooks.listeners, events(stepping, hooks[1])) end
     call_observers(world, hooks.observers)
     last = last + (world.time - before)
     if #(hooks.tasks or {}) > 64 then clear(hooks.tasks) end

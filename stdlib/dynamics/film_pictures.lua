@@ -27,9 +27,10 @@ local function camera_for(recording, given)
   if given.eye then return end
   local middle, radius = seen(recording)
   local target = given.target or middle
-  local field = given.field_of_view or 0.6
+  -- what is no angle the picture refuses
+  local field = type(given.field_of_view) == "number" and given.field_of_view or 0.6
   local away = clench.vec3(0.75, -0.95, 0.6)
-  given.target, given.field_of_view = target, field
+  given.target, given.field_of_view = target, given.field_of_view or field
   given.eye = target + away / away:norm() * (1.05 * radius / math.sin(field / 2))
 end
 

@@ -111,7 +111,11 @@ local function note(self, world)
     local parts, names = parts_of(name, source[2](world))
     if not self.widths[name] then
       self.widths[name] = #parts
-      for _, part in ipairs(names) do self.columns[#self.columns + 1] = name .. part end
+      for _, part in ipairs(names) do
+        if self.known[name .. part] then raise(("world:log: '%s' is the name of two columns"):format(name .. part)) end
+        self.known[name .. part] = true
+        self.columns[#self.columns + 1] = name .. part
+      end
     elseif self.widths[name] ~= #parts then
       raise(("world:log: %s: expected %d numbers as before, got %d"):format(name, self.widths[name], #parts))
     end
@@ -155,7 +159,7 @@ end
 return function(hooks, set, options, world)
   local read = read_options("world:log", options)
   local rate = read:positive("rate", 100)
-  local log = setmetatable({rows = {}, columns = {"time"}, widths = {}}, Log)
+  local log = setmetatable({rows = {}, columns = {"time"}, known = {time = true}, widths = {}}, Log)
   log.sources = sources_of(read, world)
   read:done()
   log.handle = hooks.observe(set, function(running) note(log, running) end, rate)

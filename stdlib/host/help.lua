@@ -24,14 +24,26 @@ local function print_class(class, all)
   end
 end
 
+-- also one of Lua modules, "clench.plan"   returns  is there one?
 local function print_library(name, all)
+  local found = false
   for _, library in ipairs(all.libraries) do
     if library.name == name then
       if library.doc ~= "" then print(library.doc) end
       print_members(name, library.fields, ".")
       print_members(name, library.functions, ".")
+      found = true
     end
   end
+  local begin = name:match "^clench%.(.+)$"
+  for _, entry in ipairs(begin and doc.packed_functions(all.files) or {}) do
+    local own = entry.name:match("^" .. begin:gsub("%p", "%%%0") .. "%.(.+)$")
+    if own then
+      print_members(name, {{name = own, doc = entry.doc}}, ".")
+      found = true
+    end
+  end
+  return found
 end
 
 -- calls visit(subject, entry) for every function, field and method
@@ -47,6 +59,19 @@ local function each(all, visit)
   end
 end
 
+-- names of everything whose documentation has the word, one a line
+local function print_mentions(word, all)
+  local names = {}
+  local function look(subject, entry)
+    if entry.doc:lower():find(word:lower(), 1, true) then names[#names + 1] = subject end
+  end
+  each(all, look)
+  for _, entry in ipairs(doc.packed_functions(all.files)) do look("clench." .. entry.name, entry) end
+  table.sort(names)
+  if #names > 0 then print(("'%s' is no name; it is spoken of by\n  %s"):format(word, table.concat(names, "\n  "))) end
+  return #names > 0
+end
+
 -- the value of "clench.json.encode"
 local function value_of(path)
   local value = _G
@@ -59,8 +84,9 @@ local function explain(x)
   local meta = debug.getmetatable(x)
   local name = type(meta) == "table" and rawget(meta, "__name")
   if x == nil then
-    print "help(x) explains a value: a function, a robot, clench.json; help 'autograsp' finds a name."
-    return print_library("clench", all)
+    print "help(x) explains a value: a function, a robot, clench.json; help 'autograsp' finds a name, or who speaks of a word."
+    print_library("clench", all)
+    return
   elseif type(x) == "string" then
     each(all, function(subject, entry)
       if subject == x or entry.name == x then print_entry(subject, entry) found = true end
@@ -69,6 +95,7 @@ local function explain(x)
       local subject = "clench." .. entry.name
       if subject == x or entry.name == x or entry.name:match "%w+$" == x then print_entry(subject, entry) found = true end
     end
+    found = found or print_library(x, all) or print_library("clench." .. x, all) or #x > 2 and print_mentions(x, all)
   elseif type(x) == "function" then
     local _, id = debug.getupvalue(x, 1)
     each(all, function(subject, entry)
@@ -87,8 +114,7 @@ local function explain(x)
       end
     end
   elseif type(x) == "table" and name then
-    print_library(name, all)
-    found = true
+    found = print_library(name, all)
   else
     for _, class in ipairs(all.classes) do
       if type(x) == "userdata" and class.name == name then print_class(class, all) found = true end

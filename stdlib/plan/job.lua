@@ -7,6 +7,7 @@ local described = require "clench.described"
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
 local running = require "clench.plan.running"
+local script_line = require "clench.script_line"
 local touch = require "clench.plan.touch"
 local Job = {}
 Job.__index = Job
@@ -126,6 +127,15 @@ local function freed(world, name)
   return free
 end
 
+local function tell_overlaps(subject, world, arm)
+  local names = {}
+  for _, pair in ipairs(world:colliding(arm)) do names[#names + 1] = ("%s and %s"):format(pair[1].name, pair[2].name) end
+  if #names > 0 then
+    clench.log.warning(script_line() .. ("%s: '%s' collides before anything moves, which is held against no grasp: %s"):format(
+      subject, arm.name, table.concat(names, ", ")))
+  end
+end
+
 ---@param subject string  "plan.anneal"
 ---@param given table
 ---@param own? fun(read: table, job: table)  reads the planner's own options
@@ -150,6 +160,7 @@ return function(subject, given, own)
   for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
   if own then own(read, job) end
   read:done()
+  if job.arm then tell_overlaps(subject, world, job.arm) end
 
   local energy = job.energy
   local has_function = type(energy) == "function" or described(energy) == "a energy" and not energy.any_thread

@@ -1,5 +1,6 @@
 local read_options = require "clench.options"
 local read_motion = require "clench.study.motion.options"
+local read_vector = require "clench.study.motion.read_vector"
 local bounds = require "clench.study.motion.bounds"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
@@ -15,8 +16,7 @@ local ramp = 0.1  -- in which the speed is reached, and lost again [s]
 return function(options)
   local read = read_options("study.lift", options)
   local height, speed, hold = read:positive("height", 0.1, 1e6), read:positive("speed", 0.1, bounds.speed), read:not_negative("hold", 1, bounds.seconds)
-  local direction = read:point("direction", {0, 0, 1})
-  direction = clench.vec3(direction[1] or direction.x, direction[2] or direction.y, direction[3] or direction.z)
+  local direction = read_vector(read, "direction", clench.vec3(0, 0, 1), 1e6)
   if direction:norm() < 1e-9 then read:fail "direction must not be zero" end
   local job = read_motion(read, {surroundings = true})
   read:done()

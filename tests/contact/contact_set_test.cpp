@@ -382,6 +382,17 @@ TEST_CASE("a gap too narrow to point anywhere takes the face's normal") {
     // 1e-6: what the direction of the narrowest trusted gap may be off
     for (const Touch& t : touches) CHECK((t.normal_b - Vector3d::UnitZ()).norm() < 1e-6);
   }
+  // also where rounding says that edges come nearer than faces
+  const auto cube = shape(test::box(0.1, 0.1, 0.1));
+  for (const double x : {0.1, 0.2, 0.3, 0.5})
+    for (const double gap : {5e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9})
+      for (int axis = 0; axis < 3; ++axis) {
+        // as two bodies of a world stand: the position of one in the other has its rounding
+        const double apart = (x + 0.1) - (x - gap);
+        const auto touches = contact_set(*cube, *cube, Pose::translation(apart * Vector3d::Unit(axis)));
+        CHECK(touches.size() == 4);
+        for (const Touch& t : touches) CHECK((t.normal_b - Vector3d::Unit(axis)).norm() < 1e-6);
+      }
   // a mesh turned inside out is still on the same side
   Mesh inverted = test::box(0.05, 0.05, 0.05);
   for (Triangle& t : inverted.triangles) std::swap(t[0], t[1]);

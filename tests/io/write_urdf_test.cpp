@@ -81,6 +81,14 @@ std::string contents(const fs::path& path) { return read_bytes(path); }
 
 }  // namespace
 
+TEST_CASE("motors without limits do not stand still in other readers, and come back without") {
+  const TemporaryFolder folder;
+  const auto urdf = written(one_link("free", "wheel"), folder.path() / "free.urdf");
+  CHECK(contents(folder.path() / "free.urdf").find("effort=\"1000000000\" velocity=\"1000000000\"") != std::string::npos);
+  CHECK(urdf.robot.dofs[0].max_effort == 0);
+  CHECK(urdf.robot.dofs[0].max_velocity == 0);
+}
+
 TEST_CASE("a robot from a .urdf comes back from one as it was") {
   const TemporaryFolder folder;
   const RobotSpec robot = gripper();

@@ -280,6 +280,11 @@ test("a hand on an arm keeps the grasps that the arm reaches", function(t)
   local far = clench.plan.random {hand = hand, object = glass, count = 5, seed = 1}
   t.equal(#far.grasps, 0)
   t.ok(tostring(far.report):find "the arm reaches none")
+  local base = arm.base
+  world:add_obstacle(clench.shapes.box {0.1, 0.1, 0.1}, {name = "crate", pose = {xyz = base.pose.position}})
+  local said = t.warnings(function() clench.plan.random {hand = hand, object = glass, count = 1, seed = 1} end)
+  t.ok(said[1]:find(("plan.random: '%s' collides before anything moves, which is held against no grasp: "):format(arm.name), 1, true), said[1])
+  t.ok(said[1]:find("crate", 1, true), said[1])
 end)
 
 test("grasps that are verified by shaking survive it, and lost ones are dropped or marked", function(t)

@@ -251,6 +251,8 @@ void find_manifolds(World& world, const System& system, double travel) {
   DynamicState& state = world.edit_dynamics();
   if (sweep_is_old(world, state, travel)) {
     state.sweep_reach = std::max(manifold_reach, 8 * travel);
+    // what was measured holds no longer
+    const bool changed = state.sweep_model != world.model().stamp || state.sweep_threshold != world.contact_threshold();
     std::vector<Manifold> before = std::move(state.manifolds);
     state.manifolds.clear();
     QueryContext& context = world.context();
@@ -263,6 +265,7 @@ void find_manifolds(World& world, const System& system, double travel) {
       const auto found = std::lower_bound(before.begin(), before.end(), pair, less);
       if (found != before.end() && found->a == pair.first && found->b == pair.second) {
         state.manifolds.push_back(std::move(*found));
+        if (changed) measure(world, state.manifolds.back());
       } else {
         state.manifolds.push_back({.a = pair.first, .b = pair.second, .X_AB = {}, .X_AB_left = {}, .points = {}});
         Manifold& made = state.manifolds.back();
@@ -274,6 +277,7 @@ void find_manifolds(World& world, const System& system, double travel) {
     for (const auto id : world.bodies()) state.sweep_poses[id.index] = world.pose(id);
     state.sweep_model = world.model().stamp;
     state.sweep_settings = world.settings().stamp;
+    state.sweep_threshold = world.contact_threshold();
   }
   for (Manifold& m : state.manifolds) {
     const Pose X_AB = relative_pose(world, m.a, m.b);

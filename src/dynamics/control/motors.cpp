@@ -79,6 +79,8 @@ double feedforward_effort(const World& world, const Coordinate& c, const Dynamic
 
 void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& state) {
   const Robot& robot = world.robot(id);
+  // the next move may last a whole step, however short this one was
+  const double step = std::max(world.dynamic_settings().step, h);
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
     const DofSpec& dof = robot.dofs[d];
     if (dof.kind != DofKind::compliant) continue;
@@ -96,16 +98,16 @@ void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& stat
     if (!(stiffness > 0)) continue;
     double speed;
     if (control.mode == ControlMode::effort)  // until the springs give it
-      speed = (control.effort - force) / (stiffness * h);
+      speed = (control.effort - force) / (stiffness * step);
     else if (control.mode == ControlMode::velocity)
       speed = control.velocity;
     else
-      speed = ((control.trajectory ? control.trajectory->value(state.time + h) : control.target) - x) / h;
+      speed = ((control.trajectory ? control.trajectory->value(state.time + step) : control.target) - x) / step;
     const double fastest = dof.max_velocity > 0 ? dof.max_velocity : std::max(std::abs(dof.default_velocity), 1.0);
     speed = std::clamp(speed, -fastest, fastest);
     if (const double most = dof.max_effort; most > 0)
-      speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * h)), std::max(0.0, (most - force) / (stiffness * h)));
-    speed = std::clamp(speed, (robot.limits[d][0] - x) / h, (robot.limits[d][1] - x) / h);
+      speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * step)), std::max(0.0, (most - force) / (stiffness * step)));
+    speed = std::clamp(speed, (robot.limits[d][0] - x) / step, (robot.limits[d][1] - x) / step);
     state.dof_velocities[index] = speed;
     state.dof_efforts[index] = force;
   }

@@ -22,7 +22,7 @@ struct FrictionOptions {
 ///
 /// Of many solutions, as at the four corners of a box, it is the one of least sum of w_i r_i^2 of its states (open,
 /// sticking, sliding), wherever it starts from: w_i is the mean of W_ii over all contacts of the same two bodies.
-/// A warm start that already solves the problem is returned as it is, for the price of W r; one that all but does may end in
+/// A warm start that already solves the problem of round cones is returned as it is, for the price of W r; one that all but does may end in
 /// a solution near it. Demands that contradict each other (two opposite limits that both ask for more) get as much as can be had,
 /// with least squares of what is missing and without great impulses; then the solution is not `solved`.
 ///

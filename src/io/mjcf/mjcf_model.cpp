@@ -125,8 +125,9 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
       if (geom.collides()) tree.pieces[i].collision.push_back(geom.piece);
       if (geom.drawn) tree.pieces[i].visual.push_back(geom.piece);
     }
-  dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), cache_,
-              whole_ == std::string_view("world"));
+  dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), cache_, true);
+  if (whole_ != std::string_view("world"))
+    cache_.note(fmt::format("{}: read as a robot, its links count as plastic; as a scene, by clench.load, they have the friction of their geoms", document_.file()));
   resolve_leaders(model);
   MjcfRobot out;
   out.tree.model.joints = model.joints;

@@ -50,6 +50,9 @@ struct TreeModel {
 /// A joint without limits may turn this far, a full turn either way [rad]; slide this far [m].
 inline constexpr double endless_turn = 6.283185307179586, endless_slide = 1;
 
+/// Other readers take 0 in a URDF for a joint that cannot move; we write, and read, this for one without a limit [N m, N, rad/s or m/s].
+inline constexpr double unlimited = 1e9;
+
 /// Frame after a joint at q, in the frame before it.
 Pose joint_pose(const TreeJoint& joint, double q);
 

@@ -373,8 +373,12 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
   if (element) {
     unused_.attributes(element, {"lower", "upper", "effort", "velocity"});
     const XmlValues values(element);
-    joint.effort = values.not_negative("effort", 0, repairs_);
-    joint.velocity = values.not_negative("velocity", 0, repairs_);
+    const auto limit = [&](const char* name) {
+      const double value = values.not_negative(name, 0, repairs_);
+      return value < unlimited ? value : 0;
+    };
+    joint.effort = limit("effort");
+    joint.velocity = limit("velocity");
     if (from.type != "continuous" && (values.has("lower") || values.has("upper"))) {
       joint.min = values.number("lower", 0);
       joint.max = values.number("upper", 0);

@@ -30,13 +30,22 @@ uniform mat4 to_clip;
 void main() { gl_Position = to_clip * vec4(p, 1); }
 )";
 
+/// part of what develops: the shoulder and the curve of sRGB within 6 of 255, without powers
+inline constexpr const char* draft_curve_part = R"(
+vec3 developed(vec3 c) {
+  const float knee = 0.7;
+  vec3 over = max(vec3(0), c - knee) / (1 - knee), more = over * (1 + 0.5 * over);
+  vec3 root = sqrt(min(c, knee) + (1 - knee) * more / (1 + more));
+  return root * (1.0498 - 0.0285 * root);
+}
+)";
+
 /// part of what shades: a lamp with one map of shadows, and a bright room
 inline constexpr const char* draft_light_part = R"(
 uniform sampler2DArrayShadow map;
 uniform mat3 map_axes;       // rows: across, across, towards the lamp
 uniform vec3 to_lamp;
 uniform float texel;         // of the map, in scene units
-uniform int taps;            // 1, or 0 without shadow
 
 // part of the lamp that reaches p, where it is asked. A loop ends early where a branch would
 // calculate both sides
@@ -46,13 +55,13 @@ float lit(vec3 p, vec3 n, bool asked) {
   vec3 at = vec3(0.5 + 0.5 * q.xy, min(0.5 - 0.5 * q.z, 0.99999));
   bool inside = asked && dot(q.xy, q.xy) < 1.1;
   float part = 1;
-  int count = inside ? taps : 0;
+  int count = inside ? 1 : 0;
   for (int i = 0; i < count; ++i) part = texture(map, vec4(at.xy, 0, at.z));
   return part;
 }
 )";
 
-/// bodies, friction cones and arrows
+/// bodies; with MARKS friction cones and arrows, whatever the light; with GLASS what shines through, on which no shadow falls
 inline constexpr const char* draft_fragment = R"(
 uniform vec3 eye;
 // what a varnish returns of the lamp and of the room
@@ -68,22 +77,22 @@ vec3 shine(vec3 n, vec3 v, float direct) {
 in vec3 at;
 in vec3 normal;
 flat in vec4 paint;
-uniform float glow;          // 1: cones and arrows, whatever the light
 out vec4 result;
 void main() {
   vec3 n = normalize(gl_FrontFacing ? normal : -normal), v = normalize(eye - at);
-  vec3 color = paint.rgb;
   float across = clamp(dot(n, v), 0, 1), cover = paint.a;
-  if (glow > 0.5) {
-    color *= 0.75 + 0.30 * across + 0.25 * max(0, n.z);
-  } else {
-    float direct = 0.62 * max(0, dot(n, to_lamp));
-    direct *= lit(at, n, direct > 0);
-    float room = 0.62 * mix(0.42, 1.0, smoothstep(0, 1, 0.5 + 0.5 * n.z)) * (0.75 + 0.25 * across);
-    color = color * (room + direct) + shine(n, v, direct);
-    float rim = (1 - across) * (1 - across);
-    if (cover < 0.999) cover = mix(cover, 1, 0.75 * rim);
-  }
+#ifdef MARKS
+  vec3 color = paint.rgb * (0.75 + 0.30 * across + 0.25 * max(0, n.z));
+#else
+  float direct = 0.62 * max(0, dot(n, to_lamp));
+#ifdef GLASS
+  cover = mix(cover, 1, 0.75 * (1 - across) * (1 - across));
+#else
+  direct *= lit(at, n, direct > 0);
+#endif
+  float room = 0.62 * mix(0.42, 1.0, smoothstep(0, 1, 0.5 + 0.5 * n.z)) * (0.75 + 0.25 * across);
+  vec3 color = paint.rgb * (room + direct) + shine(n, v, direct);
+#endif
   result = vec4(developed(color) * cover, cover);
 }
 )";

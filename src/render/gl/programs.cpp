@@ -21,10 +21,12 @@ Programs::Programs() {
   shadow = gl::make_program(lights(1), shadow_vertex, depth_fragment);
   gather = gl::make_program(lights(lights_at_once), cover_vertex, light + gather_fragment);
   smooth = gl::make_program("", cover_vertex, smooth_fragment);
-  draft = gl::make_program("", draft_vertex, curve + draft_part + draft_fragment);
-  draft_floor =
-      gl::make_program("", draft_vertex, backdrop + curve + draft_part + draft_floor_fragment);
-  draft_behind = gl::make_program("", cover_vertex, backdrop + curve + draft_behind_fragment);
+  const std::string shown = draft_curve_part + draft_part, draft_body = shown + draft_fragment;
+  draft = gl::make_program("", draft_vertex, draft_body);
+  draft_glass = gl::make_program("#define GLASS\n", draft_vertex, draft_body);
+  draft_marks = gl::make_program("#define MARKS\n", draft_vertex, draft_body);
+  draft_floor = gl::make_program("", draft_vertex, backdrop + shown + draft_floor_fragment);
+  draft_behind = gl::make_program("", cover_vertex, backdrop + draft_curve_part + draft_behind_fragment);
   draft_shadow = gl::make_program("", draft_shadow_vertex, depth_fragment);
   draft_outline = gl::make_program("", draft_vertex, draft_seen_fragment);
 }

@@ -187,7 +187,6 @@ void Draft::give_light(unsigned program) const {
   gl::bind(program, "map", 0, map_, true);
   gl::set(program, "map_axes", std::vector{Eigen::Matrix3f(map_axes_.cast<float>())});
   gl::set(program, "to_lamp", Eigen::Vector3f(to_lamp_.cast<float>()));
-  gl::set(program, "taps", 1);
   gl::set(program, "texel", static_cast<float>(2 * draft_reach / map_size_));
 }
 
@@ -222,13 +221,12 @@ void Draft::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& 
 
 // far bodies first, and of each its far side; no shadow falls on them
 void Draft::draw_glass(const Eigen::Matrix4d& clip) const {
-  gl::set(programs_.draft, "taps", 0);
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
   for (const Placed& placed : clear_)
     for (const GLenum side : {GL_FRONT, GL_BACK}) {
       glCullFace(side);
-      draw(placed, programs_.draft, clip, true);
+      draw(placed, programs_.draft_glass, clip, true);
     }
   glDisable(GL_CULL_FACE);
   glCullFace(GL_BACK);
@@ -240,10 +238,7 @@ Placed Draft::placed_marks() const {
 }
 
 void Draft::draw_marks(const Eigen::Matrix4d& clip) const {
-  if (!marks_) return;
-  gl::set(programs_.draft, "glow", 1.0f);
-  draw(placed_marks(), programs_.draft, clip);
-  gl::set(programs_.draft, "glow", 0.0f);
+  if (marks_) draw(placed_marks(), programs_.draft_marks, clip);
 }
 
 // what lines are found in, one sample a pixel
@@ -296,9 +291,10 @@ void Draft::paint(const Tile& tile, Picture& out) {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
-  give_light(programs_.draft);
-  gl::set(programs_.draft, "eye", shading_eye(eye_));
-  gl::set(programs_.draft, "glow", 0.0f);
+  for (const unsigned program : {unsigned(programs_.draft), unsigned(programs_.draft_glass), unsigned(programs_.draft_marks)}) {
+    give_light(program);
+    gl::set(program, "eye", shading_eye(eye_));
+  }
   glDepthFunc(GL_LEQUAL);
   for (const Placed& placed : solid_) {
     options_.progress.tell(0.6, "drawing");
@@ -311,7 +307,6 @@ void Draft::paint(const Tile& tile, Picture& out) {
     gl::set(programs_.draft_floor, "bare", bare ? 1.0f : 0.0f);
     draw({&*floor_, Eigen::Matrix4d::Identity(), {0, 0, 0, 1}, false, 0}, programs_.draft_floor,
          clip);
-    give_light(programs_.draft);
   }
   if (!bare) {
     give_backdrop(programs_.draft_behind);

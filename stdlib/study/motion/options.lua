@@ -1,5 +1,6 @@
 --- What all studies of moving grasps are given.
 local bounds = require "clench.study.motion.bounds"
+local read_vector = require "clench.study.motion.read_vector"
 local suspect = require "clench.suspect"
 local described = require "clench.described"
 
@@ -7,17 +8,6 @@ local function check(read, name, kind)
   local value = read:raw(name)
   if described(value) ~= kind then read:expected(name, kind, value) end
   return value
-end
-
-local function point(read, name, default)
-  local value = read:raw(name)
-  if value == nil then return default end
-  local ok, vector = pcall(function() return type(value) == "table" and clench.vec3(value[1], value[2], value[3]) or value end)
-  if not ok or described(vector) ~= "a vec3" then read:expected(name, "a vector {x, y, z}", value) end
-  if not (vector:norm() <= bounds.acceleration) then
-    read:expected(name, ("a vector of at most %g m/s^2"):format(bounds.acceleration), vector:norm())
-  end
-  return vector
 end
 
 --- Reads hand, object and world, how the hand grips, and when the object counts as lost.
@@ -35,7 +25,7 @@ return function(read, default)
   end
   if not job.object.mesh then read:fail("object: '%s' has no surface", job.object.name) end
   job.mass = read:positive("mass", default.mass or job.object.mass, bounds.mass)
-  job.gravity = point(read, "gravity", default.gravity or job.world.gravity)
+  job.gravity = read_vector(read, "gravity", default.gravity or job.world.gravity, bounds.acceleration, " m/s^2")
   job.grip = read:choice("grip", {"forces", "close"})
   job.grip_force = read:positive("grip_force", default.grip_force or 10 * 9.81 * job.mass, bounds.force)
   job.grip_seconds = read:not_negative("grip_seconds", 0.5, bounds.seconds)

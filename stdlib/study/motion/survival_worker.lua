@@ -13,7 +13,11 @@ return function(grasp, shared)
   local placed = grasp:apply(hand.world, {hand = hand, object = object})
   local values = {}
   for _, name in ipairs(shared.measures) do
-    values[name] = #placed.points == 0 and 0 or own[name] and own[name](placed, object) or placed:quality(name)
+    if not own[name] then
+      values[name] = placed:quality(name)
+    else
+      values[name] = #placed.points == 0 and 0 or own[name](placed, object)
+    end
   end
   local options = {hand = hand, object = object}
   for key, value in pairs(shared.shake) do options[key] = value end

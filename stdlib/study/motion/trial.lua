@@ -54,10 +54,15 @@ local function bring_to_rest(world)
   end
 end
 
--- motors hold robots where they stand, and carry their weight
+-- Motors hold robots where they stand, and carry their weight; what no motor drives stays free.
 local function hold_robots(world)
   for _, robot in ipairs(world.robots) do
-    robot.controller = "position"
+    local targets = {}
+    for i, info in ipairs(robot.dof_info) do
+      if info.driven then targets[info.name or "dof" .. i] = robot.dofs[i] end
+    end
+    robot.controller = "none"
+    if next(targets) then robot:set_targets(targets) end
     robot.gravity_compensation = true
     robot.floating = false
   end
@@ -65,9 +70,11 @@ end
 
 local swing = 60  -- at which motors without gains of their own swing back [rad/s]
 
--- Motors whose file gives no gains are as stiff as it takes to hold the object, too, at the lever that they have to it.
+-- Motors to which neither file nor script gives gains are as stiff as it takes to hold the object, too, at the lever that they have to it.
 local function set_gains(hand, object)
-  local M, gains, changes = hand:mass_matrix(), hand.gains, false
+  local M, gains = hand:mass_matrix(), hand.gains
+  hand.gains = nil
+  local plain = hand.gains
   local com = object.pose * object.com
   local levers = {}
   for i = 1, #gains do levers[i] = 0 end
@@ -76,14 +83,12 @@ local function set_gains(hand, object)
     for i = 1, #gains do levers[i] = math.max(levers[i], math.sqrt(J[1][i] ^ 2 + J[2][i] ^ 2 + J[3][i] ^ 2)) end
   end
   for i, info in ipairs(hand.dof_info) do
-    if info.kp > 0 or info.kd > 0 then
-      gains[i] = false
-    else
+    if gains[i].kp == plain[i].kp and gains[i].kd == plain[i].kd then
       local inertia = M[i][i] + object.mass * levers[i] ^ 2
-      gains[i], changes = {kp = inertia * swing ^ 2, kd = 2 * inertia * swing}, true
+      gains[i] = not (info.kp > 0 or info.kd > 0) and {kp = inertia * swing ^ 2, kd = 2 * inertia * swing}
     end
   end
-  if changes then hand.gains = gains end
+  hand.gains = gains
 end
 
 -- Torques of the motors that press by forces in equilibrium; nil where there are none.
@@ -91,7 +96,12 @@ local function grip_torques(hand, object, total)
   local grasp = clench.grasp(hand, object)
   if #grasp.points < 2 then return nil end
   local found = grasp:contact_forces {objective = "max_margin", total_force = total}
-  return found.status == "optimal" and found.joint_torques or nil
+  if found.status ~= "optimal" then return nil end
+  -- joints that no motor drives bear what is no force
+  for i, info in ipairs(hand.dof_info) do
+    if not info.driven and math.abs(found.joint_torques[i]) > 1e-9 * total then return nil end
+  end
+  return found.joint_torques
 end
 
 -- Compliant DOFs pull their tendons until their springs give what the motors can.
