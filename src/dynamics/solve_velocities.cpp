@@ -10,9 +10,9 @@ Vector6d Stepper::root_twist(int tree) const { return prescribed_twist(world_, s
 
 // Do joints, or a floating base, turn by more than half a radian in the step? What that causes would grow from step to step.
 bool Stepper::whirls(int tree, double h) const {
-  constexpr double most = 0.5;
+  constexpr double max_turn = 0.5;  // [rad]
   const Articulation& of = system_.trees[tree];
-  return !of.is_free_body() && of.size() > 0 && v_.segment(of.first, of.size()).cwiseAbs().maxCoeff() * h > most;
+  return !of.is_free_body() && of.size() > 0 && v_.segment(of.first, of.size()).cwiseAbs().maxCoeff() * h > max_turn;
 }
 
 // What velocities cause is quadratic in them: taken at those of the step's middle rather than of its beginning a double pendulum gains a
@@ -47,6 +47,7 @@ void Stepper::find_free_velocities(double h) {
     const int n = tree.size();
     dynamics.place(world_, tree);
     if (n == 0) continue;
+    // forces that velocities cause are left out there
     const Eigen::VectorXd still = whirls(static_cast<int>(t), h) ? Eigen::VectorXd::Zero(v_.size()) : Eigen::VectorXd();
     Eigen::VectorXd efforts = -dynamics.find_bias(still.size() > 0 ? still : v_, root_twist(static_cast<int>(t)), world_.gravity());
     find_joint_forces(world_, tree, dynamics, h, state, forces_[t]);

@@ -186,8 +186,8 @@ double Stepper::move(double dt) {
   if (!watches.empty()) {
     int queries = 0;
     // of each pair the gap is measured at first, and some times on its way
-    const int most_steps = 1000 + 10 * static_cast<int>(watches.size());
-    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, most_steps);
+    const int max_steps = 1000 + 10 * static_cast<int>(watches.size());
+    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, max_steps);
     passed = advance.iteration_limit ? std::max(advance.s, std::min(passed, 0.01 * world_.dynamic_settings().step)) : advance.s;
   }
   passed = std::clamp(passed, std::min(most, least.value_or(1e-9 * dt)), most);
