@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/dynamics/tree/tree_dynamics.h"
+#include "clench/model/dof.h"
 
 namespace clench {
 
@@ -205,9 +206,11 @@ void Mover::place(double s) {
     const Robot& robot = world_.robot(machine.robot);
     std::vector<double> dofs = machine.dofs, joints = machine.joints;
     machine.picked_up.clear();
-    for (size_t i = 0; i < dofs.size(); ++i)
-      dofs[i] = std::clamp(dofs[i] + s * machine.dof_velocities[i], std::min(dofs[i], robot.limits[i][0]),
-                           std::max(dofs[i], robot.limits[i][1]));
+    for (size_t i = 0; i < dofs.size(); ++i) {
+      const double moved = dofs[i] + s * machine.dof_velocities[i];
+      const auto [low, high] = range_around(robot, static_cast<int>(i), moved);
+      dofs[i] = std::clamp(moved, std::min(dofs[i], low), std::max(dofs[i], high));
+    }
     for (size_t j = 0; j < joints.size(); ++j) {
       const Joint& joint = robot.joints[j];
       const double followed = joint.ratio * dofs[joint.dof];

@@ -107,6 +107,9 @@ void Planner::set_limits(UrdfJoint& joint) const {
   const bool turned = joint.leads && spec.ratio < 0;  // its axis is
   joint.min = turned ? -high : low;
   joint.max = turned ? -low : high;
+  // that of a slide is told by its limits
+  joint.endless = spec.endless && !stopped;
+  if (joint.endless && spec.kind == JointKind::prismatic) joint.min = -unlimited, joint.max = unlimited;
 }
 
 /// With everything but its place in the tree.

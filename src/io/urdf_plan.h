@@ -22,6 +22,7 @@ struct UrdfJoint {
   bool leads = false;  ///< does its value stand for the DOF?
   double factor = 1;
   double min = 0, max = 0;  ///< of v [rad or m]
+  bool endless = false;     ///< as JointSpec
 };
 
 struct UrdfPlan {

@@ -126,6 +126,7 @@ void UrdfText::add_link(const UrdfLink& link) {
 void UrdfText::add_joint(const UrdfJoint& joint) {
   const char* kind = !joint.spec                                ? "fixed"
                      : joint.spec->kind == JointKind::prismatic ? "prismatic"
+                     : joint.endless                            ? "continuous"
                                                                 : "revolute";
   add("  ", fmt::format("<joint name=\"{}\" type=\"{}\">", xml_escaped(joint.name), kind));
   add("    ", fmt::format("<parent link=\"{}\"/>", xml_escaped(plan_.links[joint.parent].name)));

@@ -4,6 +4,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/model/dof.h"
 
 namespace clench {
 
@@ -46,7 +47,7 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
          placed.dofs.size());
   Eigen::VectorXd q(static_cast<Eigen::Index>(robot.dofs.size()));
   for (int i = 0; i < q.size(); ++i) {
-    const auto [low, high] = robot.limits[i];
+    const auto [low, high] = range_around(robot, i, placed.dofs[i]);
     q[i] = std::clamp(placed.dofs[i], low, high);
     if (std::abs(q[i] - placed.dofs[i]) > digits)
       tell(listeners.repair, listeners.warn,

@@ -31,8 +31,14 @@ static std::string other_unit(const std::array<double, 2>& range, double value, 
   return fmt::format("; {}? clench.{}({:.6g}) is {:.4g}", unit, function, value, meant);
 }
 
-double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {
+std::array<double, 2> range_around(const Robot& robot, int dof, double value) {
   const auto [low, high] = robot.limits[dof];
+  if (!robot.endless[dof] || !std::isfinite(value)) return {low, high};
+  return {std::min(low, value), std::max(high, value)};
+}
+
+double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {
+  const auto [low, high] = range_around(robot, dof, value);
   const double slack = limit_rounding * std::max({1.0, std::abs(low), std::abs(high)});
   if (value >= low - slack && value <= high + slack) return std::clamp(value, low, high);
   const std::string& name = robot.dofs[dof].name;

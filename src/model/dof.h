@@ -9,7 +9,10 @@ std::string dof_name(const Robot& robot, int dof);
 /// Does its first joint slide? Then it counts in metres, else in radians.
 bool dof_slides(const Robot& robot, int dof);
 
-/// The value, or the limit that rounding has taken it beyond.
+/// Where a DOF that stands at `value` may go: its limits, and of an endless DOF that has left them also where it is.
+std::array<double, 2> range_around(const Robot& robot, int dof, double value);
+
+/// The value, or the limit that rounding has taken it beyond; any finite value of an endless DOF.
 /// subject  "robot": what the sentence begins with, before the robot's name
 /// throws  Error "robot 'dlr': DOF 3 'thumb_1' must lie in [0, 1.571] rad, got 90; degrees? clench.rad(90) is 1.571"
 double within_limits(const Robot& robot, int dof, double value, std::string_view subject);

@@ -40,6 +40,7 @@ struct Robot {
   Id<Body> base;
   std::vector<DofSpec> dofs;
   std::vector<std::array<double, 2>> limits;  ///< one per DOF [rad or m]
+  std::vector<bool> endless;                  ///< which DOFs nothing stops at their limits
   std::vector<Link> links;
   std::vector<Joint> joints;              ///< link by link
   size_t first_dof = 0, first_joint = 0;  ///< where its own begin in the state's arrays

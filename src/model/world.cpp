@@ -163,6 +163,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
   for (int i = 0; i < static_cast<int>(spec.dofs.size()); ++i) {
     const auto range = dof_range(spec, i);
     robot.limits.push_back(range);
+    robot.endless.push_back(dof_is_endless(spec, i));
     state_.dofs.push_back(std::clamp(spec.dofs[i].default_value, range[0], range[1]));
   }
   for (const Joint& joint : robot.joints) {

@@ -108,7 +108,8 @@ void World::set_posture(Id<Robot> id, const Pose& X_WB, const Eigen::VectorXd& q
   Eigen::VectorXd inside = q;
   for (int i = 0; i < q.size(); ++i) {
     if (std::isnan(q[i])) within_limits(r, i, q[i], "robot");
-    inside[i] = std::clamp(q[i], r.limits[i][0], r.limits[i][1]);
+    const auto [low, high] = range_around(r, i, q[i]);
+    inside[i] = std::clamp(q[i], low, high);
   }
   set_joints(id, X_WB, inside, {});
 }

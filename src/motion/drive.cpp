@@ -204,8 +204,10 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   check(robot, motion);
   Drive drive = begin_drive(world, id);
   drive.targets = motion.targets;
-  for (size_t i = 0; i < robot.limits.size(); ++i)
-    drive.targets[i] = std::clamp(drive.targets[i], robot.limits[i][0], robot.limits[i][1]);
+  for (int i = 0; i < drive.targets.size(); ++i) {
+    const auto [low, high] = range_around(robot, i, drive.targets[i]);
+    drive.targets[i] = std::clamp(drive.targets[i], low, high);
+  }
   refuse_collision(world, drive.moving, fmt::format("driving '{}'", excerpt(robot.name)));
 
   // the path does not depend on the pace: the fastest DOF counts as 1

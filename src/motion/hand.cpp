@@ -16,7 +16,7 @@ static DriveResult close_stage(World& world, Id<Robot> id, double speed, const D
   DofMotion motion{world.dofs(id), Eigen::VectorXd::Zero(world.dofs(id).size())};
   for (const int i : dofs) {
     motion.rates[i] = robot.dofs[i].default_velocity * speed;
-    if (motion.rates[i] != 0) motion.targets[i] = robot.limits[i][motion.rates[i] > 0];
+    if (motion.rates[i] != 0) motion.targets[i] = range_around(robot, i, motion.targets[i])[motion.rates[i] > 0];
   }
   return drive(world, id, motion, options);
 }
@@ -58,7 +58,7 @@ static void open_until_free(World& world, Id<Robot> id) {
   Eigen::VectorXd open = start;
   for (int i = 0; i < open.size(); ++i) {
     const double v = robot.dofs[i].default_velocity;
-    if (v != 0) open[i] = robot.limits[i][v < 0];
+    if (v != 0) open[i] = range_around(robot, i, open[i])[v < 0];
   }
   const auto before = world.snapshot();
   for (int step = 0; !colliding_pairs(world, moving, world.bodies(), &world.context()).empty();

@@ -34,6 +34,14 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof) {
   return {low, high};
 }
 
+bool dof_is_endless(const RobotSpec& robot, int dof) {
+  bool moves = false, stops = false;
+  each_joint(robot, [&](const JointSpec& joint) {
+    if (joint.dof == dof) moves = true, stops = stops || !joint.endless;
+  });
+  return moves && !stops;
+}
+
 bool dof_slides(const RobotSpec& robot, int dof) {
   std::optional<JointKind> first;
   each_joint(robot, [&](const JointSpec& joint) {

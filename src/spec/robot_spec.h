@@ -42,6 +42,7 @@ struct JointSpec {
   int dof = 0;
   double ratio = 1;
   double min = 0, max = 0;  ///< of q [rad or m]
+  bool endless = false;     ///< nothing stops it: min and max only bound where it is closed to, and what searches try
   double viscous = 0;       ///< friction [N m s/rad or N s/m]
   double coulomb = 0;       ///< friction [N m or N]
   double armature = 0;      ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]
@@ -113,6 +114,8 @@ Pose approach_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& directi
 
 /// Range of a DOF: intersection over its joints of [min, max] / ratio.   returns {low, high}
 std::array<double, 2> dof_range(const RobotSpec& robot, int dof);
+/// Does none of its joints have a stop?
+bool dof_is_endless(const RobotSpec& robot, int dof);
 /// The end of a sentence about a range that is none.
 std::string no_range(const std::array<double, 2>& range);
 

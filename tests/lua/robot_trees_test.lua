@@ -122,3 +122,48 @@ test("a snapshot restores into clones, and into no other world", function(t)
   t.equal(world.objects[1].mass, 2)
   t.fails(function() clench.world():restore(moment) end, "taken of another one, of which this is no clone")
 end)
+
+local function turntable(joint_type, limit)
+  local path = os.tmpname() .. ".urdf"
+  local file = assert(io.open(path, "w"))
+  file:write([[<robot name="turntable"><link name="base"/><link name="plate"><inertial><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="]], joint_type,
+    [["><parent link="base"/><child link="plate"/><axis xyz="0 0 1"/>]], limit or "", "</joint></robot>")
+  file:close()
+  return path
+end
+
+test("a joint without limits goes on and on, and still does after its robot was written and read", function(t)
+  for _, row in ipairs {{"continuous"}, {"revolute", [[<limit lower="-1e12" upper="1e12" effort="0" velocity="0"/>]]}, {"prismatic"}} do
+    local path = turntable(row[1], row[2])
+    for _ = 1, 2 do
+      local world = clench.world()
+      local robot = world:add_robot(path)
+      t.equal(robot.dof_info[1].endless, true)
+      t.close(robot.dof_limits[1][2], row[1] == "prismatic" and 1 or 2 * math.pi, 1e-12)
+      robot.controller = "effort"
+      robot.dof_velocities = {10}
+      local reached = 0
+      world:on("limit", function() reached = reached + 1 end)
+      world:run(2)
+      t.close(robot.dofs[1], 20, 1e-6)
+      t.equal(reached, 0)
+      -- where it is, it can be put, and a state is taken up
+      local state = world:snapshot()
+      robot:set_dofs {30}
+      world:restore(state)
+      t.close(robot.dofs[1], 20, 1e-6)
+      -- closing goes on from there, to nothing
+      robot:autograsp()
+      t.ok(math.abs(robot.dofs[1] - 20) < 20.001)
+      local written = os.tmpname() .. ".urdf"
+      clench.convert(path, written)
+      os.remove(path)
+      path = written
+    end
+    os.remove(path)
+  end
+  local limited = clench.world():add_robot(turntable("revolute", [[<limit lower="-1" upper="1" effort="0" velocity="0"/>]]))
+  t.equal(limited.dof_info[1].endless, false)
+  t.fails(function() limited:set_dofs {2} end, "must lie in [-1, 1] rad")
+end)

@@ -137,8 +137,9 @@ class RowMaker {
     const double step = std::max(world_.dynamic_settings().step, h_), near = steps_ahead * std::abs(v) * step + always_near;
     // within them, as far as the next step may go; what stands beyond one comes back gently
     const auto target = [&](double left) { return left <= 0 ? left / step : std::min(returned_part * left / step, returned_at_most); };
-    if (q - range[0] < near) push(RowKind::low_limit, index, column, target(range[0] - q), 0, no_bound);
-    if (range[1] - q < near) push(RowKind::high_limit, index, column, -target(q - range[1]), -no_bound, 0);
+    const bool endless = alone ? robot.joints[c.joint].endless : robot.endless[c.dof];
+    if (!endless && q - range[0] < near) push(RowKind::low_limit, index, column, target(range[0] - q), 0, no_bound);
+    if (!endless && range[1] - q < near) push(RowKind::high_limit, index, column, -target(q - range[1]), -no_bound, 0);
     double coulomb = 0;
     for (const ArticulationJoint& joint : tree_.joints)
       if (joint.coordinate == column)

@@ -214,6 +214,7 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   TreeJoint& tied = tree_.joints[follower];
   if (!values.has("joint2")) {
     tied.min = tied.max = tied.start = tied.zero + c[0];
+    tied.endless = false;
     cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}, as the equality says",
                               element.place(), excerpt(tied.name), tied.start,
                               tied.kind == JointKind::revolute ? "rad" : "m"));
@@ -285,7 +286,7 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
   const double low = std::max(joint.min, std::min(a, b)),
                high = std::min(joint.max, std::max(a, b));
   if (low < high || (low == high && range[0] == range[1])) {
-    joint.min = low, joint.max = high;
+    joint.min = low, joint.max = high, joint.endless = false;
     joint.start = std::clamp(joint.start, low, high);
     if (low == high)
       cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",

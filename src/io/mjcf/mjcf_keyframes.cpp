@@ -61,8 +61,9 @@ void KeyReader::add_robot(const SceneBody& body, const Pose& X_WB, const double*
   for (size_t j = 0; j < body.joints.size(); ++j) {
     const TreeJoint& joint = body.joints[j];
     if (joint.leader < 0) {
-      const auto [low, high] = dof_range(robot, static_cast<int>(dofs.size()));
-      dofs.push_back(std::clamp(q[j], low, high));
+      const int dof = static_cast<int>(dofs.size());
+      const auto [low, high] = dof_range(robot, dof);
+      dofs.push_back(dof_is_endless(robot, dof) ? q[j] : std::clamp(q[j], low, high));
       if (std::abs(dofs.back() - q[j]) > 1e-6)
         cache_.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
                                       values_.subject("qpos"), excerpt(joint.name), q[j], low,

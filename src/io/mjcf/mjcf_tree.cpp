@@ -197,9 +197,9 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
     document_.repairs().add(
         "limited", values.subject("limited") + ": expected a range, got none; there are no limits");
   if (limited == "false" || !has_range) {
-    const double endless = turns ? endless_turn : endless_slide;
-    joint.min = joint.zero - endless, joint.max = joint.zero + endless;
-    cache_.note(fmt::format("{}: joint '{}' has no limits; it may go from {:.4g} to {:.4g} {}",
+    const double far = turns ? endless_turn : endless_slide;
+    joint.min = joint.zero - far, joint.max = joint.zero + far, joint.endless = true;
+    cache_.note(fmt::format("{}: joint '{}' has no limits; searches keep it from {:.4g} to {:.4g} {}",
                               joint.place, excerpt(joint.name), joint.min, joint.max,
                               turns ? "rad" : "m"));
     return;

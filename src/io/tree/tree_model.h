@@ -20,6 +20,7 @@ struct TreeJoint {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
   double zero = 0;                                   ///< q at which it changes no pose [rad or m]
   double min = 0, max = 0;                           ///< [rad or m]
+  bool endless = false;                              ///< as JointSpec
   double effort = 0, velocity = 0;                   ///< largest; 0: not known
   double viscous = 0, coulomb = 0, spring = 0, rest = 0;  ///< as JointSpec
   double armature = 0;                                    ///< likewise
@@ -47,10 +48,11 @@ struct TreeModel {
   std::vector<std::pair<int, int>> never_meet;  ///< links whose collisions the file switches off
 };
 
-/// A joint without limits may turn this far, a full turn either way [rad]; slide this far [m].
+/// The range that searches take for a joint without limits: a full turn either way [rad]; so far [m].
 inline constexpr double endless_turn = 6.283185307179586, endless_slide = 1;
 
-/// Other readers take 0 in a URDF for a joint that cannot move; we write, and read, this for one without a limit [N m, N, rad/s or m/s].
+/// In a URDF, which has no word for none, a limit of effort or velocity, or of where a joint slides, that we write, and read, as none
+/// [N m, N, rad/s, m/s or m]. Other readers take 0 for a joint that cannot move.
 inline constexpr double unlimited = 1e9;
 
 /// Frame after a joint at q, in the frame before it.

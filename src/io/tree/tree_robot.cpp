@@ -122,6 +122,7 @@ JointSpec RobotMaker::joint_spec(const TreeJoint& joint, const Pose& before) con
   if (offset != joint.zero) spec.X_PJ = spec.X_PJ * joint_motion(spec, offset - joint.zero);
   spec.min = joint.min - offset;
   spec.max = joint.max - offset;
+  spec.endless = joint.endless;
   spec.viscous = joint.viscous;
   spec.coulomb = joint.coulomb;
   spec.armature = joint.armature;

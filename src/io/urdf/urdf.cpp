@@ -368,8 +368,8 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
   const XmlElement element = from.element.child("limit");
   const bool slides = joint.kind == JointKind::prismatic;
   const char* unit = slides ? "m" : "rad";
-  const double endless = slides ? endless_slide : endless_turn;
-  joint.min = -endless, joint.max = endless;
+  const double far = slides ? endless_slide : endless_turn;
+  joint.min = -far, joint.max = far, joint.endless = true;
   if (element) {
     unused_.attributes(element, {"lower", "upper", "effort", "velocity"});
     const XmlValues values(element);
@@ -379,9 +379,10 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
     };
     joint.effort = limit("effort");
     joint.velocity = limit("velocity");
-    if (from.type != "continuous" && (values.has("lower") || values.has("upper"))) {
-      joint.min = values.number("lower", 0);
-      joint.max = values.number("upper", 0);
+    const double low = values.number("lower", 0), high = values.number("upper", 0);
+    const bool given = (values.has("lower") || values.has("upper")) && !(low <= -unlimited && high >= unlimited);
+    if (from.type != "continuous" && given) {
+      joint.min = low, joint.max = high, joint.endless = false;
       repairs_.order(joint.min, joint.max,
                      fmt::format("{}: joint '{}'", element.place(), excerpt(joint.name)),
                      {"lower", "upper"});
@@ -389,7 +390,7 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
     }
   }
   note(from.element,
-       fmt::format("joint '{}' {}; it may go from {:.4g} to {:.4g} {}", excerpt(joint.name),
+       fmt::format("joint '{}' {}; searches keep it from {:.4g} to {:.4g} {}", excerpt(joint.name),
                    from.type == "continuous" ? "turns without end" : "has no limits", joint.min,
                    joint.max, unit));
 }

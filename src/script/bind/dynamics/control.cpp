@@ -143,6 +143,7 @@ static void tell_limits(lua_State* L, const WorldPtr& world, Hooks& hooks) {
     const auto q = world->dofs(id);
     for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d)
       for (const int side : {0, 1}) {
+        if (robot.endless[d]) continue;
         const std::pair key(id, side == 0 ? -(d + 1) : d + 1);
         const bool was = hooks.at_limit.contains(key);
         if (!(std::abs(q[d] - robot.limits[d][side]) < (was ? left : reached))) continue;

@@ -83,11 +83,13 @@ static const char* dof_kind(DofKind kind) {
 }
 
 static int get_dof_info(lua_State* L) {
-  return push_list_of(L, self<RobotHandle>(L)->dofs, [&](const DofSpec& dof) {
-    push_list(L, 0, 9);
+  const auto& robot = self<RobotHandle>(L);
+  return push_list_of(L, robot->dofs, [&](const DofSpec& dof) {
+    push_list(L, 0, 10);
     if (!dof.name.empty()) set_field(L, "name", std::string_view(dof.name));
     set_field(L, "kind", dof_kind(dof.kind));
     set_field(L, "driven", dof.driven);
+    set_field(L, "endless", bool(robot->endless[static_cast<size_t>(&dof - robot->dofs.data())]));
     set_field(L, "default_velocity", dof.default_velocity);
     set_field(L, "max_effort", dof.max_effort);
     if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
@@ -187,13 +189,14 @@ The same values by the names of dof_names; a table of its own, set as by set_dof
 > hand.dofs[2]  --> 0.1)",
      guarded<set_dofs>},
     {"dof_limits", guarded<get_dof_limits>, R"(
-Least and largest value of each DOF.
+Least and largest value of each DOF. One that is endless in dof_info turns, or slides, on beyond them: they only bound
+how far it closes, and what searches try.
 @type number[][]  [rad or m]
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
 What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
-of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m], and
-driven: false of a DOF that no actuator of an MJCF file drives.
+of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m],
+driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
     {"dof_names", guarded<get_dof_names>, R"(
