@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "clench/base/random.h"
+#include "support/meshes.h"
 #include "support/shapes.h"
 
 namespace clench::bench {
@@ -15,6 +17,25 @@ DynamicScene stack_of_ten(double gap) {
     scene.parts.push_back(
         {.size = {0.06, 0.06, 0.04}, .mass = 0.44, .X_W = Pose::translation({0, 0, 0.02 + gap + i * (0.04 + gap)})});
   scene.watched = 10;
+  return scene;
+}
+
+DynamicScene boxes_in_a_bin(double) {
+  constexpr double half = 0.15, wall = 0.04, height = 0.5;
+  DynamicScene scene{.name = "boxes in a bin"};
+  scene.parts.push_back({.size = {1, 1, 0.1}, .X_W = Pose::translation({0, 0, -0.05})});
+  for (const double side : {-1.0, 1.0}) {
+    const double at = side * (half + wall / 2);
+    scene.parts.push_back({.size = {wall, 2 * half + 2 * wall, height}, .X_W = Pose::translation({at, 0, height / 2})});
+    scene.parts.push_back({.size = {2 * half, wall, height}, .X_W = Pose::translation({0, at, height / 2})});
+  }
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d size(random.uniform(0.03, 0.08), random.uniform(0.03, 0.08), random.uniform(0.03, 0.08));
+    const Vector3d at(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), 0.1 + 0.14 * i);
+    scene.parts.push_back({.size = size, .mass = 800 * size.prod(), .X_W = {test::random_turn(random), at}});
+  }
+  scene.watched = static_cast<int>(scene.parts.size()) - 1;
   return scene;
 }
 

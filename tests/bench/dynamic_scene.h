@@ -38,6 +38,8 @@ struct DynamicScene {
 
 /// gap  between bodies that touch: each engine rests at its own [m]
 DynamicScene stack_of_ten(double gap);
+/// 20 boxes of many sizes that fall turned, one after another, into a bin of 30 cm.
+DynamicScene boxes_in_a_bin(double gap);
 DynamicScene slope(double degrees, double mu, double gap);
 /// Three fingers of three hinges that hang about a cylinder of 0.3 kg and press with some 5 N each.
 DynamicScene three_fingers(double gap);

@@ -11,6 +11,7 @@
 namespace clench::test {
 
 struct FrictionKind {
+  int max_bodies = 3;
   int max_contacts = 12;
   double max_mu = 2;
   double mass_ratio = 1;    // of one body to another
@@ -28,10 +29,10 @@ inline Eigen::VectorXd normals(Random& random, int count) {
   return v;
 }
 
-/// Up to three free bodies that touch each other and the ground at points and along normals at random.
+/// Free bodies that touch each other and the ground at points and along normals at random.
 inline FrictionProblem random_problem(Random& random, const FrictionKind& kind) {
   using Eigen::Vector3d, Eigen::VectorXd;
-  const int bodies = 1 + below(random, 3), contacts = 1 + below(random, kind.max_contacts);
+  const int bodies = 1 + below(random, kind.max_bodies), contacts = 1 + below(random, kind.max_contacts);
   const int rows = kind.rows ? below(random, 6) : 0;
   VectorXd mass(6 * bodies);
   for (int b = 0; b < bodies; ++b) {

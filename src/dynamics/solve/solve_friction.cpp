@@ -19,6 +19,8 @@ constexpr double damping = 1e-8;
 // Forces of the last step that leave faults below this are changed as little as can be where following them does not end: what
 // all but rests would else waver between solutions [m/s].
 constexpr double nearly_holds = 1e-4;
+// Of so many rows few paths reach their end, and each step of one costs much: proximal points come before other ways.
+constexpr int many_rows = 60;
 
 }  // namespace
 
@@ -131,7 +133,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
     if (found) {
       const double next = measure(r_);
       straight = false;
-      if (next > 0.3 * residual) by = std::max(by / 4, 1e-14);
+      if (next > 0.3 * residual) by = std::max(by / 2, 1e-14);
       else if (next > 0.01 * residual) by = std::max(by / 30, 1e-11);
       r.swap(r_);
       residual = next;
@@ -200,6 +202,12 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     if (!follow(damping, 30, r, solution)) {
       r = warm;
       if (fault.largest < nearly_holds) solution.solved = refine(problem, tolerance, 10 * damping, 8, r, solution);
+      if (!solution.solved && scaled_.rows() > many_rows) {
+        gauss_seidel_.set(scaled_, damping);
+        gauss_seidel_.sweep(scaled_, 10, r = warm);
+        solution.iterations += 10;
+        solution.solved = refine(problem, tolerance, 1e-3, 40, r, solution);
+      }
       if (!solution.solved) reached = solve_damped(r = warm, solution);
     }
   } else {

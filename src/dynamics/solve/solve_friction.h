@@ -27,9 +27,9 @@ struct FrictionOptions {
 /// with least squares of what is missing and without great impulses; then the solution is not `solved`.
 ///
 /// The ways, the next where one does not end: from the warm start along a path of states, with a damping that is 1e-8 of
-/// W's diagonal and is then taken away again; Newton's method after sweeps of Gauss and Seidel's; down from strong damping,
-/// step by step; and damping that pulls to the last iterate instead of 0 (proximal points, Rockafellar 1976), also from a
-/// pyramid's solution.
+/// W's diagonal and is then taken away again; in a heap, whose path seldom ends, damping that pulls to the last iterate instead of 0
+/// (proximal points, Rockafellar 1976), which may end in a solution near the warm start; Newton's method after sweeps of Gauss and
+/// Seidel's; down from strong damping, step by step; and proximal points again, also from a pyramid's solution.
 class FrictionSolver {
  public:
   /// problem      of a number that is not finite or a block that is none: r = u = 0, residual infinite
