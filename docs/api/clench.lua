@@ -292,7 +292,7 @@ function kinematics:random_posture(random) end
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
 ---@field named_dofs table<string, number> # The same values by the names of dof_names; a table of its own, set as by set_dofs. [rad or m]
 ---@field dof_limits number[][] # Least and largest value of each DOF. One that is endless in dof_info turns, or slides, on beyond them: they only bound how far it closes, and what searches try. [rad or m]
----@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
+---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where kd follows from it and the inertia, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 local dofs = {}
 

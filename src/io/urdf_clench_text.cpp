@@ -57,7 +57,7 @@ void ClenchText::add_dof(int number) {
        attribute("kind", std::string(kinds[static_cast<int>(dof.kind)])) +
        attribute("velocity", dof.default_velocity * scale) +
        unless(0, "kp", dof.kp / scale / scale) + unless(0, "kd", dof.kd / scale / scale) +
-       unless(0, "breakaway", dof.breakaway_torque / scale) +
+       unless(0, "damping_ratio", dof.damping_ratio) + unless(0, "breakaway", dof.breakaway_torque / scale) +
        unless(0, "handle", dof.dragger_scale) + attribute("start", dof.default_value * scale) +
        (dof.driven ? "" : attribute("driven", std::string("false"))) + "/>");
 }

@@ -19,6 +19,7 @@ static void check_dof(const DofSpec& dof, const std::string& subject) {
   check_each(not_negative_rule,
              {{"max effort", dof.max_effort},
               {"max velocity", dof.max_velocity},
+              {"damping ratio", dof.damping_ratio},
               {"breakaway torque", dof.breakaway_torque}},
              subject);
 }

@@ -498,3 +498,14 @@ test("a pair of materials keeps its own restitution when a study takes a share o
   t.close(kinetic, 0.15, 1e-15)
   t.equal(restitution, 0.7)
 end)
+
+test("the damping of a servo may be a ratio, to the critical one for the inertia that its DOF feels", function(t)
+  for _, servo in ipairs {[[<position joint="hinge" kp="4" dampratio="0.5"/>]],
+      [[<general joint="hinge" biastype="affine" gainprm="4" biasprm="0 -4 0.5"/>]]} do
+    local _, robot = rod("<actuator>" .. servo .. "</actuator>")
+    t.equal(robot.dof_info[1].damping_ratio, 0.5)
+    local inertia = robot:mass_matrix()[1][1]
+    t.equal(robot.gains[1].kp, 4.0)
+    t.close(robot.gains[1].kd, math.sqrt(4 * inertia), 1e-12)
+  end
+end)

@@ -19,6 +19,7 @@ Gains gains_of(const World& world, Id<Robot> id, int dof, double inertia) {
   const RobotDynamics& settings = world.dynamic_settings().robot(id);
   if (dof < static_cast<int>(settings.gains.size()) && settings.gains[dof]) return *settings.gains[dof];
   const DofSpec& spec = world.robot(id).dofs[dof];
+  if (spec.kp > 0 && spec.kd <= 0) return {spec.kp, 2 * spec.damping_ratio * std::sqrt(spec.kp * inertia)};
   if (spec.kp > 0 || spec.kd > 0) return {spec.kp, spec.kd};
   return {inertia * natural_frequency * natural_frequency, 2 * inertia * natural_frequency};
 }

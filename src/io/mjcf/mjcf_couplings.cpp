@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "clench/base/suggest.h"
 
@@ -355,6 +356,7 @@ void Couplings::take_gains(const ActuatorSpec& servo, const Tendon* tendon) {
   TreeJoint& joint = tree_.joints[leader];
   joint.kp += std::max(0.0, -servo.bias[1]) * reach * reach;
   joint.kd += std::max(0.0, -servo.bias[2]) * reach * reach;
+  joint.damping_ratio = std::max(joint.damping_ratio, servo.damping_ratio);
   if (tendon && servo.force_range)
     joint.effort = std::max(std::abs((*servo.force_range)[0]), std::abs((*servo.force_range)[1])) * std::abs(reach);
 }
@@ -385,6 +387,7 @@ ActuatorSpec Couplings::actuator_spec(const XmlElement& element, const XmlValues
   if (out.kind == "position") {
     out.gain = values.not_negative("kp", 1, document_.repairs());
     out.bias = {0, -out.gain, -values.not_negative("kv", 0, document_.repairs())};
+    out.damping_ratio = values.not_negative("dampratio", 0, document_.repairs());
   } else if (out.kind == "velocity") {
     out.gain = values.not_negative("kv", 1, document_.repairs());
     out.bias = {0, 0, -out.gain};
@@ -394,6 +397,8 @@ ActuatorSpec Couplings::actuator_spec(const XmlElement& element, const XmlValues
     if (bias == "affine" && values.has("biasprm")) {
       const auto given = values.numbers("biasprm", 1, 100);
       for (size_t i = 0; i < std::min<size_t>(3, given.size()); ++i) out.bias[i] = given[i];
+      // of a servo's a positive number is a ratio
+      if (out.bias[2] > 0 && out.gain == -out.bias[1]) out.damping_ratio = std::exchange(out.bias[2], 0);
     }
     out.law_known = (bias == "none" || bias == "affine") &&
                     values.text("gaintype", "fixed") == "fixed" &&
@@ -414,7 +419,7 @@ void Couplings::read_actuator(const XmlElement& element) {
   if (!concerns(values)) return;
   values.tell_unused(document_.unused(),
                      {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange",
-                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "gear", "gaintype",
+                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "dampratio", "gear", "gaintype",
                       "gainprm", "biastype", "biasprm", "dyntype"});
   int moved = -1;
   const Tendon* pulled = nullptr;

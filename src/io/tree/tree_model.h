@@ -24,7 +24,7 @@ struct TreeJoint {
   double effort = 0, velocity = 0;                   ///< largest; 0: not known
   double viscous = 0, coulomb = 0, spring = 0, rest = 0;  ///< as JointSpec
   double armature = 0;                                    ///< likewise
-  double kp = 0, kd = 0;                                  ///< as DofSpec
+  double kp = 0, kd = 0, damping_ratio = 0;               ///< as DofSpec
   double start = 0;                                       ///< value of a leader at first [rad or m]
   bool passive = false;                                   ///< no motor closes it
   bool driven = true;                                     ///< as DofSpec

@@ -50,6 +50,7 @@ void RobotMaker::number_dofs() {
     dof.max_velocity = joint.velocity;
     dof.kp = joint.kp;
     dof.kd = joint.kd;
+    dof.damping_ratio = joint.damping_ratio;
     dof.default_value = joint.start;
     dof.driven = joint.driven;
     robot_.dofs.push_back(dof);

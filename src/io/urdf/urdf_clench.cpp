@@ -103,7 +103,7 @@ int ClenchReader::part(const XmlValues& values, const char* attribute) const {
 }
 
 void ClenchReader::read_dof(const XmlElement& element) {
-  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "breakaway", "handle", "start", "driven"});
+  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "damping_ratio", "breakaway", "handle", "start", "driven"});
   const XmlValues values(element);
   DofSpec& dof = robot_.dofs[this->dof(values, "joint")];
   once(element, dof.name);
@@ -114,6 +114,7 @@ void ClenchReader::read_dof(const XmlElement& element) {
   dof.default_velocity = checked(values, "velocity", 0, number_rule);
   dof.kp = checked(values, "kp", 0, number_rule);
   dof.kd = checked(values, "kd", 0, number_rule);
+  dof.damping_ratio = checked(values, "damping_ratio", 0, not_negative_rule);
   dof.breakaway_torque = checked(values, "breakaway", 0, not_negative_rule);
   dof.dragger_scale = checked(values, "handle", 0, number_rule);
   dof.driven = values.word("driven", {"true", "false"}, "true") == "true";

@@ -95,6 +95,7 @@ static int get_dof_info(lua_State* L) {
     if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
     set_field(L, "kp", dof.kp);
     set_field(L, "kd", dof.kd);
+    if (dof.damping_ratio > 0) set_field(L, "damping_ratio", dof.damping_ratio);
     set_field(L, "breakaway_torque", dof.breakaway_torque);
   });
 }
@@ -195,7 +196,8 @@ how far it closes, and what searches try.
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
 What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
-of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, breakaway_torque [N m],
+of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where
+kd follows from it and the inertia, breakaway_torque [N m],
 driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
