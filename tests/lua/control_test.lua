@@ -331,6 +331,7 @@ test("stiffer motors give way less", function(t)
 end)
 
 -- a rod of 0.2 m on a hinge, horizontal at first; actuators: elements of MuJoCo
+-- returns its world, it, and what is read of it as URDF
 local function rod(actuators)
   local path = os.tmpname() .. ".xml"
   local file = assert(io.open(path, "w"))
@@ -339,9 +340,11 @@ local function rod(actuators)
     <geom type="box" size="0.1 0.005 0.005" pos="0.1 0 0" mass="0.1"/></body></body></worldbody>]], actuators or "", "</mujoco>")
   file:close()
   local world = clench.world()
-  local robot = world:add_robot(path)
-  os.remove(path)
-  return world, robot
+  local robot, written = world:add_robot(path), os.tmpname() .. ".urdf"
+  clench.convert(path, written)
+  local again = clench.world():add_robot(written)
+  os.execute(("rm -r %s %s %s"):format(path, written, written:gsub("%.urdf$", "_files")))
+  return world, robot, again
 end
 
 test("a joint that no actuator drives swings; one with a servo is held, and carries the weight", function(t)
@@ -502,8 +505,8 @@ end)
 test("the damping of a servo may be a ratio, to the critical one for the inertia that its DOF feels", function(t)
   for _, servo in ipairs {[[<position joint="hinge" kp="4" dampratio="0.5"/>]],
       [[<general joint="hinge" biastype="affine" gainprm="4" biasprm="0 -4 0.5"/>]]} do
-    local _, robot = rod("<actuator>" .. servo .. "</actuator>")
-    t.equal(robot.dof_info[1].damping_ratio, 0.5)
+    local _, robot, again = rod("<actuator>" .. servo .. "</actuator>")
+    t.equal({robot.dof_info[1].damping_ratio, again.dof_info[1].damping_ratio}, {0.5, 0.5})
     local inertia = robot:mass_matrix()[1][1]
     t.equal(robot.gains[1].kp, 4.0)
     t.close(robot.gains[1].kd, math.sqrt(4 * inertia), 1e-12)

@@ -161,7 +161,7 @@ test("a joint without limits goes on and on, and still does after its robot was 
       os.remove(path)
       path = written
     end
-    os.remove(path)
+    os.execute(("rm -rf %s %s"):format(path, path:gsub("%.urdf$", "_files")))
   end
   local limited = clench.world():add_robot(turntable("revolute", [[<limit lower="-1" upper="1" effort="0" velocity="0"/>]]))
   t.equal(limited.dof_info[1].endless, false)
