@@ -53,7 +53,7 @@ local function of_dofs(robot)
   local dofs = {}
   for i, info in ipairs(robot.dof_info) do
     local low, high = table.unpack(robot.dof_limits[i])
-    dofs[i] = {name = info.name, kind = info.kind, low = low, high = high, value = robot.dofs[i],
+    dofs[i] = {name = info.name, kind = info.kind, low = low, high = high, value = robot.dofs[i], endless = info.endless or nil,
                closing = info.default_velocity, max_effort = info.max_effort}
   end
   return dofs

@@ -231,7 +231,7 @@ function mesh:save(path) end
 ---@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, as they are there; they exert no force. Points are in the frame of their link. [N/m, m]
 ---@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which side of it the others lie. They have no effect.
----@field actuators table[] # Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity. Of them the motors take which DOFs are driven, the largest efforts, and, as kp and kd, what bias[1] and bias[2] say of DOFs and of tendons; a script that sets forces may follow their laws.
+---@field actuators table[] # Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity, without the damping that `damping_ratio` stands for in MJCF's `dampratio`. Of them the motors take which DOFs are driven, the largest efforts, and, as kp and kd, what bias[1] and bias[2] say of DOFs and of tendons; a script that sets forces may follow their laws.
 ---@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They have no effect.
 local hand = {}
 
@@ -282,7 +282,7 @@ function kinematics:ik(link, pose, options) end
 ---@return number[][]
 function kinematics:jacobian(link, point) end
 
----Values for all its DOFs, any within the limits as likely as any other; a DOF that turns without end gets a turn about where it is. Moves nothing.
+---Values for all its DOFs, any within the limits as likely as any other; an endless DOF gets one within dof_limits, about where it is. Moves nothing.
 ---@param random random
 ---@return number[] # [rad or m]
 function kinematics:random_posture(random) end
@@ -291,8 +291,8 @@ function kinematics:random_posture(random) end
 ---@class dofs: kinematics
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
 ---@field named_dofs table<string, number> # The same values by the names of dof_names; a table of its own, set as by set_dofs. [rad or m]
----@field dof_limits number[][] # Least and largest value of each DOF. One that is endless in dof_info turns, or slides, on beyond them: they only bound how far it closes, and what searches try. [rad or m]
----@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where kd follows from it and the inertia, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
+---@field dof_limits number[][] # Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a metre on either side of where it is, only says how far it closes, and what searches try. [rad or m]
+---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 local dofs = {}
 

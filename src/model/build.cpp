@@ -26,7 +26,8 @@ static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
     const Joint& joint = robot.joints[j];
     const bool sprung = robot.dofs[joint.dof].kind == DofKind::compliant;
     const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[j]) * joint.ratio > 0;
-    if (beyond && *out[j] >= joint.min - digits && *out[j] <= joint.max + digits) continue;
+    const bool inside = joint.endless || (*out[j] >= joint.min - digits && *out[j] <= joint.max + digits);
+    if (beyond && inside) continue;
     if (listeners.warn && beyond)
       listeners.warn(fmt::format(
           "robot '{}': joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",

@@ -34,7 +34,7 @@ static std::string other_unit(const std::array<double, 2>& range, double value, 
 std::array<double, 2> range_around(const Robot& robot, int dof, double value) {
   const auto [low, high] = robot.limits[dof];
   if (!robot.endless[dof] || !std::isfinite(value)) return {low, high};
-  return {std::min(low, value), std::max(high, value)};
+  return {value - (high - low) / 2, value + (high - low) / 2};
 }
 
 double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {

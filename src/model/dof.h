@@ -9,7 +9,7 @@ std::string dof_name(const Robot& robot, int dof);
 /// Does its first joint slide? Then it counts in metres, else in radians.
 bool dof_slides(const Robot& robot, int dof);
 
-/// Where a DOF that stands at `value` may go: its limits, and of an endless DOF that has left them also where it is.
+/// The limits of a DOF; of an endless one, which has none, a range as wide about the value: as far as it closes, or is searched.
 std::array<double, 2> range_around(const Robot& robot, int dof, double value);
 
 /// The value, or the limit that rounding has taken it beyond; any finite value of an endless DOF.

@@ -4,6 +4,7 @@
 #include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/model/dof.h"
 #include "clench/model/world.h"
 
 namespace clench {
@@ -33,8 +34,8 @@ void World::add_keyframe(Keyframe keyframe) {
     if (placed.dofs.size() != r.dofs.size())
       fail("{}: expected {} DOF values, got {}", of, r.dofs.size(), placed.dofs.size());
     for (size_t d = 0; d < placed.dofs.size(); ++d) {
-      const auto [low, high] = r.limits[d];
       double& q = placed.dofs[d];
+      const auto [low, high] = range_around(r, static_cast<int>(d), q);
       if (!(q >= low - rounding_of_bounds && q <= high + rounding_of_bounds))
         fail("{}: DOF {}: expected a value in [{}, {}], got {}", of, d + 1, low, high, q);
       q = std::clamp(q, low, high);

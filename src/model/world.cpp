@@ -164,7 +164,8 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
     const auto range = dof_range(spec, i);
     robot.limits.push_back(range);
     robot.endless.push_back(dof_is_endless(spec, i));
-    state_.dofs.push_back(std::clamp(spec.dofs[i].default_value, range[0], range[1]));
+    const double start = spec.dofs[i].default_value;
+    state_.dofs.push_back(robot.endless.back() ? start : std::clamp(start, range[0], range[1]));
   }
   for (const Joint& joint : robot.joints) {
     state_.joints.push_back(joint.ratio * state_.dofs[robot.first_dof + joint.dof]);

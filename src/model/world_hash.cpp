@@ -108,6 +108,7 @@ uint64_t World::hash() const {
     h.add(r.name);
     for (const double x : dofs(id)) h.add(x);
     for (const auto& range : r.limits) h.add(range[0]), h.add(range[1]);
+    for (const bool endless : r.endless) flag(endless);
     add(h, r.X_BA);
     flag(r.eigengrasps != nullptr);
     if (r.eigengrasps) add(h, *r.eigengrasps);

@@ -153,7 +153,7 @@ void stop_arrived(const Drive& drive, Eigen::VectorXd& rates, DriveResult& resul
     const double way = drive.targets[i] - drive.q[i];
     if (rates[i] * way > 0) continue;
     if (rates[i] != 0) {
-      const auto [low, high] = drive.robot().limits[i];
+      const auto [low, high] = range_around(drive.robot(), i, drive.q[i]);
       result.stops[i] = drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
     }
     rates[i] = 0;

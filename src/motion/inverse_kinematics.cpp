@@ -46,6 +46,7 @@ class Search {
     X_LT_ = world.pose(robot_.body_of(link_)).inverse() * world.pose(body) * options.X_BT;
     free_.assign(robot_.dofs.size(), options.dofs.empty());
     for (const int dof : options.dofs) free_[dof] = true;
+    for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d) ranges_.push_back(range_around(robot_, d, world.dofs(id)[d]));
   }
 
   bool moves_anything() const {
@@ -69,6 +70,7 @@ class Search {
   Pose X_W_base_, X_LT_, X_WT_;
   const IkOptions& options_;
   std::vector<bool> free_;  // of the DOFs
+  std::vector<std::array<double, 2>> ranges_;
   // of the posture that was looked at last
   std::vector<double> joints_;
   RobotFrames frames_;
@@ -119,7 +121,7 @@ Posture Search::descend(const VectorXd& start, int& iterations) {
     const VectorXd downhill = J.transpose() * best.residual;
     // whose range ends there
     for (int d = 0; d < J.cols(); ++d) {
-      const auto [low, high] = robot_.limits[d];
+      const auto [low, high] = ranges_[d];
       if ((best.q[d] <= low && downhill[d] < 0) || (best.q[d] >= high && downhill[d] > 0))
         J.col(d).setZero();
     }
@@ -131,7 +133,7 @@ Posture Search::descend(const VectorXd& start, int& iterations) {
       damped.diagonal().array() += damping * best.error() + 1e-15;
       VectorXd q = best.q + solve_symmetric(damped, slope);
       for (int d = 0; d < q.size(); ++d)
-        if (free_[d]) q[d] = std::clamp(q[d], robot_.limits[d][0], robot_.limits[d][1]);
+        if (free_[d]) q[d] = std::clamp(q[d], ranges_[d][0], ranges_[d][1]);
       const double step = (q - best.q).lpNorm<Eigen::Infinity>();
       if (!(step > no_step)) return best;
       Posture next = at(q);
@@ -194,7 +196,7 @@ IkResult inverse_kinematics(const World& world, Id<Robot> id, Id<Body> body, con
     if (context) context->progress().check();
     VectorXd start = now;
     for (int d = 0; d < start.size() && out.starts > 0; ++d)
-      if (search.may_move(d)) start[d] = random_value(robot.limits[d], now[d], random);
+      if (search.may_move(d)) start[d] = random_value(range_around(robot, d, now[d]), now[d], random);
     const Posture end = search.descend(start, out.iterations);
     const bool there = search.reached(end), collision = there && collides_at(end.q);
     out.in_collision += collision;
@@ -209,7 +211,7 @@ IkResult inverse_kinematics(const World& world, Id<Robot> id, Id<Body> body, con
 VectorXd random_posture(const World& world, Id<Robot> id, Random& random) {
   const Robot& robot = world.robot(id);
   VectorXd q = world.dofs(id);
-  for (int d = 0; d < q.size(); ++d) q[d] = random_value(robot.limits[d], q[d], random);
+  for (int d = 0; d < q.size(); ++d) q[d] = random_value(range_around(robot, d, q[d]), q[d], random);
   return q;
 }
 

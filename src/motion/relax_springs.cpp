@@ -21,7 +21,7 @@ double within_limits(const Drive& drive, const JointSpeeds& way) {
     const Joint& joint = drive.robot().joints[j];
     const double q = drive.world.joints(drive.id)[j];
     const double room = way[j] > 0 ? joint.max - q : joint.min - q;
-    if (way[j] != 0 && std::abs(way[j]) > std::abs(room))
+    if (!joint.endless && way[j] != 0 && std::abs(way[j]) > std::abs(room))
       part = std::min(part, std::max(0.0, room / way[j]));
   }
   return part;

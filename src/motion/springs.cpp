@@ -94,6 +94,7 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
   for (int i = 0; i < count; ++i) {
     const Joint& joint = robot.joints[joints_[i].number];
     const double q = world.joints(id)[joints_[i].number];
+    if (joint.endless) continue;
     if (q <= joint.min + at_limit) add(VectorXd::Unit(count, i), 0);
     if (q >= joint.max - at_limit) add(-VectorXd::Unit(count, i), 0);
   }

@@ -17,7 +17,7 @@ struct ActuatorSpec {
   double gear = 1;            ///< length of the actuator per unit of the target
   double gain = 1;            ///< [N m or N per unit of control]
   std::array<double, 3> bias = {0, 0, 0};
-  double damping_ratio = 0;  ///< of a servo without damping in bias: see DofSpec
+  double damping_ratio = 0;  ///< of a servo, whose bias has no damping then: as DofSpec
   bool law_known = true;  ///< false: gain and bias do not describe it
   std::optional<std::array<double, 2>> control_range;
   std::optional<std::array<double, 2>> force_range;  ///< before the gear [N m or N]

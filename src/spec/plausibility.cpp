@@ -117,14 +117,14 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
   look(robot.base);
   for (const LinkSpec& link : robot.links) look(link.body);
   for (const auto& [chain, number, joint] : joints_of(robot))
-    if (joint->kind == JointKind::revolute &&
+    if (joint->kind == JointKind::revolute && !joint->endless &&
         std::max(std::abs(joint->min), std::abs(joint->max)) > max_turn)
       turning.push_back(joint->name.empty() ? fmt::format("{} of chain {}", number, chain)
                                             : joint->name);
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
     const DofSpec& dof = robot.dofs[d];
     const auto [low, high] = dof_range(robot, static_cast<int>(d));
-    if (dof.default_value != 0 &&
+    if (dof.default_value != 0 && !dof_is_endless(robot, static_cast<int>(d)) &&
         (dof.default_value < low - rounding || dof.default_value > high + rounding))
       outside.push_back(dof.name.empty() ? fmt::format("{}", d) : dof.name);
   }

@@ -23,8 +23,10 @@ Pose approach_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& directi
 
 std::array<double, 2> dof_range(const RobotSpec& robot, int dof) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
+  const bool endless = dof_is_endless(robot, dof);
   each_joint(robot, [&](const JointSpec& joint) {
-    if (joint.dof != dof) return;
+    // what stops nothing leaves the range to the others
+    if (joint.dof != dof || joint.endless != endless) return;
     const double a = joint.min / joint.ratio, b = joint.max / joint.ratio;
     low = std::max(low, std::min(a, b));
     high = std::min(high, std::max(a, b));

@@ -27,7 +27,7 @@ struct DofSpec {
   double max_effort = 0;        ///< [N m or N]
   double max_velocity = 0;      ///< [rad/s or m/s]; 0: not known
   double kp = 0, kd = 0;        ///< controller gains [N m/rad or N/m], [N m s/rad or N s/m]
-  double damping_ratio = 0;     ///< where kd is 0, it is 2 damping_ratio sqrt(kp inertia); 1: critical
+  double damping_ratio = 0;     ///< adds 2 damping_ratio sqrt(kp inertia) to kd; 1: critical damping
   double breakaway_torque = 0;  ///< [N m]
   double dragger_scale = 0;     ///< size of its handle in a viewer [m]
   double default_value = 0;     ///< [rad or m]

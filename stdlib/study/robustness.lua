@@ -38,7 +38,7 @@ local function back_off(hand, from)
   for step = 1, 20 do
     local at = {}
     for i, value in ipairs(from) do
-      at[i] = math.min(math.max(value - paces[i] * most * step / 20, limits[i][1]), limits[i][2])
+      at[i] = paces[i] == 0 and value or math.min(math.max(value - paces[i] * most * step / 20, limits[i][1]), limits[i][2])
     end
     hand:set_dofs(at)
     if #hand.world:colliding(hand) == 0 then return true end

@@ -81,7 +81,7 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   check_refused("<dofs/>", "clench: unknown element <dofs>; did you mean 'dof'?");
   check_refused("<dof joint='k'/>", "dof: joint: no joint 'k' that leads a DOF");
   check_refused("<dof joint='j' spede='1'/>",
-                "dof: unknown attribute 'spede', expected one of joint, kind, velocity, kp, kd, "
+                "dof: unknown attribute 'spede', expected one of joint, kind, velocity, kp, kd, damping_ratio, "
                 "breakaway, handle, start, driven");
   check_refused("<dof joint='j' driven='no'/>", "dof: driven: expected true or false, got 'no'");
   check_refused("<dof joint='j' kind='soft'/>",

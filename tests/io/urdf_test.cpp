@@ -388,16 +388,32 @@ TEST_CASE("a follower of a joint that stands still does not keep the robot from 
   CHECK(high == 0.7);
 }
 
-TEST_CASE("limits that are none print as such") {
-  TemporaryFolder folder;
-  const ToldRobot told(
-      folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
-<joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1e15" upper="1e15"/></joint>
-<joint name="m" type="revolute"><parent link="a"/><child link="c"/><limit lower="0" upper="1"/><mimic joint="k"/></joint>
-</robot>)"));
-  CHECK(
-      told.warned("joint 'm' follows 'k' without limits, and its own limits [0, 1] would stop "
-                  "that; they are not used"));
+TEST_CASE("of a joint without limits and one that follows it only limits that files give count") {
+  const auto pair = [](const char* leads, const char* follows, const char* ratio) {
+    TemporaryFolder folder;
+    return ToldRobot(folder.write("a.urdf", fmt::format(R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<joint name="k" {}<parent link="a"/><child link="b"/></joint>
+<joint name="m" {}<parent link="a"/><child link="c"/><mimic joint="k" multiplier="{}"/></joint></robot>)", leads, follows, ratio)));
+  };
+  const char *endless = "type='continuous'>", *none = "type='revolute'><limit lower='-1e15' upper='1e15'/>",
+             *limited = "type='revolute'><limit lower='-5' upper='5'/>";
+  for (const char* leads : {endless, none}) {
+    const ToldRobot both = pair(leads, endless, "100");
+    CHECK(both.warnings.empty());
+    CHECK(dof_is_endless(both.robot, 0));
+    const ToldRobot follower = pair(leads, limited, "1");
+    CHECK(follower.warnings.empty());
+    CHECK(!dof_is_endless(follower.robot, 0));
+    CHECK(dof_range(follower.robot, 0)[1] == 5);
+    // what would all but stop the other is taken for a slip
+    const ToldRobot slip = pair(leads, limited, "100");
+    CHECK(slip.warned("joint 'm' follows 'k' from -628.319 to 628.319, and its own limits [-5, 5] would stop that; they are not used"));
+    CHECK(dof_is_endless(slip.robot, 0));
+  }
+  const ToldRobot leader = pair(limited, endless, "100");
+  CHECK(leader.warnings.empty());
+  CHECK(!dof_is_endless(leader.robot, 0));
+  CHECK(dof_range(leader.robot, 0)[1] == 5);
 }
 
 TEST_CASE("a mass without an inertia is told as such") {

@@ -128,7 +128,7 @@ local function turntable(joint_type, limit)
   local file = assert(io.open(path, "w"))
   file:write([[<robot name="turntable"><link name="base"/><link name="plate"><inertial><mass value="1"/>
     <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="]], joint_type,
-    [["><parent link="base"/><child link="plate"/><axis xyz="0 0 1"/>]], limit or "", "</joint></robot>")
+    [["><parent link="base"/><child link="plate"/><axis xyz="0 0 1"/>]], limit or "", [[</joint><clench><dof joint="turn" velocity="1"/></clench></robot>]])
   file:close()
   return path
 end
@@ -153,9 +153,17 @@ test("a joint without limits goes on and on, and still does after its robot was 
       robot:set_dofs {30}
       world:restore(state)
       t.close(robot.dofs[1], 20, 1e-6)
-      -- closing goes on from there, to nothing
+      -- closing goes on from there, as far as dof_limits say
+      local far = robot.dof_limits[1][2]
+      t.close(far, 20 + (row[1] == "prismatic" and 1 or 2 * math.pi), 1e-6)
       robot:autograsp()
-      t.ok(math.abs(robot.dofs[1] - 20) < 20.001)
+      t.close(robot.dofs[1], far, 1e-6)
+      world:restore(state)
+      robot:autograsp {dynamic = true}
+      world:run(7)
+      t.close(robot.dofs[1], far, 0.05)
+      local now, reach = robot.dofs[1], far - 20
+      for seed = 1, 20 do t.close(robot:random_posture(clench.random(seed))[1], now, reach + 1e-9) end
       local written = os.tmpname() .. ".urdf"
       clench.convert(path, written)
       os.remove(path)
@@ -163,7 +171,30 @@ test("a joint without limits goes on and on, and still does after its robot was 
     end
     os.execute(("rm -rf %s %s"):format(path, path:gsub("%.urdf$", "_files")))
   end
-  local limited = clench.world():add_robot(turntable("revolute", [[<limit lower="-1" upper="1" effort="0" velocity="0"/>]]))
+  local path = turntable("revolute", [[<limit lower="-1" upper="1" effort="0" velocity="0"/>]])
+  local limited = clench.world():add_robot(path)
+  os.remove(path)
   t.equal(limited.dof_info[1].endless, false)
   t.fails(function() limited:set_dofs {2} end, "must lie in [-1, 1] rad")
+end)
+
+test("a joint without limits is where a keyframe puts it, and searches look about where it is", function(t)
+  local path = os.tmpname() .. ".xml"
+  local file = assert(io.open(path, "w"))
+  file:write [[<mujoco model="arm"><compiler angle="radian"/><worldbody><body name="base"><geom size="0.1" mass="1"/>
+    <body name="upper" pos="0 0 0.2"><joint name="a" axis="0 0 1"/><geom size="0.02" pos="0.2 0 0" mass="0.1"/>
+    <body name="lower" pos="0.3 0 0"><joint name="b" axis="0 0 1" range="-2 2" limited="true"/><geom size="0.02" pos="0.2 0 0" mass="0.1"/>
+    </body></body></body></worldbody><keyframe><key name="far" qpos="100 1"/></keyframe></mujoco>]]
+  file:close()
+  local world = clench.load(path)
+  os.remove(path)
+  local arm = world.robots[1]
+  world:set_keyframe "far"
+  t.equal(arm.dofs, {100.0, 1.0})
+  arm:set_dofs {100.02, 1.01}
+  local goal = arm:link "lower".pose
+  arm:set_dofs {100, 1}
+  local found = arm:ik("lower", goal, {starts = 1})
+  t.ok(found.reached)
+  t.close(found.dofs[1], 100.02, 1e-4)
 end)

@@ -5,6 +5,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/model/dof.h"
 
 namespace clench {
 
@@ -33,7 +34,7 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
     rates[d] = speed * robot.dofs[d].default_velocity;
     if (rates[d] == 0) continue;
-    ends[d] = robot.limits[d][rates[d] > 0 ? 1 : 0];
+    ends[d] = range_around(robot, static_cast<int>(d), world.dofs(id)[static_cast<int>(d)])[rates[d] > 0 ? 1 : 0];
     slowest = std::max(slowest, std::abs(ends[d] - world.dofs(id)[static_cast<int>(d)]) / std::abs(rates[d]));
   }
   const double faster = std::max(1.0, slowest / (longest / std::abs(speed)));
@@ -61,7 +62,7 @@ bool has_closed(const World& world, Id<Robot> id) {
       const DofControl control = world.control(id, joint.dof);
       const bool over = control.trajectory && world.time() >= control.trajectory->begin + control.trajectory->duration;
       done = done || (over && std::abs(world.dof_velocities(id)[joint.dof]) < still);
-      done = done || rate == 0 || std::abs(robot.limits[joint.dof][rate > 0 ? 1 : 0] - q) < near;
+      done = done || rate == 0 || std::abs(range_around(robot, joint.dof, q)[rate > 0 ? 1 : 0] - q) < near;
     }
     if (!done) return false;
   }

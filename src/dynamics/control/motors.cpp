@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "clench/model/dof.h"
+
 namespace clench {
 
 static constexpr double no_bound = std::numeric_limits<double>::infinity();
@@ -19,8 +21,7 @@ Gains gains_of(const World& world, Id<Robot> id, int dof, double inertia) {
   const RobotDynamics& settings = world.dynamic_settings().robot(id);
   if (dof < static_cast<int>(settings.gains.size()) && settings.gains[dof]) return *settings.gains[dof];
   const DofSpec& spec = world.robot(id).dofs[dof];
-  if (spec.kp > 0 && spec.kd <= 0) return {spec.kp, 2 * spec.damping_ratio * std::sqrt(spec.kp * inertia)};
-  if (spec.kp > 0 || spec.kd > 0) return {spec.kp, spec.kd};
+  if (spec.kp > 0 || spec.kd > 0) return {spec.kp, spec.kd + 2 * spec.damping_ratio * std::sqrt(std::max(0.0, spec.kp) * inertia)};
   return {inertia * natural_frequency * natural_frequency, 2 * inertia * natural_frequency};
 }
 
@@ -108,7 +109,8 @@ void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& stat
     speed = std::clamp(speed, -fastest, fastest);
     if (const double most = dof.max_effort; most > 0)
       speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * step)), std::max(0.0, (most - force) / (stiffness * step)));
-    speed = std::clamp(speed, (robot.limits[d][0] - x) / step, (robot.limits[d][1] - x) / step);
+    const auto [low, high] = range_around(robot, static_cast<int>(d), x);
+    speed = std::clamp(speed, (low - x) / step, (high - x) / step);
     state.dof_velocities[index] = speed;
     state.dof_efforts[index] = force;
   }

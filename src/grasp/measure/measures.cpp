@@ -137,7 +137,7 @@ void each_place_in_range(const World& world, Id<Robot> id, Act act) {
   const Robot& robot = world.robot(id);
   const auto q = world.dofs(id);
   for (Index i = 0; i < q.size(); ++i)
-    if (const auto [low, high] = robot.limits[i]; high > low && std::isfinite(high - low))
+    if (const auto [low, high] = robot.limits[i]; high > low && std::isfinite(high - low) && !robot.endless[i])
       act((q[i] - low) / (high - low));
 }
 

@@ -284,8 +284,8 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
   const bool zeros = range[0] == 0 && range[1] == 0;
   if (zeros && values.text("ctrllimited", "auto") != "true") return;
   const double a = range[0] / gear, b = range[1] / gear;
-  const double low = std::max(joint.min, std::min(a, b)),
-               high = std::min(joint.max, std::max(a, b));
+  double low = std::min(a, b), high = std::max(a, b);
+  if (!joint.endless) low = std::max(joint.min, low), high = std::min(joint.max, high);
   if (low < high || (low == high && range[0] == range[1])) {
     joint.min = low, joint.max = high, joint.endless = false;
     joint.start = std::clamp(joint.start, low, high);

@@ -58,18 +58,7 @@ void RobotMaker::number_dofs() {
   }
 }
 
-// limits beyond this are those of nobody [rad or m]
-constexpr double unlimited = 1e6;
-
-std::string way_text(double low, double high) {
-  return low <= -unlimited && high >= unlimited ? "without limits"
-                                                : fmt::format("from {:.6g} to {:.6g}", low, high);
-}
-
-std::string limits_text(double low, double high) {
-  return low <= -unlimited && high >= unlimited ? "(unlimited)"
-                                                : fmt::format("[{:.6g}, {:.6g}]", low, high);
-}
+std::string limits_text(double low, double high) { return fmt::format("[{:.6g}, {:.6g}]", low, high); }
 
 void RobotMaker::widen_followers() {
   std::map<int, std::pair<double, double>> ranges;  // by leader: what its followers leave
@@ -79,6 +68,10 @@ void RobotMaker::widen_followers() {
     const double a = joint.ratio * leader.min + joint.offset,
                  b = joint.ratio * leader.max + joint.offset;
     const double low = std::min(a, b), high = std::max(a, b);
+    if (joint.endless) {
+      joint.min = low, joint.max = high;
+      continue;
+    }
     const double left = std::min(high, joint.max) - std::max(low, joint.min);
     // what its limits leave of the leader's range, counted as dof_range does
     const double c = (joint.min - joint.offset) / joint.ratio,
@@ -92,10 +85,10 @@ void RobotMaker::widen_followers() {
       continue;
     }
     cache_.warn(
-        slips ? fmt::format("{}: joint '{}' follows '{}' {}, and its own limits {} would stop "
+        slips ? fmt::format("{}: joint '{}' follows '{}' from {:.6g} to {:.6g}, and its own limits {} would stop "
                             "that; they are not used",
                             joint.place, excerpt(joint.name), excerpt(leader.name),
-                            way_text(low, high), limits_text(joint.min, joint.max))
+                            low, high, limits_text(joint.min, joint.max))
               : fmt::format("{}: joint '{}' follows '{}', and its own limits {} have no value in "
                             "common with those of others that follow it; they are not used",
                             joint.place, excerpt(joint.name), excerpt(leader.name),
@@ -104,6 +97,7 @@ void RobotMaker::widen_followers() {
     const double slack = high - low < 1e-9 ? 1e-9 * std::max(1.0, std::abs(low)) : 0;
     joint.min = low - slack;
     joint.max = high + slack;
+    joint.endless = leader.endless;
   }
 }
 

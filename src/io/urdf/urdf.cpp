@@ -379,9 +379,9 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
     };
     joint.effort = limit("effort");
     joint.velocity = limit("velocity");
-    const double low = values.number("lower", 0), high = values.number("upper", 0);
-    const bool given = (values.has("lower") || values.has("upper")) && !(low <= -unlimited && high >= unlimited);
-    if (from.type != "continuous" && given) {
+    const bool given = from.type != "continuous" && (values.has("lower") || values.has("upper"));
+    const double low = given ? values.number("lower", 0) : -unlimited, high = given ? values.number("upper", 0) : unlimited;
+    if (low > -unlimited || high < unlimited) {
       joint.min = low, joint.max = high, joint.endless = false;
       repairs_.order(joint.min, joint.max,
                      fmt::format("{}: joint '{}'", element.place(), excerpt(joint.name)),

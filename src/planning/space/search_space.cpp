@@ -93,7 +93,7 @@ SearchSpace::SearchSpace(const Robot& hand, const HandState& start, const SpaceO
   for (const double axis : options.semi_axes)
     if (!(std::isfinite(axis) && axis > 0))
       fail("search space: semi-axes: expected lengths > 0 [m], got {}", axis);
-  for (const auto& limit : hand.limits) limits_.push_back(limit);
+  for (int d = 0; d < start_.dofs.size(); ++d) limits_.push_back(range_around(hand, d, start_.dofs[d]));
   for (int d = 0; d < static_cast<int>(hand.dofs.size()); ++d)
     dof_names_.push_back(dof_name(hand, d));
   add_posture();

@@ -37,7 +37,7 @@ static std::vector<JointPosition> check_joint_positions(Table& options, const Ro
     const auto joints = joints_of(robot, robot.chains[c]);
     const size_t j = number(row[1], joints.size(), "joint");
     const Joint& joint = robot.joints[joints[j]];
-    if (!(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
+    if (!(joint.endless ? std::isfinite(row[2]) : row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
       fail("{}: joint_positions: joint {} of chain {}: expected a value in [{}, {}], got {}",
            options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
     out[joints[j]] = row[2];
@@ -67,8 +67,9 @@ static int set_posture(lua_State* L) {
 }
 
 static int get_dof_limits(lua_State* L) {
-  return push_list_of(L, self<RobotHandle>(L)->limits,
-                      [&](const std::array<double, 2>& range) { push_numbers(L, range); });
+  const auto& robot = self<RobotHandle>(L);
+  int dof = 0;
+  return push_list_of(L, robot.world->dofs(robot.id), [&](double q) { push_numbers(L, range_around(*robot, dof++, q)); });
 }
 
 static int get_dof_names(lua_State* L) {
@@ -190,14 +191,14 @@ The same values by the names of dof_names; a table of its own, set as by set_dof
 > hand.dofs[2]  --> 0.1)",
      guarded<set_dofs>},
     {"dof_limits", guarded<get_dof_limits>, R"(
-Least and largest value of each DOF. One that is endless in dof_info turns, or slides, on beyond them: they only bound
-how far it closes, and what searches try.
+Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a metre on
+either side of where it is, only says how far it closes, and what searches try.
 @type number[][]  [rad or m]
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
 What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
 of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where
-kd follows from it and the inertia, breakaway_torque [N m],
+there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m],
 driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},

@@ -6,6 +6,7 @@
 
 #include "clench/base/convert.h"
 #include "clench/io/graspit/virtual_contacts.h"
+#include "clench/model/dof.h"
 #include "clench/motion/virtual_contacts.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -65,7 +66,7 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
       keep ? grasps.posture(amplitudes, robot.world->dofs(robot.id)) : grasps.posture(amplitudes),
       {}};
   for (int d = 0; d < out.dofs.size(); ++d) {
-    const auto [low, high] = robot->limits[d];
+    const auto [low, high] = range_around(*robot, d, out.dofs[d]);
     const double inside = std::clamp(out.dofs[d], low, high);
     // rounding is no limit in the way
     if (std::abs(inside - out.dofs[d]) > 1e-12 * std::max(1.0, std::abs(inside)))
@@ -300,6 +301,7 @@ static int get_actuators(lua_State* L) {
       set_field(L, "gain", a.gain);
       push_numbers(L, a.bias);
       lua_setfield(L, -2, "bias");
+      if (a.damping_ratio > 0) set_field(L, "damping_ratio", a.damping_ratio);
     }
     const auto set_range = [L](const char* key, const auto& range) {
       if (!range) return;
@@ -367,7 +369,7 @@ side of it the others lie. They have no effect.
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity. Of them the motors take which DOFs are driven, the largest efforts, and, as
+bias[2] * length + bias[3] * velocity, without the damping that `damping_ratio` stands for in MJCF's `dampratio`. Of them the motors take which DOFs are driven, the largest efforts, and, as
 kp and kd, what bias[1] and bias[2] say of DOFs and of tendons; a script that sets forces may follow their laws.
 @type table[]
 > #hand.actuators  --> 0)"},

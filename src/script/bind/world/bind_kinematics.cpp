@@ -93,8 +93,8 @@ axes, and a column for each DOF, with those of its joints that follow it.
 > {#J, #J[1]}  --> {6, 12}
 > J[1][12]  --> 0.0)"},
     {"random_posture", guarded<random_posture>, R"(
-Values for all its DOFs, any within the limits as likely as any other; a DOF that turns without end gets a turn about
-where it is. Moves nothing.
+Values for all its DOFs, any within the limits as likely as any other; an endless DOF gets one
+within dof_limits, about where it is. Moves nothing.
 @param random random
 @return number[]  [rad or m]
 > hand.dofs = hand:random_posture(clench.random(1))

@@ -45,6 +45,7 @@ static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   set_field(L, "ratio", spec.ratio);
   set_field(L, "min", spec.min);
   set_field(L, "max", spec.max);
+  if (spec.endless) set_field(L, "endless", true);
   set_field(L, "value", q);
   const bool left = !robot.world->follows_dof(robot.id, joint);
   const DofKind kind = robot->dofs[spec.dof].kind;
