@@ -127,9 +127,9 @@ TEST_CASE("redundant contacts share their load the same way wherever the solver 
   CHECK(apart <= 6);
 }
 
-TEST_CASE("heaps of many contacts that something strikes are solved from the forces before") {
+TEST_CASE("heaps of many contacts that something strikes are solved from the forces before, in a few iterations") {
   FrictionSolver solver;
-  int many = 0;
+  int many = 0, iterations = 0;
   for (int i = 0; i < test::cases(100); ++i) {
     Random random(11, i);
     FrictionProblem problem = random_problem(random, {.max_bodies = 20, .max_contacts = 80, .max_mu = 1});
@@ -139,8 +139,11 @@ TEST_CASE("heaps of many contacts that something strikes are solved from the for
     REQUIRE(solution.solved);
     check_law(problem, solution);
     many += problem.q.size() > 100;
+    iterations += solution.iterations;
   }
   CHECK(many >= test::cases(100) / 3);
+  // 12 each; 81 where the other ways come first
+  CHECK(iterations < 25 * test::cases(100));
 }
 
 TEST_CASE("steps of a motion, whose velocities change by a thousandth, need a few iterations each, redundant contacts or not") {
