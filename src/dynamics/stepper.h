@@ -27,8 +27,6 @@ class Stepper {
   /// Steps until exactly `duration` has passed [s].
   void run(double duration);
 
-  const System& system() const { return system_; }
-
  private:
   struct Touch {  // a point of a manifold
     int manifold, point;

@@ -9,7 +9,8 @@ std::string dof_name(const Robot& robot, int dof);
 /// Does its first joint slide? Then it counts in metres, else in radians.
 bool dof_slides(const Robot& robot, int dof);
 
-/// The limits of a DOF; of an endless one, which has none, a range as wide about the value: as far as it closes, or is searched.
+/// The limits of a DOF. Those of an endless one stop nothing: they are moved so that `value` lies in their middle, and say how far
+/// it closes, or is searched, from there.
 std::array<double, 2> range_around(const Robot& robot, int dof, double value);
 
 /// The value, or the limit that rounding has taken it beyond; any finite value of an endless DOF.

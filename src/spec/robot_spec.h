@@ -43,7 +43,7 @@ struct JointSpec {
   int dof = 0;
   double ratio = 1;
   double min = 0, max = 0;  ///< of q [rad or m]
-  bool endless = false;     ///< nothing stops it: min and max only bound where it is closed to, and what searches try
+  bool endless = false;     ///< nothing stops it: min and max say how far it closes, and is searched
   double viscous = 0;       ///< friction [N m s/rad or N s/m]
   double coulomb = 0;       ///< friction [N m or N]
   double armature = 0;      ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]

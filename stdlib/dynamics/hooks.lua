@@ -61,7 +61,7 @@ local function new_task(handle)
     check_time("wait", seconds)
     pause("wait", {seconds = seconds})
   end
-  function task.wait_step() pause("wait_step", {seconds = 0, step = true}) end
+  function task.wait_step() pause("wait_step", {seconds = 0}) end
   function task.wait_until(condition, timeout)
     check_function("task.wait_until", condition)
     if timeout ~= nil then check_time("wait_until", timeout) end

@@ -85,7 +85,8 @@ function print_kind.robot(robot)
   columns(links, "  ")
   local rows = {{"DOF", "name", "kind", "from", "to", "at", "closes", "effort"}}
   for i, dof in ipairs(robot.dofs) do
-    rows[#rows + 1] = {tostring(i), dof.name or "", dof.kind, dof.endless and "none" or quantity(dof.low, dof.unit), dof.endless and "none" or quantity(dof.high, dof.unit),
+    local function limit(value) return dof.endless and "no limit" or quantity(value, dof.unit) end
+    rows[#rows + 1] = {tostring(i), dof.name or "", dof.kind, limit(dof.low), limit(dof.high),
       quantity(dof.value, dof.unit), dof.closing > 0 and "up" or dof.closing < 0 and "down" or "not",
       dof.max_effort > 0 and quantity(dof.max_effort, dof.unit == "m" and "N" or "N m") or "no limit"}
   end

@@ -168,7 +168,7 @@ void measure_bin(const std::vector<EngineKind>& peers, bool brief, Table& table)
   for (const Outcome& o : all) {
     double sum = 0;
     for (const double time : o.times) sum += time * length.block * 1e-6;
-    table.add("time for 1.2 s [s]", "boxes in a bin", o.engine, sum);
+    table.add("time of all steps [s]", "boxes in a bin", o.engine, sum);
     const std::vector<Pose> end = poses_of(o, scene);
     const auto left = std::ranges::count_if(end, [](const Pose& X) { return X.position.cwiseAbs().head<2>().maxCoeff() > 0.2 || X.position.z() < -0.06; });
     table.add("boxes lost", "boxes in a bin", o.engine, static_cast<double>(left));

@@ -182,14 +182,14 @@ TEST_CASE("a follower that does not follow stays at its offset") {
   CHECK(told.warned("joint 'stays': its multiplier is 0; it stays at 0.5"));
 }
 
-TEST_CASE("joints without limits are searched a full turn or a metre either way, which is told") {
+TEST_CASE("planners try joints without limits a full turn or a metre either way, which is told") {
   TemporaryFolder folder;
   const ToldRobot turns(folder.write("a.urdf", two_links("", "type='continuous'")));
   CHECK(turns.joint("j").max == doctest::Approx(2 * pi));
-  CHECK(turns.noted("joint 'j' turns without end; searches keep it from -6.283 to 6.283 rad"));
+  CHECK(turns.noted("joint 'j' turns without end; planners try values up to 6.283 rad from where it is"));
   const ToldRobot slides(folder.write("a.urdf", two_links("", "type='prismatic'")));
   CHECK(slides.joint("j").min == -1);
-  CHECK(slides.noted("joint 'j' has no limits; searches keep it from -1 to 1 m"));
+  CHECK(slides.noted("joint 'j' has no limits; planners try values up to 1 m from where it is"));
 }
 
 TEST_CASE("floating and planar joints stay, which is told") {

@@ -198,3 +198,84 @@ test("a joint without limits is where a keyframe puts it, and searches look abou
   t.ok(found.reached)
   t.close(found.dofs[1], 100.02, 1e-4)
 end)
+
+-- two fingers on slides, on a wrist that turns without end; the box between them turns along
+local function wrist_gripper(turn)
+  local path = os.tmpname() .. ".urdf"
+  local file = assert(io.open(path, "w"))
+  local function link(name, z, size)
+    return ([[<link name="%s"><collision><origin xyz="0 0 %g"/><geometry><box size="%s"/></geometry></collision></link>]]):format(name, z, size)
+  end
+  local function finger(name, x)
+    return ([[<joint name="%s_slide" type="prismatic"><parent link="palm"/><child link="%s"/><origin xyz="%g 0 0.03"/><axis xyz="%g 0 0"/>
+      <limit lower="0" upper="0.045" effort="10" velocity="1"/></joint>]]):format(name, name, x, x < 0 and 1 or -1)
+  end
+  file:write([[<robot name="gripper">]], link("arm", 0, "0.1 0.1 0.02"), link("palm", 0.02, "0.12 0.05 0.01"), link("left", 0.05, "0.01 0.02 0.08"),
+    link("right", 0.05, "0.01 0.02 0.08"), [[<joint name="wrist" type="continuous"><parent link="arm"/><child link="palm"/><axis xyz="0 0 1"/></joint>]],
+    finger("left", -0.05), finger("right", 0.05), "</robot>")
+  file:close()
+  local world = clench.world()
+  local hand = world:add_robot(path, {close = {left_slide = 1, right_slide = 1}, approach = {point = {0, 0, 0.1}, direction = {0, 0, 1}}})
+  os.remove(path)
+  local box = world:add_object(clench.shapes.box {0.03, 0.03, 0.03}, {mass = 0.1, pose = clench.pose {xyz = {0, 0, 0.1}, rpy = {0, 0, 0.3}}})
+  hand:set_dofs {wrist = turn}
+  hand:autograsp()
+  return clench.grasp(hand, box), hand, world
+end
+
+test("grasps, their measures and searches do not see how often a wrist without limits has turned", function(t)
+  local far = 20 * math.pi + 0.3
+  local once, hand = wrist_gripper(0.3)
+  local often, turned = wrist_gripper(far)
+  t.equal({hand.dof_names[1], hand.dof_info[1].endless, hand.dof_info[2].endless}, {"wrist", true, false})
+  t.close(turned.dofs[1], far, 1e-12)
+  -- 20 pi is off by 1e-14 of a turn's sine
+  t.ok(once.epsilon > 0)
+  t.close(often.epsilon, once.epsilon, 1e-9)
+  for _, measure in ipairs {"joint_margin", "joint_deviation"} do
+    t.close(often:quality(measure), once:quality(measure), 1e-9)
+  end
+  local a, b = (clench.study.robustness(once, {samples = 20})), (clench.study.robustness(often, {samples = 20}))
+  t.ok(a.probability > 0.5)
+  t.equal(b.probability, a.probability)
+  t.close(b.mean, a.mean, 1e-6)
+  -- what is fixed stays where it is
+  for _, options in ipairs {{posture = "fixed"}, {posture = "dofs", fixed = {"wrist"}}} do
+    options.hand, options.object, options.position = turned, often.object, "approach"
+    options.energy = function() return 1 end
+    local search = clench.annealing(options)
+    t.close(search.state.dofs[1], far, 1e-9)
+  end
+end)
+
+test("worlds differ by whether a limit stops a joint", function(t)
+  local function world(joint_type, limit)
+    local path = turntable(joint_type, limit)
+    local out = clench.world()
+    out:add_robot(path)
+    os.remove(path)
+    return out
+  end
+  local limit = ([[<limit lower="%.17g" upper="%.17g" effort="0" velocity="0"/>]]):format(-2 * math.pi, 2 * math.pi)
+  t.equal(world("continuous"):hash(), world("continuous"):hash())
+  t.ok(world("continuous"):hash() ~= world("revolute", limit):hash())
+end)
+
+test("a tendon that nothing stops pulls on, and its joint may be told where to stand", function(t)
+  local path = os.tmpname() .. ".urdf"
+  local file = assert(io.open(path, "w"))
+  file:write [[<robot name="spool"><link name="base"/><link name="drum"><inertial><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="continuous"><parent link="base"/>
+    <child link="drum"/><axis xyz="0 0 1"/></joint><clench><dof joint="turn" kind="compliant" velocity="1"/><joint name="turn" spring="1"/></clench></robot>]]
+  file:close()
+  local world = clench.world()
+  local robot = world:add_robot(path)
+  os.remove(path)
+  robot:set_dofs {20}
+  robot:set_target_velocities {1}
+  world:run(0.5)
+  t.close(robot.dofs[1], 20.5, 0.01)
+  robot:set_dofs({20}, {joint_positions = {{1, 1, 19.9}}})
+  t.close(robot.chains[1].joints[1].value, 19.9, 1e-12)
+  t.fails(function() robot:set_dofs({20}, {joint_positions = {{1, 1, 0 / 0}}}) end, "expected a finite number, got nan")
+end)

@@ -37,8 +37,8 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
 void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix, double h,
                          const DynamicState& state, std::vector<CoordinateRow>& out);
 
-/// Gains of a DOF's motor: those set for it, else its file's, whose damping may be a ratio; else a motor of critical damping that swings back at
-/// 60 rad/s.   inertia  that the DOF feels [kg m^2 or kg]
+/// Gains of a DOF's motor: those set for it; else its file's, whose damping may be a ratio; else those of a motor of critical
+/// damping that swings back at 60 rad/s.   inertia  that the DOF feels [kg m^2 or kg]
 Gains gains_of(const World& world, Id<Robot> robot, int dof, double inertia);
 
 /// What a motor gives beside what its mode does, within its largest effort; 0 for a joint that no motor turns.

@@ -115,8 +115,7 @@ void OdeScene::add_contact(const OdeContact& contact) {
     made.fdir1[k] = side * slide[k];
   }
   const dJointID joint = dJointCreateContact(ode_.get(), nullptr, &made);
-  touch.first = touch.turned ? a->body : b->body;
-  dJointAttach(joint, touch.first, touch.turned ? nullptr : (a ? a->body : nullptr));
+  dJointAttach(joint, touch.turned ? a->body : b->body, touch.turned ? nullptr : (a ? a->body : nullptr));
   dJointSetFeedback(joint, touch.feedback.get());
   touch.made = true;
 }

@@ -65,7 +65,6 @@ class OdeScene {
   };
   struct Touch {
     bool made = false, turned = false;  // turned: a is ODE's first body
-    dBodyID first = nullptr;
     std::unique_ptr<dJointFeedback> feedback;
   };
 

@@ -70,7 +70,7 @@ class FrictionNewton {
   std::vector<State> states_, factored_;
   std::vector<double> slide_;  // four per block: of what the friction changes as the normal does not, and where to
   std::vector<Direction> directions_;
-  Eigen::VectorXd u_, next_, u_next_, best_, decided_, right_, along_, shift_, z_, change_;
+  Eigen::VectorXd u_, next_, u_next_, best_, right_, along_, shift_, z_, change_;
   Eigen::MatrixXd columns_;
   Eigen::MatrixXd matrix_;
   bool symmetric_ = true;

@@ -199,9 +199,8 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   if (limited == "false" || !has_range) {
     const double far = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - far, joint.max = joint.zero + far, joint.endless = true;
-    cache_.note(fmt::format("{}: joint '{}' has no limits; searches keep it from {:.4g} to {:.4g} {}",
-                              joint.place, excerpt(joint.name), joint.min, joint.max,
-                              turns ? "rad" : "m"));
+    cache_.note(fmt::format("{}: joint '{}' has no limits; planners try values up to {:.4g} {} from where it is",
+                              joint.place, excerpt(joint.name), far, turns ? "rad" : "m"));
     return;
   }
   const auto range = values.range("range", document_.repairs());

@@ -48,7 +48,7 @@ struct TreeModel {
   std::vector<std::pair<int, int>> never_meet;  ///< links whose collisions the file switches off
 };
 
-/// The range that searches take for a joint without limits: a full turn either way [rad]; so far [m].
+/// How far searches go from where a joint without limits is: a full turn [rad]; so far [m].
 inline constexpr double endless_turn = 6.283185307179586, endless_slide = 1;
 
 /// In a URDF, which has no word for none, a limit of effort or velocity, or of where a joint slides, that we write, and read, as none

@@ -390,9 +390,8 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
     }
   }
   note(from.element,
-       fmt::format("joint '{}' {}; searches keep it from {:.4g} to {:.4g} {}", excerpt(joint.name),
-                   from.type == "continuous" ? "turns without end" : "has no limits", joint.min,
-                   joint.max, unit));
+       fmt::format("joint '{}' {}; planners try values up to {:.4g} {} from where it is", excerpt(joint.name),
+                   from.type == "continuous" ? "turns without end" : "has no limits", far, unit));
 }
 
 TreeJoint UrdfReader::read_joint(const FileJoint& from) {

@@ -37,7 +37,7 @@ static std::vector<JointPosition> check_joint_positions(Table& options, const Ro
     const auto joints = joints_of(robot, robot.chains[c]);
     const size_t j = number(row[1], joints.size(), "joint");
     const Joint& joint = robot.joints[joints[j]];
-    if (!(joint.endless ? std::isfinite(row[2]) : row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
+    if (!joint.endless && !(row[2] >= joint.min - 1e-9 && row[2] <= joint.max + 1e-9))
       fail("{}: joint_positions: joint {} of chain {}: expected a value in [{}, {}], got {}",
            options.subject(), j + 1, c + 1, joint.min, joint.max, row[2]);
     out[joints[j]] = row[2];

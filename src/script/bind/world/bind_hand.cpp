@@ -369,8 +369,9 @@ side of it the others lie. They have no effect.
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity, without the damping that `damping_ratio` stands for in MJCF's `dampratio`. Of them the motors take which DOFs are driven, the largest efforts, and, as
-kp and kd, what bias[1] and bias[2] say of DOFs and of tendons; a script that sets forces may follow their laws.
+bias[2] * length + bias[3] * velocity. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. Of
+them the motors take which DOFs are driven, the largest efforts, and, as kp and kd, what bias[2] and bias[3] say of DOFs
+and of tendons; a script that sets forces may follow their laws.
 @type table[]
 > #hand.actuators  --> 0)"},
     {"tactile_sensors", guarded<get_tactile_sensors>, R"(
