@@ -292,7 +292,7 @@ function kinematics:random_posture(random) end
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
 ---@field named_dofs table<string, number> # The same values by the names of dof_names; a table of its own, set as by set_dofs. [rad or m]
 ---@field dof_limits number[][] # Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a metre on either side of where it is, only says how far it closes, and what searches try. [rad or m]
----@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
+---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, where known, kp, kd, damping_ratio, where there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 ---@field dof_names string[] # Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 local dofs = {}
 
@@ -515,7 +515,7 @@ function patch:torsion_limit(options) end
 ---@field labels table<string, string> # Words that a script notes, by name: its planner, its script. They are kept in files.
 ---@field pregrasp {pose: pose, dofs: number[]}? # How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not known. Planners set it; files keep it.
 ---@field collision_free boolean? # Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
----@field epsilon number # The measure "epsilon", as it was measured or, else, from its points.
+---@field epsilon number? # The measure "epsilon", as it was measured or, else, from its points; nil of a grasp from a file that has neither.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field links string[] # Names of what touches at each of the points.
@@ -525,7 +525,7 @@ function patch:torsion_limit(options) end
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. A hand that another robot carries stays, and has to be where the grasp has it. Nothing else moves, and collisions are not checked: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is. Nothing else moves, and collisions are not checked: see `world:collides`.
 ---@param world? world # default: its own
 ---@param options? {hand?: robot, object?: body}
 ---@return grasp

@@ -17,7 +17,13 @@ static bool holds(const fs::path& path, const std::string& text) {
   return fs::is_regular_file(path, error) && read_bytes(path) == text;
 }
 
-int write_docs(const std::string& folder, bool check) {
+int write_docs(const std::string& given, bool check) {
+  const std::string folder = given.empty() ? "docs/api" : given;
+  std::error_code error;
+  if (given.empty() && !fs::is_directory(folder, error)) {
+    std::fprintf(stderr, "clench doc: expected a folder to write to, as there is no %s here\n", folder.c_str());
+    return 1;
+  }
   State state;
   // name, text, name, text, ...
   const auto pages = state.call("host.doc", "pages", {});
@@ -25,7 +31,6 @@ int write_docs(const std::string& folder, bool check) {
     std::fprintf(stderr, "clench doc: %s\n", pages.error.c_str());
     return 1;
   }
-  std::error_code error;
   if (!check) fs::create_directories(folder, error);
   int different = 0;
   for (size_t i = 0; i + 1 < pages.values.size(); i += 2) {

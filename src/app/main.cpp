@@ -204,7 +204,7 @@ static int main_of(int argc, char** argv) {
   app.require_subcommand(0, 1);
 
   RunOptions run;
-  std::string interactive, test_path, confine, doc_folder = "docs/api";
+  std::string interactive, test_path, confine, doc_folder;
   bool check = false;
   app.add_flag("-q,--quiet", run.quiet, "show errors only");
   app.add_option("-e", run.code, "run this code")->type_name("CODE")->allow_extra_args(false);
@@ -228,7 +228,7 @@ static int main_of(int argc, char** argv) {
   test_verb->footer("Example:\n  clench test tests/lua" + trust);
   auto* doc_verb =
       app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
-  doc_verb->add_option("DIR", doc_folder, "where to; default: docs/api");
+  doc_verb->add_option("DIR", doc_folder, "where to; default: docs/api, where there is one");
   doc_verb->add_flag("--check", check, "write nothing; fail when a page is not what it should be");
   doc_verb->footer("Examples:\n  clench doc\n  clench doc --check");
   CheckOptions checking;

@@ -12,6 +12,7 @@
 #include "clench/app/interrupt.h"
 #include "clench/app/line.h"
 #include "clench/script/host/state.h"
+#include "clench/script/lua/home.h"
 
 namespace clench {
 
@@ -44,18 +45,25 @@ static int run_piped(State& state) {
   return 1;
 }
 
-// the beginning of a path's last name, then what it may become
-static std::vector<std::string> file_names(const std::string& path) {
-  const size_t slash = path.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-  const std::string typed = slash == std::string::npos ? path : path.substr(slash + 1);
-  std::vector<std::string> names;
+static void add_names(const fs::path& folder, const std::string& typed, std::vector<std::string>& names) {
   std::error_code none;
   for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
     const std::string name = at->path().filename().string();
     if (name.starts_with(typed) && (name[0] != '.' || typed.starts_with('.')))
       names.push_back(at->is_directory(none) ? name + "/" : name);
   }
+}
+
+// the beginning of a path's last name, then what it may become: here, else in the catalogue
+static std::vector<std::string> file_names(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+  const std::string typed = slash == std::string::npos ? path : path.substr(slash + 1);
+  std::vector<std::string> names;
+  add_names(folder.empty() ? "." : folder, typed, names);
+  const fs::path home = home_folder();
+  if (names.empty() && !home.empty() && (folder.starts_with("models/") || folder.starts_with("worlds/")))
+    add_names(home / folder, typed, names);
   std::sort(names.begin(), names.end());
   names.insert(names.begin(), typed);
   return names;

@@ -20,7 +20,7 @@ int run_scripts(const RunOptions& options);
 int run_tests(const std::string& path, const std::string& confine, bool quiet);
 
 /// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
-int write_docs(const std::string& folder, bool check);
+int write_docs(const std::string& given, bool check);
 
 /// What is said of the files that are read; empty: nothing.
 struct ReadingOptions {

@@ -23,7 +23,7 @@ local function described()
     about.classes[class.name] = class
     for _, method in ipairs(class.methods) do add_called(method.name, method) end
   end
-  for _, entry in ipairs(doc.packed_functions(all.files)) do add_called(match(entry.name, "%w+$"), entry) end
+  for _, entry in ipairs(doc.packed_functions(all.files)) do add_called(match(entry.name, "[%w_]+$"), entry) end
   for _, library in ipairs(all.libraries) do
     local fields = about.libraries[library.name] or {}
     about.libraries[library.name] = fields
@@ -164,10 +164,13 @@ local function string_words(text, from, brackets, add)
   return true
 end
 
--- keys of the options that a function takes, by its doc
-local function add_keys_of(name, add)
+-- keys of the options that a function takes, by its doc; of one that takes values of DOFs by name, the names of `owner`'s
+local function add_keys_of(name, owner, add)
   for _, entry in ipairs(described().called[name] or {}) do
     for _, param in ipairs(doc.parse(entry.doc).params) do
+      if find(param.type, "table<string, number>", 1, true) then
+        for _, dof in ipairs(get(owner, "dof_names") or {}) do add(dof) end
+      end
       for options in gmatch(param.type, "%b{}") do
         for key in gmatch(gsub(sub(options, 2, -2), "%b{}", ""), "([%a_][%w_]*)%??:") do add(key) end
       end
@@ -209,8 +212,8 @@ function complete.words(line)
     if value ~= nil then add_members(value, mark == ":", add) end
   elseif innermost and innermost[1] == "{" and find(line, "[{,;]%s*[%w_]*$") then
     brackets[#brackets] = nil
-    local _, name = call_before(sub(line, 1, innermost[2] - 1), brackets)
-    add_keys_of(name, add)
+    local base, name = call_before(sub(line, 1, innermost[2] - 1), brackets)
+    add_keys_of(name, base and resolve(base), add)
   end
   if not mark and #words == 0 then
     session.each(add)

@@ -162,7 +162,7 @@ local function packed_functions_of(file)
     elseif said then
       comment[#comment + 1] = said
     else
-      local name = line:match("^function " .. (unit or module) .. "%.(%w+)%(")
+      local name = line:match("^function " .. (unit or module) .. "%.([%w_]+)%(")
       local offers = name or line:match "^return function%("
       if offers and #comment > 0 then
         local full = name and (folder or module .. ".") .. name or module
@@ -181,7 +181,7 @@ function doc.packed_functions(files)
   local list = {}
   for _, file in ipairs(files) do
     for _, entry in ipairs(file.path:find "^host/" and {} or packed_functions_of(file)) do
-      local module, name = entry.name:match "^(%w+)%.(%w+)$"
+      local module, name = entry.name:match "^([%w_]+)%.([%w_]+)$"
       local ok, offered = pcall(function() return clench[module][name] end)
       -- another unit of the folder may have a function of that name, which it does not offer
       if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then

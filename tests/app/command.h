@@ -71,12 +71,13 @@ inline Outcome run(const std::string& arguments, const std::string& input = "",
   return outcome;
 }
 
-/// `clench <arguments>` on a terminal, with a home of its own.
+/// `clench <arguments>` on a terminal, in a home of its own.
 class Terminal {
  public:
   explicit Terminal(const Folder& home, const std::string& verb = "repl") {
     pid_ = forkpty(&fd_, nullptr, nullptr, nullptr);
     if (pid_ != 0) return;
+    if (chdir((home / ".").c_str()) != 0) _exit(127);
     setenv("HOME", (home / ".").c_str(), 1);
     setenv("TERM", "xterm", 1);
     unsetenv("XDG_STATE_HOME");

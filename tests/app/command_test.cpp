@@ -161,6 +161,7 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
   CHECK(run("run " + pages + "/clench.lua").code == 0);
   const std::string file = folder.file("file", "x");
   CHECK(has(run("doc " + file).out, "the file cannot be written: Not a directory"));
+  CHECK(has(run("doc", "", "cd " + (folder / ".") + " &&").out, "clench doc: expected a folder to write to, as there is no docs/api here"));
 }
 
 TEST_CASE("output that cannot be written is an error") {

@@ -158,6 +158,10 @@ TEST_CASE("Tab completes files, bodies, measures and options") {
   terminal.wait_for("> ");
   terminal.enter("#'" + (home / "so") + "\twh\tlo\t'");
   terminal.wait_for(fmt::format("{}\r\n", (home / "some/where/long_name.lua").size()));
+  terminal.wait_for("> ");
+  // of the catalogue, from any folder
+  terminal.enter("#'worlds/dlr_\t'");
+  terminal.wait_for(fmt::format("{}\r\n", std::string("worlds/dlr_flask.wld").size()));
 }
 
 TEST_CASE("a pasted tab is a tab") {

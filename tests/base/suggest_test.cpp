@@ -37,3 +37,10 @@ TEST_CASE("only a near name is suggested") {
   CHECK(did_you_mean("zero", {"zero"}).empty());
   CHECK(did_you_mean("zero", {"zero", "hero"}) == "; did you mean 'hero'?");
 }
+
+TEST_CASE("words of other simulators lead to ours, where that is known") {
+  CHECK(did_you_mean("qpos", {"name", "dofs"}) == "; did you mean 'dofs'?");
+  CHECK(did_you_mean("step", {"time_step", "run"}) == "; did you mean 'run'?");
+  CHECK(did_you_mean("step", {"steps", "duration"}) == "; did you mean 'steps'?");
+  CHECK(did_you_mean("position", {"name", "dofs"}).empty());
+}

@@ -8,8 +8,8 @@ program=$1 mode=$2 seed=$3 calls=$4
 root=$PWD found=$PWD/build/fuzz/found
 mkdir -p "$found"
 
-export CLENCH_MODELS=. ASAN_OPTIONS=hard_rss_limit_mb=3000:max_allocation_size_mb=3000:allocator_may_return_null=1
-export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$root/tests/support/lsan.supp:print_suppressions=0
+export CLENCH_MODELS=. ASAN_OPTIONS=hard_rss_limit_mb=3000:max_allocation_size_mb=3000:allocator_may_return_null=1:handle_sigill=1
+export LSAN_OPTIONS=suppressions=$root/tests/support/lsan.supp:print_suppressions=0
 # of the processor; a batch stops by itself after some seconds and waits for its last call. One that waits for something
 # else is ended, too
 ulimit -t 100

@@ -51,6 +51,8 @@ test("in strings names of measures, of what is in a world, and files; in braces 
   t.equal({words 'clench.load("worlds/d'}, {"\1worlds/d", {n = 1}})
   t.equal({words 'world:body("\\"'}, {'\\"', {n = 1}})
   t.equal({words "hand:autograsp {sp"}, {"sp", {"speed", n = 2}})
+  t.equal({words "hand:set_dofs {dof1"}, {"dof1", {"dof1", "dof10", "dof11", "dof12", n = 5}})
+  t.ok(has(select(2, words "clench.study.fall_off {hand = hand, gri"), "grip_force"))
   t.equal({words "hand:autograsp({speed = 1, "}, {"", {"dofs", "dynamic", "speed", "stages", "stop_at_contact", n = 6}})
   t.equal({words "world:add_object('mug.iv', {pose = {xyz = {1, 2, 3}}, trans"}, {"trans", {"transparency", n = 2}})
   t.ok(has(select(2, words "clench.shapes.box {0.1, ro"), "rounding"))

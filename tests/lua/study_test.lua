@@ -137,9 +137,26 @@ test("a hand on an arm is put back by its joints, and is stale where the arm has
   glass.pose = clench.pose {xyz = {0.01, 0, 0}} * glass.pose
   t.fails(function() clench.study.robustness(grasp, errors) end,
           "study.robustness: hand and object have moved apart since the grasp was measured; measure it anew")
-  local opened = hand.dofs
-  t.fails(function() grasp:apply() end, "grasp of glass by barrett: robot 'puma560' carries the hand, 0.01 m and 0 rad from where it stood about the object: move that one")
+end)
+
+test("an arm brings its hand to where the grasp has it, or stays with all else where it cannot reach", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local arm, hand, glass = world.robots[1], world.robots[2], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, glass)
+  hand:open()
+  glass.pose = clench.pose {xyz = {0.01, 0.02, 0}} * glass.pose
+  local again = grasp:apply()
+  local offset = glass.pose:inverse() * hand.pose
+  t.close((offset.position - grasp.pose.position):norm(), 0, 1e-8)
+  t.equal(#again.contacts, #grasp.contacts)
+  t.close(again:quality "epsilon", grasp:quality "epsilon", 1e-6)
+  glass.pose = clench.pose {xyz = {9, 0, 0}} * glass.pose
+  hand:open()
+  local opened, posture = hand.dofs, arm.dofs
+  t.fails(function() grasp:apply() end, "grasp of glass by barrett: 'puma560' cannot bring the hand there; at best it stands")
   t.equal(hand.dofs, opened)
+  t.equal(arm.dofs, posture)
 end)
 
 test("a grasp that stands in no world is studied as far as that goes, and else the remedy is told", function(t)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clench/io/grasp_lines.h"
+#include "clench/motion/inverse_kinematics.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
@@ -23,6 +24,8 @@ PerContact read_per_contact(Table& options, const char* key) {
 }
 
 static int measure(lua_State* L) {
+  if (to<BodyHandle>(L, 1) && to<RobotHandle>(L, 2))
+    fail("{}: expected the hand first, then the object, got them the other way round", subject(L));
   const auto& hand = check_object<RobotHandle>(L, 1, "hand");
   const auto& object = check_object<BodyHandle>(L, 2, "object");
   if (hand.world != object.world)
@@ -154,15 +157,39 @@ static int set_collision_free(lua_State* L) {
 }
 
 static int get_epsilon(lua_State* L) {
-  const Grasp& g = self<GraspHandle>(L).grasp;
-  const auto known = g.measures.find("epsilon");
-  return push(L, known == g.measures.end() ? space_of(g)->epsilon() : known->second);
+  const auto& [world, g] = self<GraspHandle>(L);
+  if (const auto known = g.measures.find("epsilon"); known != g.measures.end()) return push(L, known->second);
+  // a line of a file without points tells nothing of contacts
+  if (!world && g.points.empty()) return lua_pushnil(L), 1;
+  return push(L, space_of(g)->epsilon());
 }
 
 // what it is in a file
 static int as_json(lua_State* L) {
   read_json(L, grasp_line(self<GraspHandle>(L).grasp));
   return 1;
+}
+
+// An arm that carries the hand brings it to where the grasp has it.
+static void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object) {
+  const Robot& robot = world.robot(hand);
+  if (!grasp.X_OH || !robot.mounting || world.robot(robot.mounting->parent).dofs.empty())
+    return apply_grasp(world, grasp, hand, object);
+  constexpr double exact = 1e-9;  // [m], [rad]
+  const auto arm = robot.mounting->parent;
+  const Eigen::VectorXd before = world.dofs(arm);
+  const IkResult found = inverse_kinematics(world, arm, robot.base, world.pose(object) * *grasp.X_OH,
+                                            {.tolerance = exact, .angle_tolerance = exact}, &world.context());
+  if (!found.reached)
+    fail("grasp of {} by {}: '{}' cannot bring the hand there; at best it stands {:.3g} m and {:.3g} rad away",
+         world.body(object).name, robot.name, world.robot(arm).name, found.distance, found.angle);
+  if (found.dofs != before) world.set_dofs(arm, found.dofs);
+  try {
+    apply_grasp(world, grasp, hand, object);
+  } catch (const Error&) {
+    world.set_dofs(arm, before);
+    throw;
+  }
 }
 
 // puts the hand where the grasp has it, and measures it there
@@ -193,7 +220,7 @@ static int apply(lua_State* L) {
   if (!hand) hand = world->find_robot(named.hand_name);
   if (!object) object = world->find_body(named.object_name);
   if (hand && object)
-    apply_grasp(*world, named, hand, object);
+    apply_by_arm(*world, named, hand, object);
   else
     apply_grasp(*world, named);
   Grasp measured = measure_grasp(*world, hand, object, g.grasp.options);
@@ -281,7 +308,8 @@ The grasp of a hand on an object as it is now. A grasp without contacts is no er
 @param object body
 @param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 @return grasp
-> clench.grasp(hand, flask):is_force_closure()  --> true)"},
+> clench.grasp(hand, flask):is_force_closure()  --> true
+> clench.grasp(flask, hand)  --> error: expected the hand first, then the object)"},
 };
 
 static const Entry grasp_fields[] = {
@@ -349,8 +377,8 @@ Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; fi
 > grasp.collision_free  --> true)",
      guarded<set_collision_free>},
     {"epsilon", guarded<get_epsilon>, R"(
-The measure "epsilon", as it was measured or, else, from its points.
-@type number
+The measure "epsilon", as it was measured or, else, from its points; nil of a grasp from a file that has neither.
+@type number?
 > grasp.epsilon == grasp:quality "epsilon"  --> true)"},
     {"contacts", guarded<get_contacts>, R"(
 The contacts on the object when the grasp was measured.
@@ -387,7 +415,7 @@ static const Entry grasp_methods[] = {
     {"apply", guarded<apply>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
 there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
-does not have stay. A hand that another robot carries stays, and has to be where the grasp has it. Nothing else moves, and collisions are not checked: see `world:collides`.
+does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is. Nothing else moves, and collisions are not checked: see `world:collides`.
 @param world? world  default: its own
 @param options? {hand?: robot, object?: body}
 @return grasp

@@ -197,7 +197,7 @@ either side of where it is, only says how far it closes, and what searches try.
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
 What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
-of closing [rad/s or m/s], max_effort [N m or N], max_velocity, where known, kp, kd, damping_ratio, where
+of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, where known, kp, kd, damping_ratio, where
 there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m],
 driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 @type table[]
