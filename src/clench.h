@@ -1,5 +1,5 @@
-// All that a host needs: worlds from files, motions, dynamics, grasps, pictures, and the module for its Lua. Each header says what it
-// gives; a host may include single ones.
+// All that a host needs: worlds from files, motions, dynamics, grasps, pictures, and the module for
+// its Lua. Each header says what it gives; a host may include single ones.
 #pragma once
 #include "clench/base/error.h"
 #include "clench/base/progress.h"

@@ -21,7 +21,8 @@ int write_docs(const std::string& given, bool check) {
   const std::string folder = given.empty() ? "docs/api" : given;
   std::error_code error;
   if (given.empty() && !fs::is_directory(folder, error)) {
-    std::fprintf(stderr, "clench doc: expected a folder to write to, as there is no %s here\n", folder.c_str());
+    std::fprintf(stderr, "clench doc: expected a folder to write to, as there is no %s here\n",
+                 folder.c_str());
     return 1;
   }
   State state;

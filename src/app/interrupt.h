@@ -5,7 +5,8 @@ namespace clench {
 
 class State;
 
-/// From now on Ctrl-C ends no process, except pressed as often as an Interruptible allows while it lives.
+/// From now on Ctrl-C ends no process, except pressed as often as an Interruptible allows while it
+/// lives.
 void catch_interrupts();
 
 /// Was it pressed since the last time this was asked?

@@ -4,9 +4,9 @@
 
 namespace clench {
 
-/// While it lives, a signal that ends or stops the program (SIGTERM, SIGHUP, SIGQUIT, SIGTSTP) gives
-/// the terminal back first. A program that goes on has the line editor's again. Of these at most one
-/// lives at a time.
+/// While it lives, a signal that ends or stops the program (SIGTERM, SIGHUP, SIGQUIT, SIGTSTP)
+/// gives the terminal back first. A program that goes on has the line editor's again. Of these at
+/// most one lives at a time.
 class KeptTerminal {
  public:
   KeptTerminal();
@@ -18,7 +18,8 @@ class KeptTerminal {
   struct sigaction before_[4];
 };
 
-/// Asks the terminal to put marks around pasted text, or no longer to; what gives it back does so, too.
+/// Asks the terminal to put marks around pasted text, or no longer to; what gives it back does so,
+/// too.
 void mark_pastes(bool on);
 
 /// Signals that end the program wait as long as it lives: no file stays half-written.

@@ -132,7 +132,8 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("--mass", plan.mass, "of the object, instead of its file's [kg]")
       ->type_name("KG")
       ->check(mass);
-  verb.add_option("--count", plan.count, "the best so many are kept; default: 20, or all of --seconds")
+  verb.add_option("--count", plan.count,
+                  "the best so many are kept; default: 20, or all of --seconds")
       ->type_name("N")
       ->check(whole_number(1, 1000000));
   verb.add_option("--seconds", plan.seconds, "search no longer than this")
@@ -140,7 +141,8 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
       ->check(positive);
   verb.add_option("--seed", plan.seed, "of the random numbers; default: 1")
       ->type_name("N")
-      ->check(whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
+      ->check(
+          whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
   verb.add_option("--threads", plan.threads, "default: all cores; the grasps are the same")
       ->type_name("N")
       ->check(whole_number(1, 1024));
@@ -148,20 +150,27 @@ static void add_plan(CLI::App& verb, PlanOptions& plan) {
                   "fingertip: with the last links alone; power: with the palm, too; default: any")
       ->type_name("KIND")
       ->check(CLI::IsMember({"fingertip", "power", "any"}));
-  verb.add_option("--force-ratio", plan.force_ratio, "times the object's weight that all fingers together press with at most; default: 10")
+  verb.add_option(
+          "--force-ratio", plan.force_ratio,
+          "times the object's weight that all fingers together press with at most; default: 10")
       ->type_name("N")
       ->check(positive);
-  verb.add_option("-o", plan.out, "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
+  verb.add_option("-o", plan.out,
+                  "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
       ->type_name("FILE");
   verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")
       ->type_name("NAME")
       ->check(list_format);
   verb.add_option("--report", plan.report, "a page with a table, pictures and each grasp in 3-D")
       ->type_name("FILE.html");
-  verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")->type_name("FILE.png");
-  verb.add_flag("--verify", plan.shaken, "shake each grasp in simulation, too, by the object's weight along six directions");
-  verb.add_flag("--keep-lost", plan.keep_lost, "with --verify: keep grasps that are lost, and mark them");
-  verb.add_flag("--no-verify", plan.unverified, "keep all in force closure, loads and errors unseen");
+  verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")
+      ->type_name("FILE.png");
+  verb.add_flag("--verify", plan.shaken,
+                "shake each grasp in simulation, too, by the object's weight along six directions");
+  verb.add_flag("--keep-lost", plan.keep_lost,
+                "with --verify: keep grasps that are lost, and mark them");
+  verb.add_flag("--no-verify", plan.unverified,
+                "keep all in force closure, loads and errors unseen");
 }
 
 // what --help says of every verb that loads
@@ -170,13 +179,15 @@ static const std::string trust =
     "have regular files read that they name, with --confine only those below FOLDER. See "
     "docs/guide/trust.md.";
 
-// What neither the program nor the verb that was read takes: the first of it, and the option that it may have meant.
+// What neither the program nor the verb that was read takes: the first of it, and the option that
+// it may have meant.
 static int refuse_extra(const CLI::App& app) {
   const auto verbs = app.get_subcommands();
   const CLI::App& verb = verbs.empty() ? app : *verbs.front();
   const auto extras = app.remaining(true);
   // an option rather than what would have been its value
-  const auto option = std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with('-'); });
+  const auto option =
+      std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with('-'); });
   const std::string word = option != extras.end() ? *option : extras.front();
   std::vector<std::string> known;
   for (const CLI::App* of : {&app, &verb})
@@ -259,8 +270,10 @@ static int main_of(int argc, char** argv) {
   add_plan(*plan_verb, planning);
   add_reading(*plan_verb, planning.reading);
   plan_verb->footer(
-      "Examples:\n  clench plan models/hands/barrett/barrett.cfg models/objects/flask.iv -o flask.jsonl\n"
-      "  clench plan --seconds 30 --unit mm hand.urdf mug.stl --obstacle table.iv --report mug.html\n\n"
+      "Examples:\n  clench plan models/hands/barrett/barrett.cfg models/objects/flask.iv -o "
+      "flask.jsonl\n"
+      "  clench plan --seconds 30 --unit mm hand.urdf mug.stl --obstacle table.iv --report "
+      "mug.html\n\n"
       "Exit code: 1 when nothing was found, and the report says why; 130 after Ctrl-C, with the "
       "grasps so far written. See docs/guide/plan_command.md." +
       trust);

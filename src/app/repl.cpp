@@ -45,7 +45,8 @@ static int run_piped(State& state) {
   return 1;
 }
 
-static void add_names(const fs::path& folder, const std::string& typed, std::vector<std::string>& names) {
+static void add_names(const fs::path& folder, const std::string& typed,
+                      std::vector<std::string>& names) {
   std::error_code none;
   for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
     const std::string name = at->path().filename().string();
@@ -62,7 +63,8 @@ static std::vector<std::string> file_names(const std::string& path) {
   std::vector<std::string> names;
   add_names(folder.empty() ? "." : folder, typed, names);
   const fs::path home = home_folder();
-  if (names.empty() && !home.empty() && (folder.starts_with("models/") || folder.starts_with("worlds/")))
+  if (names.empty() && !home.empty() &&
+      (folder.starts_with("models/") || folder.starts_with("worlds/")))
     add_names(home / folder, typed, names);
   std::sort(names.begin(), names.end());
   names.insert(names.begin(), typed);

@@ -56,15 +56,17 @@ struct PlanOptions {
   std::string pose, mass;                              ///< of the object
   std::string count, seconds, seed, threads;
   std::string out, format, report, sheet;  ///< what is written
-  bool shaken = false, keep_lost = false;  ///< is each grasp shaken in simulation, and kept when it is lost?
-  std::string contacts;                    ///< which links may or must touch
-  std::string force_ratio;                 ///< all normal forces together, in weights of the object
+  bool shaken = false,
+       keep_lost = false;   ///< is each grasp shaken in simulation, and kept when it is lost?
+  std::string contacts;     ///< which links may or must touch
+  std::string force_ratio;  ///< all normal forces together, in weights of the object
   bool unverified = false;  ///< is force closure enough?
   bool quiet = false;
   ReadingOptions reading;
 };
 
-/// Searches for grasps of a hand on an object.   returns 1 when there are none, 2 when an option makes no sense, 130 after Ctrl-C
+/// Searches for grasps of a hand on an object.   returns 1 when there are none, 2 when an option
+/// makes no sense, 130 after Ctrl-C
 int plan_grasps(const PlanOptions& options);
 
 }  // namespace clench

@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// The largest integer that is not above x, cut to [low, high]; low for what is no number. A cast of
-/// what the type cannot hold is undefined.
+/// The largest integer that is not above x, cut to [low, high]; low for what is no number. A cast
+/// of what the type cannot hold is undefined.
 template <class Integer>
 Integer floor_between(double x, Integer low, Integer high) {
   if (!(x > static_cast<double>(low))) return low;

@@ -155,8 +155,8 @@ void Draft::move_to(const fs::path& target) {
   path_.clear();
 }
 
-/// As move_to, with the permissions of what stands there, which the text has from the beginning, but for those to run
-/// it as its owner: they were given to another text.
+/// As move_to, with the permissions of what stands there, which the text has from the beginning,
+/// but for those to run it as its owner: they were given to another text.
 static void write_over(const fs::path& target, std::string_view text, mode_t mode) {
   Draft draft(target, text, mode & 0777);
   ::chmod(draft.path().c_str(), mode & 0777);

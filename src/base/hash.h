@@ -6,7 +6,8 @@
 
 namespace clench {
 
-/// Fowler-Noll-Vo 1a over 64-bit words, finished by an avalanche (source  Steele et al. (2014), SplitMix64).
+/// Fowler-Noll-Vo 1a over 64-bit words, finished by an avalanche (source  Steele et al. (2014),
+/// SplitMix64).
 class Hasher {
  public:
   void add(uint64_t word) { state_ = (state_ ^ mix(word)) * 0x100000001b3u; }

@@ -12,8 +12,8 @@ struct Listeners {
   Listener warn = {};    ///< of what it contains and we do not use
   Listener note = {};    ///< of what it leaves open and we guess
   Listener repair = {};  ///< of what it has wrong and we put right; when empty, `warn` is told
-  Listener suspect =
-      {};  ///< of what is used as it stands, and looks wrong; when empty, `warn` is told
+  /// of what is used as it stands, and looks wrong; when empty, `warn` is told
+  Listener suspect = {};
 };
 
 /// Tells the first, or else the second, if there is one.

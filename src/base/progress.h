@@ -8,7 +8,8 @@
 
 namespace clench {
 
-/// Somebody asked for the end of what runs. No Error: nothing was wrong, and whoever handles errors lets it pass.
+/// Somebody asked for the end of what runs. No Error: nothing was wrong, and whoever handles errors
+/// lets it pass.
 class Stopped : public std::exception {
  public:
   const char* what() const noexcept override { return "stopped"; }
@@ -31,7 +32,8 @@ class Watcher {
   std::atomic<bool> stop_ = false;
 };
 
-/// Goes by value down every call that may take longer than a blink. An empty one is watched by nobody.
+/// Goes by value down every call that may take longer than a blink. An empty one is watched by
+/// nobody.
 class Progress {
  public:
   Progress() = default;

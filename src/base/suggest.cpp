@@ -35,17 +35,19 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 // what users of other simulators type, and what it is called here
 static constexpr std::pair<std::string_view, std::string_view> other_words[] = {
-    {"qpos", "dofs"},          {"joints", "dofs"},        {"qvel", "dof_velocities"}, {"ctrl", "set_targets"},
-    {"position", "pose"},      {"rotation", "pose"},      {"orientation", "pose"},    {"xpos", "pose"},
-    {"step", "run"},           {"simulate", "run"},       {"advance", "run"},         {"close", "autograsp"},
-    {"fov", "field_of_view"},  {"fovy", "field_of_view"}, {"geoms", "bodies"},        {"copy", "clone"},
-    {"save_state", "snapshot"}, {"reset", "restore"}};
+    {"qpos", "dofs"},         {"joints", "dofs"},         {"qvel", "dof_velocities"},
+    {"ctrl", "set_targets"},  {"position", "pose"},       {"rotation", "pose"},
+    {"orientation", "pose"},  {"xpos", "pose"},           {"step", "run"},
+    {"simulate", "run"},      {"advance", "run"},         {"close", "autograsp"},
+    {"fov", "field_of_view"}, {"fovy", "field_of_view"},  {"geoms", "bodies"},
+    {"copy", "clone"},        {"save_state", "snapshot"}, {"reset", "restore"}};
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   constexpr size_t longest = 40;  // of what a person mistypes, and messages quote of a file
   if (name.size() < 3 || name.size() > longest) return "";
   for (const auto& [word, ours] : other_words)
-    if (word == name && std::ranges::find(known, ours) != known.end()) return fmt::format("; did you mean '{}'?", ours);
+    if (word == name && std::ranges::find(known, ours) != known.end())
+      return fmt::format("; did you mean '{}'?", ours);
   // a slip is at most a third of the letters, and never the whole of a short name
   const int limit = std::clamp(static_cast<int>(name.size()) / 3, 1, 3);
   int best = limit + 1;

@@ -10,12 +10,13 @@ namespace clench {
 /// upper and lower case alike.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// "; did you mean 'flask.iv'?" when a known name is near, or is what other simulators' word means here (qpos: dofs), else "". Never the name itself, and
-/// nothing for a name of one or two letters, to which everything short is near.
+/// "; did you mean 'flask.iv'?" when a known name is near, or is what other simulators' word means
+/// here (qpos: dofs), else "". Never the name itself, and nothing for a name of one or two letters,
+/// to which everything short is near.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
-/// ", expected one of dofs, speed", where they are few, and the nearest: what ends a sentence about a name that is none of
-/// the known.
+/// ", expected one of dofs, speed", where they are few, and the nearest: what ends a sentence about
+/// a name that is none of the known.
 std::string instead_of(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace clench

@@ -23,8 +23,8 @@ std::string read_text(const std::filesystem::path& path);
 /// A finite decimal number, an explicit '+' allowed, nothing before or after it; else empty.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);
-/// Why a word is no whole number from `low` to `high`: "expected a whole number from 1 to 9, got 12";
-/// empty when it is one.
+/// Why a word is no whole number from `low` to `high`: "expected a whole number from 1 to 9, got
+/// 12"; empty when it is one.
 std::string integer_fault(std::string_view word, int low, int high);
 
 std::string_view trim(std::string_view text);
@@ -34,7 +34,8 @@ std::vector<std::string_view> split_words(std::string_view text, std::string_vie
                                           size_t most = std::string_view::npos);
 /// Bytes of the character that begins at i; 0 when it is not UTF-8.
 size_t utf8_size(std::string_view text, size_t i);
-/// The characters of text in UTF-8; each byte that belongs to none is U+FFFD, or what it is in Latin-1.
+/// The characters of text in UTF-8; each byte that belongs to none is U+FFFD, or what it is in
+/// Latin-1.
 std::u32string letters_of(std::string_view text, bool or_latin1 = false);
 /// Characters as UTF-8.
 std::string text_of(std::u32string_view letters);
@@ -95,8 +96,8 @@ class Line {
   const std::string* file_ = nullptr;
   int number_ = 0;
   std::string_view text_;
-  // No list of words, for a line may be as long as a file: how many there are, and the one that was asked for last,
-  // from which the next is near.
+  // No list of words, for a line may be as long as a file: how many there are, and the one that was
+  // asked for last, from which the next is near.
   mutable int size_ = -1, last_ = -1;
   mutable std::string_view last_word_;
 };

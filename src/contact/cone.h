@@ -21,12 +21,12 @@ struct ConeOptions {
 Eigen::Matrix3d contact_frame(const Eigen::Vector3d& normal);
 
 /// Generators of a linearised friction cone. Column i is (f; tau/rho) with f = n + mu t_i: unit
-/// normal force. Without friction the cone is its normal: one column. A soft contact has more edges,
-/// those of friction_edges, even in units of its torsion radius: 20 for 8.
+/// normal force. Without friction the cone is its normal: one column. A soft contact has more
+/// edges, those of friction_edges, even in units of its torsion radius: 20 for 8.
 ///
 /// returns  6 x count; of a point contact counter-clockwise about n from the frame's x
-/// throws   Error when mu < 0, torsion_radius < 0, edges out of range, rho <= 0, n is not unit or a number
-///          is not finite
+/// throws   Error when mu < 0, torsion_radius < 0, edges out of range, rho <= 0, n is not unit or a
+///          number is not finite
 /// source   Murray, Li & Sastry (1994), ch. 5: grasp map, force rows first
 Wrenches cone_wrenches(const PointContact& contact, const ConeOptions& options = {});
 

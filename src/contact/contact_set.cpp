@@ -152,10 +152,13 @@ static Indices reduce(std::vector<NearPoint>& points, const Indices& patch, doub
 
   Indices kept;
   for (const int k : spread(flat, first, corners, merge, most)) {
-    // of edges that lie above each other several points are that corner, and some run aslant from edge to edge
+    // of edges that lie above each other several points are that corner, and some run aslant from
+    // edge to edge
     int nearest = k;
     for (int i = 0; i < static_cast<int>(flat.size()); ++i)
-      if (points[patch[i]].gap < points[patch[nearest]].gap - rounding && (flat[i] - flat[k]).norm() <= same_place) nearest = i;
+      if (points[patch[i]].gap < points[patch[nearest]].gap - rounding &&
+          (flat[i] - flat[k]).norm() <= same_place)
+        nearest = i;
     if (std::ranges::find(kept, patch[nearest]) == kept.end()) kept.push_back(patch[nearest]);
   }
   return kept;

@@ -4,9 +4,9 @@
 
 namespace clench {
 
-/// A vertex, an edge between two, or a triangle, by numbers of the mesh. Equal features of one shape are the same part,
-/// however the shape stands; vertices at one place that a file does not share have a number each, and the lowest that is near
-/// speaks for them.
+/// A vertex, an edge between two, or a triangle, by numbers of the mesh. Equal features of one
+/// shape are the same part, however the shape stands; vertices at one place that a file does not
+/// share have a number each, and the lowest that is near speaks for them.
 struct Feature {
   enum Kind { vertex, edge, triangle };
   Kind kind = triangle;

@@ -126,12 +126,14 @@ class Collector {
     if (closest->distance <= direction_floor * rounding_) take_normal_of_faces();
   }
 
-  // Where the gap tells no direction, rounding alone says which pair is the closest: two of faces that lie on each other, if there are any, tell it.
+  // Where the gap tells no direction, rounding alone says which pair is the closest: two of faces
+  // that lie on each other, if there are any, tell it.
   void take_normal_of_faces() {
     NearPoint& closest = points_.front();
     for (const TrianglePair& p : pairs_) {
       if (p.distance > closest.gap + rounding_) continue;
-      const Vector3d n_a = facing_a_ * face_normal(a_.corners(a_.find(p.triangle_a))), n_b = facing_b_ * face_normal(b_.corners(b_.find(p.triangle_b)));
+      const Vector3d n_a = facing_a_ * face_normal(a_.corners(a_.find(p.triangle_a))),
+                     n_b = facing_b_ * face_normal(b_.corners(b_.find(p.triangle_b)));
       constexpr double parallel = 1 - 1e-9;
       if (n_a.dot(n_b) < -parallel) {
         closest.normal = n_a;

@@ -25,8 +25,8 @@ NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
   return groups;
 }
 
-// Vertices by slot -> numbers of their positions, as these stand in order. Few vertices are compared by
-// place, those that differ by index.
+// Vertices by slot -> numbers of their positions, as these stand in order. Few vertices are
+// compared by place, those that differ by index.
 static int number_positions(const std::vector<Vector3d>& vertices, std::vector<int>& slots) {
   std::vector<int> distinct = slots;
   std::sort(distinct.begin(), distinct.end());

@@ -68,8 +68,8 @@ void move_into(const Matrix3d& axes, const Vector3d& origin, double scale, Point
   out.x = along(0), out.y = along(1), out.z = along(2);
 }
 
-// What circles add to parabolas: m/2 z^2, where m is the mean of the principal curvatures, weighted by
-// what each adds to the height.
+// What circles add to parabolas: m/2 z^2, where m is the mean of the principal curvatures, weighted
+// by what each adds to the height.
 Column rounding_up(const Principal& k, const Columns& at) {
   const double highest = at.z.abs().maxCoeff();
   const double most = highest > 0 ? max_bend / highest : 0;

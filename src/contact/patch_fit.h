@@ -24,8 +24,8 @@ enum class PatchFit {
   jet       ///< CGAL's Monge_via_jet_fitting, in builds with CLENCH_CGAL
 };
 
-/// Least squares of z = c + Dx + Ey + Ax^2 + By^2 + Cxy + m/2 z^2, in the tangent plane: the frame is
-/// turned until D and E vanish, so that a tilt is no curvature. m is the curvature found in the
+/// Least squares of z = c + Dx + Ey + Ax^2 + By^2 + Cxy + m/2 z^2, in the tangent plane: the frame
+/// is turned until D and E vanish, so that a tilt is no curvature. m is the curvature found in the
 /// point's direction: profiles are circles, so balls and cylinders of any size are exact.
 ///
 /// points   surface points around (0, 0), at least 3, +z into the body [m]

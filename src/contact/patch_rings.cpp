@@ -161,7 +161,8 @@ class ArcSweep {
   ArcSweep(const SeenSheet& side, const std::vector<RingArc>& arcs, double start)
       : side_(side), arcs_(unrolled(arcs, start)) {}
 
-  /// the triangle over a place: where the sheet lies over itself the one nearer to the tangent plane
+  /// the triangle over a place: where the sheet lies over itself the one nearer to the tangent
+  /// plane
   int triangle_at(double angle, const Vector2d& place) {
     for (; next_ < arcs_.size() && arcs_[next_].from <= angle; ++next_)
       open_.push_back(arcs_[next_]);
@@ -206,8 +207,8 @@ namespace {
 struct RingPiece {
   double radius, width;  // of the ring that it stands for
   int in_a, in_b;
-  double
-      depth;  // a piece along which the gap widens by more than twice this, and by a half, is halved
+  // a piece along which the gap widens by more than twice this, and by a half, is halved
+  double depth;
 };
 
 }  // namespace
@@ -264,7 +265,8 @@ static void add_circle(const SeenSheet& a, const SeenSheet& b, RingPiece piece, 
   }
 }
 
-// Where circles begin to leave a sheet and where they have left it: smooth between, up to the radius.
+// Where circles begin to leave a sheet and where they have left it: smooth between, up to the
+// radius.
 static std::vector<double> radial_cuts(const PatchSheet& a, const PatchSheet& b, double radius) {
   std::vector<double> out = {radius};
   for (const PatchSheet* sheet : {&a, &b}) {

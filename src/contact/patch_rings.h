@@ -5,8 +5,8 @@
 namespace clench {
 
 /// Points of a surface, with weights of a fit: the area that a point stands for, less where the
-/// surface leans by more than 45 degrees, and none where the sheet ends, so that a flank comes in by
-/// and by as it turns towards the contact. Their mean is one.
+/// surface leans by more than 45 degrees, and none where the sheet ends, so that a flank comes in
+/// by and by as it turns towards the contact. Their mean is one.
 struct RingPoints {
   std::vector<Eigen::Vector3d> points;  ///< as the body sees them [m]
   std::vector<double> weights;
@@ -25,10 +25,10 @@ struct PatchRings {
   std::vector<GapPlace> gap;
 };
 
-/// Places on seven circles about the origin, nearer to each other in the middle, more where a surface
-/// ends. Each circle is cut where it runs from one triangle to the next, of either body, and has
-/// places between the cuts whose sums are integrals: so neither the way that the surfaces are turned
-/// nor how a face is cut into triangles tells on them, nor which body comes first.
+/// Places on seven circles about the origin, nearer to each other in the middle, more where a
+/// surface ends. Each circle is cut where it runs from one triangle to the next, of either body,
+/// and has places between the cuts whose sums are integrals: so neither the way that the surfaces
+/// are turned nor how a face is cut into triangles tells on them, nor which body comes first.
 ///
 /// a, b    see the plane from both sides: y of a is -y of b, +z goes into each
 /// radius  of the largest circle [m]
@@ -36,12 +36,12 @@ struct PatchRings {
 PatchRings patch_rings(PatchSheet& a, PatchSheet& b, double radius, double depth);
 
 /// Mean of the products of coordinates over where two surfaces meet when one is pressed into the
-/// other by `depth`: places count by exp(-(2 gap / depth)^2), so that no brink tells. 1 / (4 sqrt(pi)) of
-/// the squared semi-axes where the gap is a paraboloid [m^2].
+/// other by `depth`: places count by exp(-(2 gap / depth)^2), so that no brink tells. 1 / (4
+/// sqrt(pi)) of the squared semi-axes where the gap is a paraboloid [m^2].
 Eigen::Matrix2d meeting_moments(const std::vector<GapPlace>& gap, double depth);
 
-/// Of two round surfaces over the same places: circles of these curvatures along unit axes, which are
-/// columns; hollow counts as flat.
+/// Of two round surfaces over the same places: circles of these curvatures along unit axes, which
+/// are columns; hollow counts as flat.
 std::vector<GapPlace> round_gap(std::vector<GapPlace> places, const Eigen::Vector2d& curvatures,
                                 const Eigen::Matrix2d& axes);
 

@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// Half of how wide both surfaces are along unit directions of the tangent plane as b sees it, across
-/// the sides of their hulls: in others they are no narrower than these make them.
+/// Half of how wide both surfaces are along unit directions of the tangent plane as b sees it,
+/// across the sides of their hulls: in others they are no narrower than these make them.
 struct PatchRoom {
   std::vector<Eigen::Vector2d> directions;
   std::vector<double> half_widths;  ///< [m]

@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 static const double min_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbours
 static const double min_round = std::cos(60 * std::numbers::pi / 180);  // around a corner: no spike
-// Of two neighbours, one that goes on so much farther from their edge is flat beside a rounded edge,
-// not a chord of a curve.
+// Of two neighbours, one that goes on so much farther from their edge is flat beside a rounded
+// edge, not a chord of a curve.
 static constexpr double max_height_ratio = 3;
 static constexpr double seed_distance = 1e-3;  // of the radius: triangles as near as the nearest
 

@@ -23,8 +23,8 @@ namespace clench {
 class PatchSheet {
  public:
   static constexpr double min_facing = 0.3;  ///< cosine: what leans more belongs to the flank
-  /// of the radius: a sphere around a site holds what lies over its disc, slopes of 45 degrees on the
-  /// whole. So far around the sites all is known.
+  /// of the radius: a sphere around a site holds what lies over its disc, slopes of 45 degrees on
+  /// the whole. So far around the sites all is known.
   static constexpr double reach = std::numbers::sqrt2;
 
   /// X_PB    body in the frame of the patch, whose +z goes into the body
@@ -47,9 +47,9 @@ class PatchSheet {
   /// on the round surface, by barycentric weights [m]
   Eigen::Vector3d round_point(int triangle, const Eigen::Vector3d& weights);
 
-  /// How long creases are around a site, of the site that has most: edges where neighbours lean from
-  /// each other by more than 40 degrees, or none follows. Counted whole where they lie within half the
-  /// radius across the tangent plane, less from there to none at the radius [m].
+  /// How long creases are around a site, of the site that has most: edges where neighbours lean
+  /// from each other by more than 40 degrees, or none follows. Counted whole where they lie within
+  /// half the radius across the tangent plane, less from there to none at the radius [m].
   double crease_length() const;
 
  private:

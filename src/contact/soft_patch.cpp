@@ -101,7 +101,8 @@ namespace {
 // the tangent plane as each of the bodies sees it
 struct PatchFrames {
   explicit PatchFrames(const SoftSite& site) : axes(contact_frame(site.normal_A)) {
-    // the plane's axes come from the frame of a, so that where the bodies are together does not matter
+    // the plane's axes come from the frame of a, so that where the bodies are together does not
+    // matter
     Matrix3d axes_a = axes;
     axes_a.rightCols<2>() *= -1;
     X_AP = {Pose{Eigen::Quaterniond(axes_a), site.centre_A},

@@ -1,4 +1,5 @@
-// Soft fingers: the patch over which an elastic body presses on another, and its torsional friction.
+// Soft fingers: the patch over which an elastic body presses on another, and its torsional
+// friction.
 #pragma once
 #include <array>
 #include <memory>
@@ -39,8 +40,8 @@ struct SoftSite {
 using SoftSitePtr = std::shared_ptr<const SoftSite>;
 
 /// The site of each touch, equal for those that share one: touches nearer to each other than two
-/// radii, whose normals differ by less than 40 degrees, and all that such steps lead to, in whatever
-/// order they come.
+/// radii, whose normals differ by less than 40 degrees, and all that such steps lead to, in
+/// whatever order they come.
 std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const Pose& X_AB,
                                     const Elasticity& elastic_a, const Elasticity& elastic_b,
                                     const std::vector<Touch>& touches);
@@ -63,12 +64,12 @@ struct SoftPatch {
   std::array<SurfaceFit, 2> surfaces;
   std::array<std::vector<Eigen::Vector3d>, 2> points;  ///< that the fits are of
   /// Of the gap between the surfaces along `directions`, the more curved one first [m]. Where they
-  /// part slower than a ball of twice flattest_radius from a plane, or not at all: max_radius, but no
-  /// less than the first. From flattest_radius on the one goes over into the other.
+  /// part slower than a ball of twice flattest_radius from a plane, or not at all: max_radius, but
+  /// no less than the first. From flattest_radius on the one goes over into the other.
   std::array<double, 2> relative_radii = {};
   std::array<bool, 2> flat = {};
-  /// Unit, orthogonal to each other and to the normal. Where the gap bends alike in all directions, to
-  /// 5 %, they are those of the region where the surfaces meet.
+  /// Unit, orthogonal to each other and to the normal. Where the gap bends alike in all directions,
+  /// to 5 %, they are those of the region where the surfaces meet.
   Eigen::Matrix<double, 3, 2> directions;
   bool directed = true;       ///< false where that is alike in all directions, too: they are any
   double max_radius = 0.02;   ///< as it was asked for [m]
@@ -76,19 +77,19 @@ struct SoftPatch {
   PatchRoom room;             ///< as far as the surfaces are known
   SoftSite site;              ///< what it is of: larger patches look farther for room
   /// 0 to 1: is there a crease that the fit does not follow? 0 where the fit is off by 10 % of the
-  /// surface's relief, or creases around a contact are as long as 0.2 of the radius, 1 from 20 % and 0.6
-  /// on, and where there is too little to fit.
+  /// surface's relief, or creases around a contact are as long as 0.2 of the radius, 1 from 20 %
+  /// and 0.6 on, and where there is too little to fit.
   double crease = 0;
   /// root of the mean square that points lie from their fit, of the worse surface [m]
   double residual = 0;
-  /// Is there a corner or an edge? The weight w of contact_ellipse is above 0.5 where the indentation
-  /// is small.
+  /// Is there a corner or an edge? The weight w of contact_ellipse is above 0.5 where the
+  /// indentation is small.
   bool at_edge = false;
   Elasticity elastic_a, elastic_b;
 };
 
-/// throws  Error when an option is out of range, the fit is not in this build, or there is not enough
-///         within a radius that was asked for
+/// throws  Error when an option is out of range, the fit is not in this build, or there is not
+///         enough within a radius that was asked for
 SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options = {});
 
 /// Where two bodies press on each other: an ellipse along the patch's directions.
@@ -96,26 +97,27 @@ struct ContactEllipse {
   std::array<double, 2> semi_axes = {};  ///< [m]
   double indentation = 0;                ///< in the middle [m]
   double pressure = 0;                   ///< in the middle, indentation / c [Pa]
-  /// Is the indentation larger than the soft layers together are high? Then a thin layer is no model.
+  /// Is the indentation larger than the soft layers together are high? Then a thin layer is no
+  /// model.
   bool exceeds_layer = false;
 };
 
-/// Mattress of springs: indentation = sqrt(F c / (pi sqrt(R1 R2))) with the compliance c, layer over
-/// modulus; semi-axis = sqrt(2 indentation R). The pressure falls as a paraboloid to the rim:
+/// Mattress of springs: indentation = sqrt(F c / (pi sqrt(R1 R2))) with the compliance c, layer
+/// over modulus; semi-axis = sqrt(2 indentation R). The pressure falls as a paraboloid to the rim:
 /// F = pi / 2 pressure a b.
 ///
-/// In no direction is the ellipse wider than the surfaces: those of a pad end at its rim, those of a
-/// round body where they lean by 73 degrees. What is cut off makes it deeper, by the same F.
+/// In no direction is the ellipse wider than the surfaces: those of a pad end at its rim, those of
+/// a round body where they lean by 73 degrees. What is cut off makes it deeper, by the same F.
 ///
-/// Where the surfaces do not meet over such an ellipse, as at a corner or an edge, only what is sure to
-/// touch counts: where the gap is no wider than the indentation of flat surfaces under that force,
-/// that is, of R1 = R2 = max_radius. What is sharper goes deeper. How wide that is its moments tell.
-/// From the one rule to the other it goes by the weight w, as a^(1 - w) b^w, the larger of two: the patch's
-/// crease, and how much narrower the surfaces meet than the fitted ones, 0 where the mean semi-axis
-/// is 85 % of theirs, 1 at 65 %. The indentation
-/// goes by the same weight to that of the gap as it is within the neighbourhood: where the springs
-/// under it make up the force. It is more than what is sure to touch tells of the width, and the
-/// pressure is of no paraboloid there.
+/// Where the surfaces do not meet over such an ellipse, as at a corner or an edge, only what is
+/// sure to touch counts: where the gap is no wider than the indentation of flat surfaces under that
+/// force, that is, of R1 = R2 = max_radius. What is sharper goes deeper. How wide that is its
+/// moments tell. From the one rule to the other it goes by the weight w, as a^(1 - w) b^w, the
+/// larger of two: the patch's crease, and how much narrower the surfaces meet than the fitted ones,
+/// 0 where the mean semi-axis is 85 % of theirs, 1 at 65 %. The indentation goes by the same weight
+/// to that of the gap as it is within the neighbourhood: where the springs under it make up the
+/// force. It is more than what is sure to touch tells of the width, and the pressure is of no
+/// paraboloid there.
 ///
 /// force   normal, >= 0 [N]
 /// throws  Error when it is negative or not finite

@@ -17,7 +17,8 @@ static void each_moving(const World& world, Visit visit) {
 
 Momentum momentum(const World& world) {
   Momentum out;
-  each_moving(world, [&](const Body& body, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia, const Twist& v) {
+  each_moving(world, [&](const Body& body, const Eigen::Vector3d& com,
+                         const Eigen::Matrix3d& inertia, const Twist& v) {
     const Eigen::Vector3d linear = body.mass * v.linear;
     out.linear += linear;
     out.angular += inertia * v.angular + com.cross(linear);
@@ -27,7 +28,8 @@ Momentum momentum(const World& world) {
 
 MechanicalEnergy mechanical_energy(const World& world) {
   MechanicalEnergy out;
-  each_moving(world, [&](const Body& body, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia, const Twist& v) {
+  each_moving(world, [&](const Body& body, const Eigen::Vector3d& com,
+                         const Eigen::Matrix3d& inertia, const Twist& v) {
     out.kinetic += 0.5 * (body.mass * v.linear.squaredNorm() + v.angular.dot(inertia * v.angular));
     out.potential -= body.mass * world.gravity().dot(com);
   });
@@ -38,10 +40,12 @@ MechanicalEnergy mechanical_energy(const World& world) {
       const double q = world.joints(id)[static_cast<int>(j)];
       // a tendon turns its joints by springs, which rest where it alone would have them
       const bool pulled = robot.dofs[joint.dof].kind == DofKind::compliant;
-      const double stiffness = pulled ? tendon_stiffness(world, id, static_cast<int>(j)) : joint.spring;
+      const double stiffness =
+          pulled ? tendon_stiffness(world, id, static_cast<int>(j)) : joint.spring;
       const double away = q - (pulled ? joint.ratio * world.dofs(id)[joint.dof] : joint.rest);
       out.potential += 0.5 * stiffness * away * away;
-      if (const DynamicState* state = world.dynamics(); state && robot.first_joint + j < state->joint_velocities.size()) {
+      if (const DynamicState* state = world.dynamics();
+          state && robot.first_joint + j < state->joint_velocities.size()) {
         const double v = state->joint_velocities[robot.first_joint + j];
         out.kinetic += 0.5 * joint.armature * v * v;
       }

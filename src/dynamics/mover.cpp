@@ -17,10 +17,12 @@ static Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Eigen::Ve
   return (step * q).normalized();
 }
 
-static Pose moved_rigidly(const Pose& X_WB, const Eigen::Vector3d& com, const Twist& twist, double s) {
+static Pose moved_rigidly(const Pose& X_WB, const Eigen::Vector3d& com, const Twist& twist,
+                          double s) {
   if (twist.is_zero()) return X_WB;
   const Eigen::Vector3d c = X_WB * com + s * twist.linear;
-  const Eigen::Quaterniond turned = twist.angular.isZero(0) ? X_WB.rotation : turned_by(X_WB.rotation, s * twist.angular);
+  const Eigen::Quaterniond turned =
+      twist.angular.isZero(0) ? X_WB.rotation : turned_by(X_WB.rotation, s * twist.angular);
   return {turned, c - turned * com};
 }
 
@@ -33,7 +35,8 @@ Mover::Mover(World& world, const System& system) : world_(world) {
   }
   for (const Articulation& tree : system.trees)
     if (tree.is_free_body() && tree.robots.empty()) parts_.push_back(free_part(world, tree));
-  for (const auto& [body, to] : system.welds) welded_.push_back({body, to, world.pose(body), world.pose(to)});
+  for (const auto& [body, to] : system.welds)
+    welded_.push_back({body, to, world.pose(body), world.pose(to)});
   for (const Articulation& tree : system.trees)
     for (const auto id : tree.robots) {
       const Robot& robot = world.robot(id);
@@ -42,7 +45,10 @@ Mover::Mover(World& world, const System& system) : world_(world) {
         return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
                                    all.begin() + static_cast<std::ptrdiff_t>(first + count));
       };
-      machines_.push_back({id, world.pose(robot.base), state.twists[robot.base.index], {dofs.begin(), dofs.end()},
+      machines_.push_back({id,
+                           world.pose(robot.base),
+                           state.twists[robot.base.index],
+                           {dofs.begin(), dofs.end()},
                            {joints.begin(), joints.end()},
                            from(state.dof_velocities, robot.first_dof, robot.dofs.size()),
                            from(state.joint_velocities, robot.first_joint, robot.joints.size())});
@@ -56,72 +62,126 @@ static constexpr double turns_along = 0.01;
 // What slips by less than this sticks, and slips that differ by less than that are the same [m/s].
 static constexpr double sticks = 1e-3, same_slip = 1e-6;
 
-// Of all that a free body is pressed to, beginning with what is not free, that along which it slips the least; none where it does not turn
-// along with that, unless somebody has just given that another velocity: what sticks to it comes along, and gets its velocity in the solve.
-void Mover::find_carriers(const System& system) {
-  const DynamicState& state = *world_.dynamics();
-  const auto changed = [&](Id<Body> id) { return state.twists[id.index] != state.solved[id.index]; };
-  const auto jumped = [&](Id<Body> id) {
-    const int tree = system.place(id).tree;
-    return tree < 0 ? changed(id) : !system.trees[tree].floating && !system.trees[tree].is_free_body() && changed(system.trees[tree].root);
-  };
-  const bool jumps = state.twists != state.solved && std::ranges::any_of(world_.bodies(), jumped);
-  // one that carries and one that goes along
-  const auto turning_ones = std::ranges::count_if(state.twists, [](const Twist& twist) { return !twist.angular.isZero(0); });
-  if (turning_ones < 2 && !jumps) return;
-  // of bodies that are welded together the first
-  const auto whole = [&](Id<Body> id) {
-    const int tree = system.place(id).tree;
-    return tree >= 0 && system.trees[tree].is_free_body() && system.trees[tree].robots.empty() ? system.trees[tree].root : id;
-  };
+// Who presses on whom, and which of these go along with each other.
+class Mover::Carriers {
+ public:
+  Carriers(const World& world, const System& system);
+  /// Can any body go along with another?
+  bool any() const { return turning_ >= 2 || jumps_; }
+  /// Gives a part its carrier, if it has one.   returns  false when all that it is pressed to waits
+  bool find(Part& part, const std::vector<Part>& waiting);
+
+ private:
   struct Press {
     Id<Body> a, b;
     Eigen::Vector3d p_W;
     double force;
   };
-  std::vector<Press> presses;
-  for (const Manifold& m : state.manifolds) {
-    const auto point = std::ranges::max_element(m.points, {}, [](const ManifoldPoint& p) { return p.force.squaredNorm(); });
+  // has somebody given it another velocity than was solved for?
+  bool changed(Id<Body> id) const { return state_.twists[id.index] != state_.solved[id.index]; }
+  bool jumped(Id<Body> id) const;
+  Id<Body> whole(Id<Body> id) const;
+  Eigen::Vector3d velocity(Id<Body> id, const Eigen::Vector3d& p_W, bool before) const;
+  const Press* least_slip(const Part& part, const std::vector<Part>& waiting, bool before,
+                          double& slip) const;
+
+  const World& world_;
+  const System& system_;
+  const DynamicState& state_;
+  std::vector<Press> presses_;
+  std::vector<Id<Body>> along_;  // that come along with what has jumped
+  long turning_ = 0;
+  bool jumps_ = false;
+};
+
+Mover::Carriers::Carriers(const World& world, const System& system)
+    : world_(world), system_(system), state_(*world.dynamics()) {
+  jumps_ = state_.twists != state_.solved &&
+           std::ranges::any_of(world.bodies(), [&](Id<Body> id) { return jumped(id); });
+  // one that carries and one that goes along
+  turning_ = std::ranges::count_if(state_.twists,
+                                   [](const Twist& twist) { return !twist.angular.isZero(0); });
+  if (!any()) return;
+  for (const Manifold& m : state_.manifolds) {
+    const auto point = std::ranges::max_element(
+        m.points, {}, [](const ManifoldPoint& p) { return p.force.squaredNorm(); });
     if (point == m.points.end() || point->force.isZero(0)) continue;
-    presses.push_back({whole(m.a), whole(m.b), world_.pose(m.a) * point->p_a, point->force.norm()});
+    presses_.push_back({whole(m.a), whole(m.b), world.pose(m.a) * point->p_a, point->force.norm()});
   }
+}
+
+bool Mover::Carriers::jumped(Id<Body> id) const {
+  const int tree = system_.place(id).tree;
+  return tree < 0 ? changed(id)
+                  : !system_.trees[tree].floating && !system_.trees[tree].is_free_body() &&
+                        changed(system_.trees[tree].root);
+}
+
+// of bodies that are welded together the first
+Id<Body> Mover::Carriers::whole(Id<Body> id) const {
+  const int tree = system_.place(id).tree;
+  return tree >= 0 && system_.trees[tree].is_free_body() && system_.trees[tree].robots.empty()
+             ? system_.trees[tree].root
+             : id;
+}
+
+// before: as it was solved for
+Eigen::Vector3d Mover::Carriers::velocity(Id<Body> id, const Eigen::Vector3d& p_W,
+                                          bool before) const {
+  const Twist& twist = (before ? state_.solved : state_.twists)[id.index];
+  return twist.linear + twist.angular.cross(p_W - world_.pose(id) * world_.body(id).com);
+}
+
+const Mover::Carriers::Press* Mover::Carriers::least_slip(const Part& part,
+                                                          const std::vector<Part>& waiting,
+                                                          bool before, double& least) const {
+  const auto waits = [&](Id<Body> id) {
+    return std::ranges::any_of(waiting, [&](const Part& other) { return other.body == id; });
+  };
+  const Press* best = nullptr;
+  for (const Press& press : presses_) {
+    if (press.a != part.body && press.b != part.body) continue;
+    if (waits(press.a == part.body ? press.b : press.a)) continue;
+    const double slip =
+        (velocity(press.a, press.p_W, before) - velocity(press.b, press.p_W, before)).norm();
+    if (!best || slip < least - same_slip ||
+        (slip <= least + same_slip && press.force > best->force))
+      best = &press, least = slip;
+  }
+  return best;
+}
+
+bool Mover::Carriers::find(Part& part, const std::vector<Part>& waiting) {
+  // before the jump both had the velocities that were solved for
+  const bool before = jumps_ && !changed(part.body);
+  double slip = 0;
+  const Press* const press = least_slip(part, waiting, before, slip);
+  if (!press) return false;
+  const Id<Body> to = press->a == part.body ? press->b : press->a;
+  const bool comes =
+      before && slip < sticks && (jumped(to) || std::ranges::find(along_, to) != along_.end());
+  const Eigen::Vector3d turning = (before ? state_.solved : state_.twists)[to.index].angular,
+                        apart = part.twist.angular - turning;
+  if (!comes && apart.norm() >= turns_along * turning.norm()) return true;
+  part.carrier = to, part.X_WC = world_.pose(to);
+  const Eigen::Matrix3d into = part.X_WC.rotation.conjugate().toRotationMatrix();
+  part.relative = {into * (part.twist.linear - velocity(to, part.X_WB * part.com, before)),
+                   into * apart};
+  if (comes) along_.push_back(part.body);
+  return true;
+}
+
+// Of all that a free body is pressed to, beginning with what is not free, that along which it slips
+// the least; none where it does not turn along with that, unless somebody has just given that
+// another velocity: what sticks to it comes along, and gets its velocity in the solve.
+void Mover::find_carriers(const System& system) {
+  Carriers carriers(world_, system);
+  if (!carriers.any()) return;
   std::vector<Part> sorted, waiting;
   for (Part& part : parts_) (part.inertia ? waiting : sorted).push_back(std::move(part));
-  const auto waits = [&](Id<Body> id) { return std::ranges::any_of(waiting, [&](const Part& part) { return part.body == id; }); };
-  std::vector<Id<Body>> along;  // that come along with what has jumped
   while (!waiting.empty()) {
     std::vector<Part> found, rest;
-    for (Part& part : waiting) {
-      // before the jump both had the velocities that were solved for
-      const bool before = jumps && !changed(part.body);
-      const auto velocity = [&](Id<Body> id, const Eigen::Vector3d& p_W) -> Eigen::Vector3d {
-        const Twist& twist = (before ? state.solved : state.twists)[id.index];
-        return twist.linear + twist.angular.cross(p_W - world_.pose(id) * world_.body(id).com);
-      };
-      const Press* best = nullptr;
-      double least = 0;
-      for (const Press& press : presses) {
-        if (press.a != part.body && press.b != part.body) continue;
-        if (waits(press.a == part.body ? press.b : press.a)) continue;
-        const double slip = (velocity(press.a, press.p_W) - velocity(press.b, press.p_W)).norm();
-        if (!best || slip < least - same_slip || (slip <= least + same_slip && press.force > best->force)) best = &press, least = slip;
-      }
-      if (!best) {
-        rest.push_back(part);
-        continue;
-      }
-      const Id<Body> to = best->a == part.body ? best->b : best->a;
-      const bool comes = before && least < sticks && (jumped(to) || std::ranges::find(along, to) != along.end());
-      const Eigen::Vector3d turning = (before ? state.solved : state.twists)[to.index].angular, apart = part.twist.angular - turning;
-      if (comes || apart.norm() < turns_along * turning.norm()) {
-        part.carrier = to, part.X_WC = world_.pose(to);
-        const Eigen::Matrix3d into = part.X_WC.rotation.conjugate().toRotationMatrix();
-        part.relative = {into * (part.twist.linear - velocity(to, part.X_WB * part.com)),
-                         into * apart};
-        if (comes) along.push_back(part.body);
-      }
-      found.push_back(part);
-    }
+    for (Part& part : waiting) (carriers.find(part, waiting) ? found : rest).push_back(part);
     // what touches nothing that is held comes last
     if (found.empty()) found.swap(rest);
     sorted.insert(sorted.end(), found.begin(), found.end());
@@ -138,7 +198,9 @@ Pose Mover::carried(const Part& part, double s) const {
 }
 
 bool Mover::Machine::rests() const {
-  const auto none = [](const std::vector<double>& all) { return std::ranges::all_of(all, [](double x) { return x == 0; }); };
+  const auto none = [](const std::vector<double>& all) {
+    return std::ranges::all_of(all, [](double x) { return x == 0; });
+  };
   return twist.is_zero() && none(dof_velocities) && none(joint_velocities);
 }
 
@@ -149,7 +211,8 @@ Mover::Part Mover::free_part(const World& world, const Articulation& tree) {
   if (tree.bodies.size() == 1) return out;
   const Eigen::Vector3d c = centre(world, tree);
   SpatialInertia all;
-  for (const TreeBody& part : tree.bodies) all.add(SpatialInertia::of(world.body(part.body), world.pose(part.body), c));
+  for (const TreeBody& part : tree.bodies)
+    all.add(SpatialInertia::of(world.body(part.body), world.pose(part.body), c));
   const Eigen::Matrix3d R = out.X_WB.matrix();
   out.twist.linear += twist.angular.cross(c - out.X_WB * root.com);
   out.com = out.X_WB.inverse() * c;
@@ -157,8 +220,9 @@ Mover::Part Mover::free_part(const World& world, const Articulation& tree) {
   return out;
 }
 
-// Euler's equations in the body's axes, by Runge and Kutta's fourth order; in world axes they are stiff for slender bodies.
-// Then what is known to stay is put right: the angular momentum in the world, by a turn of the size of the error.
+// Euler's equations in the body's axes, by Runge and Kutta's fourth order; in world axes they are
+// stiff for slender bodies. Then what is known to stay is put right: the angular momentum in the
+// world, by a turn of the size of the error.
 Pose Mover::moved(const Part& part, double s, Twist& after) const {
   after = part.twist;
   const Eigen::Vector3d& w = part.twist.angular;
@@ -169,7 +233,9 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
   struct Spin {
     Eigen::Vector3d momentum;  // in the body's axes
     Eigen::Vector4d rotation;
-    Spin plus(double h, const Spin& rate) const { return {momentum + h * rate.momentum, rotation + h * rate.rotation}; }
+    Spin plus(double h, const Spin& rate) const {
+      return {momentum + h * rate.momentum, rotation + h * rate.rotation};
+    }
   };
   // dL/dt = L x w, dq/dt = 1/2 q w
   const auto rate = [&](const Spin& spin) {
@@ -184,7 +250,8 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
   const int steps = static_cast<int>(std::min<double>(max_steps, std::ceil(turn / turn_of_a_step)));
   const double h = s / steps;
   for (int i = 0; i < steps; ++i) {
-    const Spin k1 = rate(spin), k2 = rate(spin.plus(h / 2, k1)), k3 = rate(spin.plus(h / 2, k2)), k4 = rate(spin.plus(h, k3));
+    const Spin k1 = rate(spin), k2 = rate(spin.plus(h / 2, k1)), k3 = rate(spin.plus(h / 2, k2)),
+               k4 = rate(spin.plus(h, k3));
     spin = spin.plus(h / 6, k1).plus(h / 3, k2).plus(h / 3, k3).plus(h / 6, k4);
     spin.rotation.normalize();
     spin.momentum *= size / spin.momentum.norm();
@@ -224,13 +291,16 @@ void Mover::place(double s) {
       // opening, the DOF picks up what it left behind where it meets it
       const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
       constexpr double met = 1e-5;  // [rad or m]
-      if (closing * machine.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > met) continue;
+      if (closing * machine.dof_velocities[joint.dof] >= 0 ||
+          closing * (followed - joints[j]) > met)
+        continue;
       joints[j] = followed;
       machine.picked_up.push_back(static_cast<int>(j));
     }
     // a robot that is carried stands where its carrier has put it
-    const Pose X_WB = robot.mounting ? world_.pose(robot.base)
-                                     : moved_rigidly(machine.X_WB, world_.body(robot.base).com, machine.twist, s);
+    const Pose X_WB =
+        robot.mounting ? world_.pose(robot.base)
+                       : moved_rigidly(machine.X_WB, world_.body(robot.base).com, machine.twist, s);
     world_.drift(machine.robot, X_WB, dofs, joints);
   }
   place_welded();
@@ -248,8 +318,10 @@ void Mover::finish(double s) {
   place(s);
   for (const Part& part : parts_) {
     if (!part.inertia) continue;
-    const Eigen::Vector3d arm = world_.pose(part.body).rotation * (world_.body(part.body).com - part.com);
-    world_.edit_dynamics().twists[part.body.index] = {part.after.linear + part.after.angular.cross(arm), part.after.angular};
+    const Eigen::Vector3d arm =
+        world_.pose(part.body).rotation * (world_.body(part.body).com - part.com);
+    world_.edit_dynamics().twists[part.body.index] = {
+        part.after.linear + part.after.angular.cross(arm), part.after.angular};
   }
   for (const Machine& machine : machines_)
     for (const int joint : machine.picked_up) world_.set_follows_dof(machine.robot, joint, true);
@@ -259,7 +331,8 @@ void Mover::place_welded() {
   for (const Welded& weld : welded_) {
     const Pose& X_WT = world_.pose(weld.to);
     // what stands stays where it is to the bit
-    world_.drift(weld.body, X_WT == weld.X_WT ? weld.X_WB : X_WT * (weld.X_WT.inverse() * weld.X_WB));
+    world_.drift(weld.body,
+                 X_WT == weld.X_WT ? weld.X_WB : X_WT * (weld.X_WT.inverse() * weld.X_WB));
   }
 }
 

@@ -1,6 +1,7 @@
-// A world along the motion of one step: where everything is at a time, were it to go on with the velocities that it has. What is pressed
-// to something and turns along with it has its velocity relative to that: along the tangent it would come away from the arc, step by step. So
-// has what sticks to something that somebody gives another velocity: it would stay behind by a step.
+// A world along the motion of one step: where everything is at a time, were it to go on with the
+// velocities that it has. What is pressed to something and turns along with it has its velocity
+// relative to that: along the tangent it would come away from the arc, step by step. So has what
+// sticks to something that somebody gives another velocity: it would stay behind by a step.
 #pragma once
 #include <optional>
 
@@ -21,15 +22,17 @@ class Mover {
   struct Part {  // a free body with what is welded to it, or one that moves as it is told
     Id<Body> body;
     Pose X_WB;
-    Twist twist;                // at com, at the start
-    Eigen::Vector3d com;        // of all, in the frame of the body [m]
-    std::optional<Eigen::Matrix3d> inertia;  // of all about it, in that frame [kg m^2]; none: it moves as it is told
+    Twist twist;          // at com, at the start
+    Eigen::Vector3d com;  // of all, in the frame of the body [m]
+    std::optional<Eigen::Matrix3d>
+        inertia;       // of all about it, in that frame [kg m^2]; none: it moves as it is told
     Twist after = {};  // where it was placed
     std::optional<Id<Body>> carrier = {};  // what it is pressed to, and goes along with
     Pose X_WC = {};                        // of that, at the start
     Twist relative = {};                   // to that, at com, in its axes
   };
   static Part free_part(const World& world, const Articulation& tree);
+  class Carriers;
   void find_carriers(const System& system);
   struct Machine {  // a robot
     Id<Robot> robot;
@@ -44,7 +47,7 @@ class Mover {
   void place_welded();
 
   World& world_;
-  double placed_ = -1;  // where everything is [s]; negative: nobody has been asked to move
+  double placed_ = -1;       // where everything is [s]; negative: nobody has been asked to move
   std::vector<Part> parts_;  // what is carried by others of them after these
   std::vector<Machine> machines_;  // carriers before what they carry
   struct Welded {

@@ -6,17 +6,22 @@
 
 namespace clench {
 
-Vector6d Stepper::root_twist(int tree) const { return prescribed_twist(world_, system_.trees[tree]); }
+Vector6d Stepper::root_twist(int tree) const {
+  return prescribed_twist(world_, system_.trees[tree]);
+}
 
-// Do joints, or a floating base, turn by more than half a radian in the step? What that causes would grow from step to step.
+// Do joints, or a floating base, turn by more than half a radian in the step? What that causes
+// would grow from step to step.
 bool Stepper::whirls(int tree, double h) const {
   constexpr double max_turn = 0.5;  // [rad]
   const Articulation& of = system_.trees[tree];
-  return !of.is_free_body() && of.size() > 0 && v_.segment(of.first, of.size()).cwiseAbs().maxCoeff() * h > max_turn;
+  return !of.is_free_body() && of.size() > 0 &&
+         v_.segment(of.first, of.size()).cwiseAbs().maxCoeff() * h > max_turn;
 }
 
-// What velocities cause is quadratic in them: taken at those of the step's middle rather than of its beginning a double pendulum gains a
-// twentieth of the energy. c(v + d) = c(v) + (c(v + d) - c(v - d)) / 2 but for what is quadratic in d, half the change.
+// What velocities cause is quadratic in them: taken at those of the step's middle rather than of
+// its beginning a double pendulum gains a twentieth of the energy. c(v + d) = c(v) + (c(v + d) -
+// c(v - d)) / 2 but for what is quadratic in d, half the change.
 void Stepper::add_mean_bias(int tree, double h, Eigen::VectorXd& change) {
   auto v = v_.segment(system_.trees[tree].first, system_.trees[tree].size());
   constexpr double slow = 1e-3;  // what all but rests has none
@@ -48,12 +53,15 @@ void Stepper::find_free_velocities(double h) {
     dynamics.place(world_, tree);
     if (n == 0) continue;
     // forces that velocities cause are left out there
-    const Eigen::VectorXd still = whirls(static_cast<int>(t), h) ? Eigen::VectorXd::Zero(v_.size()) : Eigen::VectorXd();
-    Eigen::VectorXd efforts = -dynamics.find_bias(still.size() > 0 ? still : v_, root_twist(static_cast<int>(t)), world_.gravity());
+    const Eigen::VectorXd still =
+        whirls(static_cast<int>(t), h) ? Eigen::VectorXd::Zero(v_.size()) : Eigen::VectorXd();
+    Eigen::VectorXd efforts = -dynamics.find_bias(
+        still.size() > 0 ? still : v_, root_twist(static_cast<int>(t)), world_.gravity());
     find_joint_forces(world_, tree, dynamics, h, state, forces_[t]);
     efforts += forces_[t].efforts;
     for (size_t i = 0; i < tree.coordinates.size(); ++i)
-      efforts[tree.root_size() + static_cast<int>(i)] += feedforward_effort(world_, tree.coordinates[i], state);
+      efforts[tree.root_size() + static_cast<int>(i)] +=
+          feedforward_effort(world_, tree.coordinates[i], state);
     for (size_t b = 0; b < tree.bodies.size(); ++b) {
       const Load& load = state.loads[tree.bodies[b].body.index];
       if (load.force.isZero(0) && load.torque.isZero(0)) continue;
@@ -76,7 +84,8 @@ void Stepper::find_free_velocities(double h) {
   }
 }
 
-// An impulse of bodies that meet at the end of a step cut short, and of all that touches them, is no force of that short time.
+// An impulse of bodies that meet at the end of a step cut short, and of all that touches them, is
+// no force of that short time.
 void Stepper::find_times(double h) {
   const double whole = std::max(h, world_.dynamics()->asked);
   tree_times_.assign(trees_.size(), h);
@@ -121,11 +130,13 @@ void Stepper::keep() {
     Manifold& m = state.manifolds[touch.manifold];
     ManifoldPoint& p = m.points[touch.point];
     const int linear = std::min(block.law.size(), 3);
-    const Eigen::Vector3d impulse = touch.frame.leftCols(linear) * Eigen::Map<const Eigen::VectorXd>(r_.data() + row, linear);
+    const Eigen::Vector3d impulse =
+        touch.frame.leftCols(linear) * Eigen::Map<const Eigen::VectorXd>(r_.data() + row, linear);
     p.force = world_.pose(m.a).rotation.conjugate() * Eigen::Vector3d(impulse / time);
     if (block.law.tangents == 3) p.torsion = r_[row + 3] * p.torsion_radius / time;
   }
-  std::ranges::sort(state.row_forces, {}, [](const RowForce& row) { return std::pair(row.kind, row.index); });
+  std::ranges::sort(state.row_forces, {},
+                    [](const RowForce& row) { return std::pair(row.kind, row.index); });
   disengage();
   for (Load& load : state.loads) load = {};
   state.report.contacts = static_cast<int>(touches_.size());
@@ -154,9 +165,12 @@ void Stepper::solve_found(double h) {
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, state);
   state.report.residual = 0;
   // surfaces that lie in each other by no more only touch
-  const auto is_inside = [deep = -0.01 * world_.contact_threshold()](const ManifoldPoint& p) { return p.gap < deep; };
+  const auto is_inside = [deep = -0.01 * world_.contact_threshold()](const ManifoldPoint& p) {
+    return p.gap < deep;
+  };
   for (const Manifold& m : state.manifolds)
-    state.report.overlaps += m.clearance == 0 && (m.points.empty() || std::ranges::any_of(m.points, is_inside));
+    state.report.overlaps +=
+        m.clearance == 0 && (m.points.empty() || std::ranges::any_of(m.points, is_inside));
   find_free_velocities(h);
   update_manifolds();
   find_rows(h);

@@ -8,12 +8,13 @@
 
 namespace clench {
 
-// Faults of a solution [m/s]: what is asked of the solver, and what counts as a failure, a micrometre in a quarter of an hour.
+// Faults of a solution [m/s]: what is asked of the solver, and what counts as a failure, a
+// micrometre in a quarter of an hour.
 static constexpr double tolerance = 1e-12, failed_above = 1e-9;
-// What touches, is slower than this and would gain no more than that under the forces that it had rests: it stops, and its forces
-// stay. That is a millionth of gravity.
-static constexpr double rest_speed = 1e-7;          // [m/s, rad/s]
-static constexpr double rest_acceleration = 1e-5;   // [m/s^2, rad/s^2]
+// What touches, is slower than this and would gain no more than that under the forces that it had
+// rests: it stops, and its forces stay. That is a millionth of gravity.
+static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
+static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
 
 void Stepper::find_islands() {
   const size_t trees = trees_.size();
@@ -44,12 +45,15 @@ void Stepper::find_islands() {
   }
   islands_.resize(count);
   for (size_t t = 0; t < trees; ++t)
-    if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0 && !tree_rows_[t].rows.empty())
+    if (const int island = island_of_[find(static_cast<int>(t))];
+        island >= 0 && !tree_rows_[t].rows.empty())
       islands_[island].trees.push_back(static_cast<int>(t));
 }
 
-// Do the forces of the last step hold what rests? Answered by the velocities that they leave, without the matrix of the problem.
-bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution, double h) {
+// Do the forces of the last step hold what rests? Answered by the velocities that they leave,
+// without the matrix of the problem.
+bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution,
+                    double h) {
   const Eigen::Index count = warm.size();
   // of the matrix its diagonal is enough
   if (problem_.W.rows() != count) problem_.W.resize(count, count);
@@ -100,7 +104,8 @@ void Stepper::solve_island(const Island& island, double h) {
   int count = 0;
   for (const int i : island.blocks) {
     FrictionProblem::Block law = blocks_[i].law;
-    for (int k = 0; k < law.size(); ++k) local_[law.row + k] = count + k, rows_.push_back(law.row + k);
+    for (int k = 0; k < law.size(); ++k)
+      local_[law.row + k] = count + k, rows_.push_back(law.row + k);
     law.row = count;
     count += law.size();
     problem_.blocks.push_back(law);
@@ -108,7 +113,10 @@ void Stepper::solve_island(const Island& island, double h) {
   // what rests keeps the forces that it has as long as they hold it
   bool at_rest = true;
   for (const int t : island.trees)
-    at_rest = at_rest && v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() < rest_speed;
+    at_rest =
+        at_rest &&
+        v_before_.segment(system_.trees[t].first, system_.trees[t].size()).cwiseAbs().maxCoeff() <
+            rest_speed;
   problem_.q.resize(count);
   Eigen::VectorXd warm(count);
   for (const int row : rows_) {
@@ -117,13 +125,14 @@ void Stepper::solve_island(const Island& island, double h) {
   }
   const DynamicSettings& settings = world_.dynamic_settings();
   FrictionSolution solution;
-  const bool held = at_rest && settings.cone == FrictionCone::round && holds(island, warm, solution, h);
+  const bool held =
+      at_rest && settings.cone == FrictionCone::round && holds(island, warm, solution, h);
   if (!held) {
     assemble(island, count);
-    solution = solver_.solve(
-        problem_, warm,
-        {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = tolerance},
-        world_.context().progress());
+    solution =
+        solver_.solve(problem_, warm,
+                      {.cone = settings.cone, .edges = settings.cone_edges, .tolerance = tolerance},
+                      world_.context().progress());
   }
   for (const int row : rows_) r_[row] = solution.r[local_[row]];
   if (at_rest && solution.iterations == 0)
@@ -140,7 +149,8 @@ void Stepper::apply_impulses(double h) {
     const TreeRows& rows = tree_rows_[t];
     if (rows.rows.empty()) continue;
     Eigen::VectorXd change = Eigen::VectorXd::Zero(system_.trees[t].size());
-    for (size_t i = 0; i < rows.rows.size(); ++i) change += r_[rows.rows[i]] * rows.Y.col(static_cast<Eigen::Index>(i));
+    for (size_t i = 0; i < rows.rows.size(); ++i)
+      change += r_[rows.rows[i]] * rows.Y.col(static_cast<Eigen::Index>(i));
     trees_[t].other_half_solve(change);
     auto v = v_.segment(system_.trees[t].first, system_.trees[t].size());
     v += change;

@@ -8,16 +8,19 @@
 
 namespace clench {
 
-// Surfaces that move faster than this along each other when a step begins have kinetic friction [m/s], if it is also faster than
-// gravity makes them in a step: a body that comes to rest from next to no height sticks.
+// Surfaces that move faster than this along each other when a step begins have kinetic friction
+// [m/s], if it is also faster than gravity makes them in a step: a body that comes to rest from
+// next to no height sticks.
 static constexpr double sliding_speed = 1e-3;
-// A gap this near to that at which bodies rest, as a part of the contact threshold, is that one: so points of a pair that has come to
-// rest ask for nothing, and share its force, where the least difference between what they ask would put all of it on a few.
+// A gap this near to that at which bodies rest, as a part of the contact threshold, is that one: so
+// points of a pair that has come to rest ask for nothing, and share its force, where the least
+// difference between what they ask would put all of it on a few.
 static constexpr double rest_band = 1e-3;
-// Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so [m/s]: so slowly that what is
-// pushed apart presses on each other as if it rested.
+// Of a gap below that at which bodies rest, this part is opened in a step, but not faster than so
+// [m/s]: so slowly that what is pushed apart presses on each other as if it rested.
 static constexpr double pushed_part = 0.02, pushed_at_most = 0.1;
-// What turns while it slides comes nearer as it does; it is pushed apart by more, up to a part of the speed of sliding.
+// What turns while it slides comes nearer as it does; it is pushed apart by more, up to a part of
+// the speed of sliding.
 static constexpr double pushed_part_sliding = 0.5, pushed_of_slip = 0.1;
 // From this speed of approach on bodies meet, and below that one nothing bounces [m/s].
 static constexpr double meeting_speed = 1e-6;
@@ -56,8 +59,10 @@ Eigen::Vector3d Stepper::surface_velocity(Id<Body> id) const {
 void Stepper::update_manifolds() {
   const double threshold = world_.contact_threshold();
   for (Manifold& m : world_.edit_dynamics().manifolds) {
-    const double moved = displacement(m.X_AB, relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
-    if (m.clearance > threshold ? moved >= m.clearance - threshold : moved > follows_within * threshold)
+    const double moved =
+        displacement(m.X_AB, relative_pose(world_, m.a, m.b), *world_.body(m.b).shape);
+    if (m.clearance > threshold ? moved >= m.clearance - threshold
+                                : moved > follows_within * threshold)
       measure(world_, m);
     else
       update_gaps(world_, m);
@@ -76,33 +81,23 @@ int Stepper::add_columns(int tree, int count) {
   return first;
 }
 
-void Stepper::add_contact(int manifold, int point, double h) {
-  const Manifold& m = world_.dynamics()->manifolds[manifold];
-  const ManifoldPoint& p = m.points[point];
-  const Body &a = world_.body(m.a), &b = world_.body(m.b);
-  const Pose &X_WA = world_.pose(m.a), &X_WB = world_.pose(m.b);
-  Touch touch{.manifold = manifold, .point = point, .frame = {}, .p_W = 0.5 * (X_WA * p.p_a + X_WB * p.p_b), .a = m.a, .b = m.b};
-  if (const Touch* last = touches_.empty() ? nullptr : &touches_.back();
-      last && last->manifold == manifold && m.points[last->point].normal == p.normal) {
-    touch.frame = last->frame;
-  } else {
-    const Eigen::Vector3d normal = (X_WA.rotation * p.normal).normalized();
-    const Eigen::Matrix3d xyz = contact_frame(normal);
-    touch.frame << normal, xyz.col(0), xyz.col(1);
-  }
-  const Friction friction = world_.materials().friction(a.material, b.material);
-  Block block;
-  block.touch = static_cast<int>(touches_.size());
-  block.law.row = row_count_;
-  block.law.pair = manifold;
-  block.law.tangents = friction.statics > 0 ? (p.torsion_radius > 0 ? 3 : 2) : 0;
-  const int size = block.law.size();
+// The normal and two tangents, as columns; points of one normal have one.
+Eigen::Matrix3d Stepper::frame_of(const Manifold& m, int manifold, const ManifoldPoint& p) const {
+  const Touch* last = touches_.empty() ? nullptr : &touches_.back();
+  if (last && last->manifold == manifold && m.points[last->point].normal == p.normal)
+    return last->frame;
+  const Eigen::Vector3d normal = (world_.pose(m.a).rotation * p.normal).normalized();
+  const Eigen::Matrix3d xyz = contact_frame(normal);
+  Eigen::Matrix3d frame;
+  frame << normal, xyz.col(0), xyz.col(1);
+  return frame;
+}
 
-  const std::array<Id<Body>, 2> bodies = {m.a, m.b};
-  // a surface runs along itself
-  const Eigen::Vector3d normal = touch.frame.col(0), belt = surface_velocity(m.b) - surface_velocity(m.a);
-  const Eigen::Vector3d prescribed =
-      prescribed_velocity(m.b, touch.p_W) - prescribed_velocity(m.a, touch.p_W) + belt - belt.dot(normal) * normal;
+// How each tree moves the point, b's against a's: columns of its rows.
+void Stepper::add_contact_columns(const Touch& touch, double torsion_radius, Block& block) {
+  const std::array<Id<Body>, 2> bodies = {touch.a, touch.b};
+  const Eigen::Vector3d normal = touch.frame.col(0);
+  const int size = block.law.size();
   for (int side = 0; side < 2; ++side) {
     const System::Place place = system_.place(bodies[side]);
     if (place.tree < 0 || system_.trees[place.tree].size() == 0) continue;
@@ -116,17 +111,25 @@ void Stepper::add_contact(int manifold, int point, double h) {
       if (k < 3)
         trees_[place.tree].add_linear(place.body, touch.p_W, touch.frame.col(k), sign, column);
       else
-        trees_[place.tree].add_angular(place.body, normal, sign * p.torsion_radius, column);
+        trees_[place.tree].add_angular(place.body, normal, sign * torsion_radius, column);
     }
   }
-  // what touches comes no nearer, and what is too near parts
-  const double step = std::max(world_.dynamic_settings().step, h);
-  const double threshold = world_.contact_threshold();
-  const double missing = p.gap < (rest_gap - rest_band) * threshold ? rest_gap * threshold - p.gap : 0;
-  const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
-  std::array<double, 4> before;
-  for (int k = 0; k < size; ++k) {
-    double q = k < 3 ? touch.frame.col(k).dot(prescribed) : p.torsion_radius * normal.dot(prescribed_turning(m.b) - prescribed_turning(m.a));
+}
+
+// Velocities of the contact's rows when the step begins; those without contacts are added to q_.
+std::array<double, 4> Stepper::add_free_velocities(const Touch& touch, double torsion_radius,
+                                                   const Block& block) {
+  // a surface runs along itself
+  const Eigen::Vector3d normal = touch.frame.col(0),
+                        belt = surface_velocity(touch.b) - surface_velocity(touch.a);
+  const Eigen::Vector3d prescribed = prescribed_velocity(touch.b, touch.p_W) -
+                                     prescribed_velocity(touch.a, touch.p_W) + belt -
+                                     belt.dot(normal) * normal;
+  std::array<double, 4> before = {};
+  for (int k = 0; k < block.law.size(); ++k) {
+    double q = k < 3 ? touch.frame.col(k).dot(prescribed)
+                     : torsion_radius *
+                           normal.dot(prescribed_turning(touch.b) - prescribed_turning(touch.a));
     before[k] = q;
     for (int side = 0; side < 2; ++side)
       if (const int t = block.tree[side]; t >= 0) {
@@ -136,16 +139,49 @@ void Stepper::add_contact(int manifold, int point, double h) {
       }
     q_.push_back(q);
   }
+  return before;
+}
+
+void Stepper::add_contact(int manifold, int point, double h) {
+  const Manifold& m = world_.dynamics()->manifolds[manifold];
+  const ManifoldPoint& p = m.points[point];
+  const Body &a = world_.body(m.a), &b = world_.body(m.b);
+  const Pose &X_WA = world_.pose(m.a), &X_WB = world_.pose(m.b);
+  Touch touch{.manifold = manifold,
+              .point = point,
+              .frame = frame_of(m, manifold, p),
+              .p_W = 0.5 * (X_WA * p.p_a + X_WB * p.p_b),
+              .a = m.a,
+              .b = m.b};
+  const Friction friction = world_.materials().friction(a.material, b.material);
+  Block block;
+  block.touch = static_cast<int>(touches_.size());
+  block.law.row = row_count_;
+  block.law.pair = manifold;
+  block.law.tangents = friction.statics > 0 ? (p.torsion_radius > 0 ? 3 : 2) : 0;
+  const int size = block.law.size();
+  add_contact_columns(touch, p.torsion_radius, block);
+  const std::array<double, 4> before = add_free_velocities(touch, p.torsion_radius, block);
+
+  // what touches comes no nearer, and what is too near parts
+  const double step = std::max(world_.dynamic_settings().step, h);
+  const double threshold = world_.contact_threshold();
+  const double missing =
+      p.gap < (rest_gap - rest_band) * threshold ? rest_gap * threshold - p.gap : 0;
   double slip = 0;
   for (int k = 1; k < size; ++k) slip += before[k] * before[k];
   slip = std::sqrt(slip);
   const bool slides = slip > std::max(sliding_speed, world_.gravity().norm() * step);
   block.law.mu = slides ? friction.kinetic : friction.statics;
   double target = pushed_part * missing / step;
-  if (slides) target = std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
+  if (slides)
+    target =
+        std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
   target = std::min(target, pushed_at_most);
-  // Newton's law of impact, where the free motion would press. Bodies move with the velocity that they had when a step began: what
-  // gravity or a motor draws together comes by half a step's gain too fast, and would go by as much too far
+  // Newton's law of impact, where the free motion would press. Bodies move with the velocity that
+  // they had when a step began: what gravity or a motor draws together comes by half a step's gain
+  // too fast, and would go by as much too far
+  const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double& q_normal = q_[block.law.row];
   if (q_normal < target && before[0] < -bounces_above) {
     const double gain = std::max((before[0] - q_normal) / h, 0.0) * step;
@@ -155,7 +191,8 @@ void Stepper::add_contact(int manifold, int point, double h) {
   q_normal -= target;
   // warm start
   const Eigen::Vector3d force = X_WA.rotation * p.force;
-  for (int k = 0; k < size; ++k) warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
+  for (int k = 0; k < size; ++k)
+    warm_.push_back(h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
   row_count_ += size;
   touch.target = target;
   touches_.push_back(touch);
@@ -175,7 +212,9 @@ void Stepper::add_row(int number, double h) {
   const auto key = [](const RowForce& last) { return std::pair(last.kind, last.index); };
   const std::pair wanted(static_cast<int>(row.kind), row.index);
   const auto& all = world_.dynamics()->row_forces;
-  if (const auto last = std::ranges::lower_bound(all, wanted, {}, key); last != all.end() && key(*last) == wanted) warm = h * last->force;
+  if (const auto last = std::ranges::lower_bound(all, wanted, {}, key);
+      last != all.end() && key(*last) == wanted)
+    warm = h * last->force;
   warm_.push_back(std::clamp(warm, row.low, row.high));
   ++row_count_;
   blocks_.push_back(block);
@@ -198,7 +237,8 @@ void Stepper::find_rows(double h) {
     if (system_.trees[t].coordinates.empty()) continue;
     Eigen::MatrixXd mass = trees_[t].mass_matrix();
     mass.diagonal() += forces_[t].added - forces_[t].velocity_part;
-    add_coordinate_rows(world_, system_.trees[t], static_cast<int>(t), mass, h, state, coordinate_rows_);
+    add_coordinate_rows(world_, system_.trees[t], static_cast<int>(t), mass, h, state,
+                        coordinate_rows_);
   }
   for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i), h);
   compliance_.setZero(row_count_);

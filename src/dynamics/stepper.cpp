@@ -25,11 +25,14 @@ void Stepper::refresh() {
     const Robot& robot = world_.robot(id);
     for (size_t j = 0; j < robot.joints.size(); ++j) {
       // joints on springs are never where their tendon is
-      if (robot.dofs[robot.joints[j].dof].kind == DofKind::compliant) world_.set_follows_dof(id, static_cast<int>(j), false);
+      if (robot.dofs[robot.joints[j].dof].kind == DofKind::compliant)
+        world_.set_follows_dof(id, static_cast<int>(j), false);
       follows.push_back(world_.follows_dof(id, static_cast<int>(j)));
     }
   }
-  if (stamp_ == world_.model().stamp && settings_stamp_ == world_.settings().stamp && follows == follows_) return;
+  if (stamp_ == world_.model().stamp && settings_stamp_ == world_.settings().stamp &&
+      follows == follows_)
+    return;
   stamp_ = world_.model().stamp;
   settings_stamp_ = world_.settings().stamp;
   follows_ = std::move(follows);
@@ -53,7 +56,8 @@ double max_speed(const World& world, Id<Body> id) {
   const Twist& twist = world.dynamics()->twists[id.index];
   const Body& body = world.body(id);
   if (twist.is_zero()) return 0;
-  return twist.linear.norm() + twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
+  return twist.linear.norm() +
+         twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
 }
 
 // By how much they turn about each other at most [rad].
@@ -75,7 +79,8 @@ double Stepper::max_travel(double dt) const {
 }
 
 // Conservative advancement, as in advance, of pairs whose distance is a ball's.
-double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover) {
+double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, double end,
+                              Mover& mover) {
   constexpr double aim = 0.2, there = 0.3;
   const double threshold = world_.contact_threshold();
   double stop = end;
@@ -96,14 +101,17 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
   return stop;
 }
 
-// Until when bodies that touch do not come into each other, looked at every so often on their way: dt where they never do.
+// Until when bodies that touch do not come into each other, looked at every so often on their way:
+// dt where they never do.
 double Stepper::free_until(const Manifold& m, int places, double dt, Mover& mover) {
   const auto [first, second] = ordered(m.a, m.b);
   const auto is_free = [&](double s) {
     mover.place(s);
     if (has_ball(world_, m)) return ball_distance(world_, m, world_.contact_threshold()) > 0;
-    return distance(*world_.body(m.a).shape, *world_.body(m.b).shape, relative_pose(world_, m.a, m.b), world_.contact_threshold(),
-                    &world_.context().pair(first, second)).distance > 0;
+    return distance(*world_.body(m.a).shape, *world_.body(m.b).shape,
+                    relative_pose(world_, m.a, m.b), world_.contact_threshold(),
+                    &world_.context().pair(first, second))
+               .distance > 0;
   };
   double free = 0, met = dt;
   int k = 1;
@@ -118,90 +126,120 @@ double Stepper::free_until(const Manifold& m, int places, double dt, Mover& move
   return free;
 }
 
+// Which pairs may meet while bodies move, and what that says of the time that passes.
+struct Stepper::Meetings {
+  std::vector<int> suspects = {};  // manifolds that may be other ones afterwards
+  std::vector<PairBound> watched = {};
+  std::vector<std::pair<int, double>> balls = {};      // manifolds, and bounds of their speeds
+  std::vector<std::pair<int, Manifold>> arrived = {};  // already measured where they arrive
+  // time passes at least: next to none where all start with a gap, as they may meet at any time
+  std::optional<double> min_time = {};
+  double max_time;      // passes at most
+  double overlap_time;  // after which bodies that overlap are looked at again
+};
+
+// A pair after dt: whether it has arrived without meeting, or how it has to be followed.
+void Stepper::follow_pair(int number, double dt, Mover& mover, Meetings& meetings) {
+  // What moves farther than so many thresholds in a step is followed all the way; others are looked
+  // at where they arrive.
+  constexpr double short_way = 10, max_looks = 1000;
+  // Beyond the one turn the chord tells nothing of the way, beyond the other [rad] nobody follows
+  // it.
+  constexpr double far_turn = 0.5, whirl = 20;
+  const Manifold& m = world_.dynamics()->manifolds[number];
+  const Shape& shape = *world_.body(m.b).shape;
+  const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
+  const double threshold = world_.contact_threshold(), step = world_.dynamic_settings().step;
+  // the bound holds on the whole way, which is longer than the chord of a turn
+  const double turned = turn(world_, m, dt);
+  const bool far = turned > far_turn;
+  const double arc = far ? dt * (max_speed(world_, m.a) + max_speed(world_, m.b)) : 0;
+  if (!may_have_met(world_, m, X_AB) &&
+      !(far && displacement(m.X_AB, before, shape) + arc >= m.clearance))
+    return;
+  meetings.suspects.push_back(number);
+  const double way = far ? arc : displacement(before, X_AB, shape);
+  const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(shape));
+  if (m.clearance == 0) {
+    // they overlap: nothing to stop, but they are looked at before one is through the other
+    if (way > thin && !m.points.empty())
+      meetings.overlap_time =
+          std::min(meetings.overlap_time, std::max(dt * thin / way, 1e-3 * step));
+    return;
+  }
+  const bool touching = m.clearance - displacement(m.X_AB, before, shape) <= threshold;
+  const double looked_at = std::min(short_way * threshold, thin);
+  Manifold there = m;
+  bool arrived = way <= thin && follow_sliding(world_, there);
+  if (turned > whirl) measure(world_, there), arrived = true;
+  // following what touches would ask a thousand times whether it still only does
+  const bool looks = !arrived && touching && way > looked_at && way <= max_looks * looked_at;
+  const double free = looks ? free_until(m, static_cast<int>(way / looked_at), dt, mover) : 0;
+  if (!arrived && (way <= looked_at || free == dt)) {
+    measure(world_, there);
+    arrived = there.clearance > 0 || free == dt;
+  }
+  if (arrived) {
+    meetings.arrived.emplace_back(number, std::move(there));
+    return;
+  }
+  // those within the threshold already get on, by a hundredth of a step, but not through each
+  // other; less where it is known when they meet
+  const double gets_on = std::min(0.01 * step, dt * thin / way);
+  if (touching) meetings.min_time = std::min(meetings.min_time.value_or(dt), gets_on);
+  if (looks)
+    meetings.max_time = std::min(meetings.max_time, std::max(free, 0.1 * gets_on));
+  else if (has_ball(world_, m))
+    meetings.balls.push_back({number, 1.1 * way / dt});
+  else
+    meetings.watched.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
+}
+
+// How much of dt passes until the first of them meet.
+double Stepper::time_until_meeting(Meetings& meetings, double dt, Mover& mover) {
+  const double most = std::min(meetings.max_time, meetings.overlap_time);
+  double passed = most;
+  if (!meetings.balls.empty()) passed = advance_balls(meetings.balls, passed, mover);
+  if (!meetings.watched.empty()) {
+    int queries = 0;
+    // of each pair the gap is measured at first, and some times on its way
+    const int max_steps = 1000 + 10 * static_cast<int>(meetings.watched.size());
+    const Advance advance = clench::advance(
+        world_, meetings.watched, passed, [&](double s) { mover.place(s); }, queries, max_steps);
+    passed = advance.iteration_limit
+                 ? std::max(advance.s, std::min(passed, 0.01 * world_.dynamic_settings().step))
+                 : advance.s;
+  }
+  return std::clamp(passed, std::min(most, meetings.min_time.value_or(1e-9 * dt)), most);
+}
+
+// The manifolds where bodies are now; whole: all of dt has passed.
+void Stepper::measure_met(Meetings& meetings, bool whole) {
+  auto& manifolds = world_.edit_dynamics().manifolds;
+  if (!whole) {
+    for (const int i : meetings.suspects) measure(world_, manifolds[i]);
+    return;
+  }
+  for (auto& [i, there] : meetings.arrived) manifolds[i] = std::move(there);
+  for (const auto& [i, speed] : meetings.balls) measure(world_, manifolds[i]);
+  for (const PairBound& pair : meetings.watched)
+    for (const int i : meetings.suspects)
+      if (manifolds[i].a == pair.a && manifolds[i].b == pair.b) measure(world_, manifolds[i]);
+}
+
 double Stepper::move(double dt) {
   refresh();
   find_manifolds(world_, system_, max_travel(dt));
   DynamicState& state = world_.edit_dynamics();
   Mover mover(world_, system_);
   mover.place(dt);
-
-  // What moves farther than so many thresholds in a step is followed all the way; others are looked at where they arrive.
-  constexpr double short_way = 10, max_looks = 1000;
-  // Beyond the one turn the chord tells nothing of the way, beyond the other [rad] nobody follows it.
-  constexpr double far_turn = 0.5, whirl = 20;
-  std::vector<int> suspects;
-  std::vector<PairBound> watches;
-  std::vector<std::pair<int, double>> balls;  // manifolds, and bounds of their speeds
-  std::vector<std::pair<int, Manifold>> measured;
-  // what passes at least: next to nothing where all start with a gap, as they may meet at any time
-  std::optional<double> least;
-  double most = dt, divided = dt;  // what passes at most; where bodies overlap
-  for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
-    const Manifold& m = state.manifolds[i];
-    const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
-    // the bound holds on the whole way, which is longer than the chord of a turn
-    const double turned = turn(world_, m, dt);
-    const bool far = turned > far_turn;
-    const double arc = far ? dt * (max_speed(world_, m.a) + max_speed(world_, m.b)) : 0;
-    if (!may_have_met(world_, m, X_AB) && !(far && displacement(m.X_AB, before, *world_.body(m.b).shape) + arc >= m.clearance))
-      continue;
-    suspects.push_back(i);
-    const double way = far ? arc : displacement(before, X_AB, *world_.body(m.b).shape);
-    const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(*world_.body(m.b).shape));
-    if (m.clearance == 0) {
-      // they overlap: nothing to stop, but they are looked at before one is through the other
-      if (way > thin && !m.points.empty()) divided = std::min(divided, std::max(dt * thin / way, 1e-3 * world_.dynamic_settings().step));
-      continue;
-    }
-    const bool touching = m.clearance - displacement(m.X_AB, before, *world_.body(m.b).shape) <= world_.contact_threshold();
-    const double looked_at = std::min(short_way * world_.contact_threshold(), thin);
-    Manifold there = m;
-    bool arrived = way <= thin && follow_sliding(world_, there);
-    if (turned > whirl) measure(world_, there), arrived = true;
-    // following what touches would ask a thousand times whether it still only does
-    const bool looks = !arrived && touching && way > looked_at && way <= max_looks * looked_at;
-    const double free = looks ? free_until(m, static_cast<int>(way / looked_at), dt, mover) : 0;
-    if (!arrived && (way <= looked_at || free == dt)) {
-      measure(world_, there);
-      arrived = there.clearance > 0 || free == dt;
-    }
-    if (arrived) {
-      measured.emplace_back(i, std::move(there));
-      continue;
-    }
-    // those within the threshold already get on, by a hundredth of a step, but not through each other; less where it is known
-    // when they meet
-    const double gets_on = std::min(0.01 * world_.dynamic_settings().step, dt * thin / way);
-    if (touching) least = std::min(least.value_or(dt), gets_on);
-    if (looks)
-      most = std::min(most, std::max(free, 0.1 * gets_on));
-    else if (has_ball(world_, m))
-      balls.push_back({i, 1.1 * way / dt});
-    else
-      watches.push_back({.a = m.a, .b = m.b, .speed = 1.1 * way / dt});
-  }
-  most = std::min(most, divided);
-  double passed = most;
-  if (!balls.empty()) passed = advance_balls(balls, passed, mover);
-  if (!watches.empty()) {
-    int queries = 0;
-    // of each pair the gap is measured at first, and some times on its way
-    const int max_steps = 1000 + 10 * static_cast<int>(watches.size());
-    const Advance advance = clench::advance(world_, watches, passed, [&](double s) { mover.place(s); }, queries, max_steps);
-    passed = advance.iteration_limit ? std::max(advance.s, std::min(passed, 0.01 * world_.dynamic_settings().step)) : advance.s;
-  }
-  passed = std::clamp(passed, std::min(most, least.value_or(1e-9 * dt)), most);
-  if (passed < divided) ++state.report.impacts;
+  Meetings meetings{.max_time = dt, .overlap_time = dt};
+  for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i)
+    follow_pair(i, dt, mover, meetings);
+  const double passed = time_until_meeting(meetings, dt, mover);
+  if (passed < meetings.overlap_time) ++state.report.impacts;
   mover.finish(passed);
-  if (passed < dt)
-    for (const int i : suspects) measure(world_, state.manifolds[i]);
-  else {
-    for (auto& [i, there] : measured) state.manifolds[i] = std::move(there);
-    for (const auto& [i, speed] : balls) measure(world_, state.manifolds[i]);
-    for (const PairBound& watch : watches)
-      for (const int i : suspects)
-        if (state.manifolds[i].a == watch.a && state.manifolds[i].b == watch.b) measure(world_, state.manifolds[i]);
-  }
+  measure_met(meetings, passed >= dt);
   for (Manifold& m : state.manifolds) m.X_AB_left = relative_pose(world_, m.a, m.b);
   state.time += passed;
   // the same moments however time is divided: sums of many steps are off by rounding
@@ -215,10 +253,13 @@ bool Stepper::step(double end) {
   const double step = world_.dynamic_settings().step;
   if (!(end - world_.time() > rounding * step)) return false;
   world_.context().progress().check();
-  // Steps end at multiples of the step, after an impact as well: the same ones however a time is divided.
+  // Steps end at multiples of the step, after an impact as well: the same ones however a time is
+  // divided.
   const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
   double left = std::min(next, end) - now;
-  if (!(now + left > now)) fail(ErrorKind::limit, "world: a step of {} s is no time beside the {} s that it has run", step, now);
+  if (!(now + left > now))
+    fail(ErrorKind::limit, "world: a step of {} s is no time beside the {} s that it has run", step,
+         now);
   if (std::abs(left - step) < rounding * step) left = step;
   const double h = move(left);
   double& time = world_.edit_dynamics().time;

@@ -1,6 +1,8 @@
-// The step: bodies move with the velocities that they have, then contacts are found, then velocities are solved for.
-// source  Stewart & Trinkle (1996), An implicit time-stepping scheme for rigid body dynamics with inelastic collisions and
-//         Coulomb friction; de Saxce & Feng (1998) for the cone; Anitescu & Hart (2004) for gaps in the right-hand side
+// The step: bodies move with the velocities that they have, then contacts are found, then
+// velocities are solved for.
+// source  Stewart & Trinkle (1996), An implicit time-stepping scheme for rigid body dynamics with
+//         inelastic collisions and Coulomb friction; de Saxce & Feng (1998) for the cone; Anitescu
+//         & Hart (2004) for gaps in the right-hand side
 #pragma once
 #include <array>
 
@@ -17,12 +19,15 @@ class Stepper {
  public:
   explicit Stepper(World& world);
 
-  /// Moves everything by its velocity until dt has passed [s] or two bodies that approach each other touch.
+  /// Moves everything by its velocity until dt has passed [s] or two bodies that approach each
+  /// other touch.
   /// returns  the time that has passed, in (0, dt] [s]
   double move(double dt);
-  /// Velocities that forces, contacts, limits and motors leave after a time of h [s] in which they act.
+  /// Velocities that forces, contacts, limits and motors leave after a time of h [s] in which they
+  /// act.
   void solve(double h);
-  /// One step of a run that ends at a time [s].   returns  false when it is over, and no step was made
+  /// One step of a run that ends at a time [s].   returns  false when it is over, and no step was
+  /// made
   bool step(double end);
   /// Steps until exactly `duration` has passed [s].
   void run(double duration);
@@ -33,16 +38,16 @@ class Stepper {
     Eigen::Matrix3d frame;  // columns: normal, tangents; world
     Eigen::Vector3d p_W;
     Id<Body> a, b;
-    double target = 0;      // lowest velocity along the normal
+    double target = 0;  // lowest velocity along the normal
   };
   /// A contact or a row of a coordinate, and where its rows stand.
   struct Block {
     FrictionProblem::Block law;
-    int touch = -1, row = -1;             // one of both
-    std::array<int, 2> tree = {-1, -1};   // that it acts on
-    std::array<int, 2> column = {0, 0};   // its first, in the tree's J
-    bool meets = false;                   // bodies that come together in this step
-    double time = 0;                      // in which its impulse acts as a force [s]
+    int touch = -1, row = -1;            // one of both
+    std::array<int, 2> tree = {-1, -1};  // that it acts on
+    std::array<int, 2> column = {0, 0};  // its first, in the tree's J
+    bool meets = false;                  // bodies that come together in this step
+    double time = 0;                     // in which its impulse acts as a force [s]
   };
   struct TreeRows {
     Eigen::MatrixXd Y;      // L^-1 J^T: coordinates x rows
@@ -58,6 +63,10 @@ class Stepper {
   double max_travel(double dt) const;
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
   double free_until(const Manifold& m, int places, double dt, Mover& mover);
+  struct Meetings;
+  void follow_pair(int manifold, double dt, Mover& mover, Meetings& meetings);
+  double time_until_meeting(Meetings& meetings, double dt, Mover& mover);
+  void measure_met(Meetings& meetings, bool whole);
   Vector6d root_twist(int tree) const;
   Eigen::Vector3d prescribed_velocity(Id<Body> body, const Eigen::Vector3d& p_W) const;
   Eigen::Vector3d prescribed_turning(Id<Body> body) const;
@@ -67,12 +76,17 @@ class Stepper {
   bool whirls(int tree, double h) const;
   void add_mean_bias(int tree, double h, Eigen::VectorXd& change);
   void update_manifolds();
+  Eigen::Matrix3d frame_of(const Manifold& m, int manifold, const ManifoldPoint& p) const;
+  void add_contact_columns(const Touch& touch, double torsion_radius, Block& block);
+  std::array<double, 4> add_free_velocities(const Touch& touch, double torsion_radius,
+                                            const Block& block);
   void add_contact(int manifold, int point, double h);
   void add_row(int row, double h);
   int add_columns(int tree, int count);
   void find_rows(double h);
   void find_islands();
-  bool holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution, double h);
+  bool holds(const Island& island, const Eigen::VectorXd& warm, FrictionSolution& solution,
+             double h);
   void assemble(const Island& island, int count);
   void solve_island(const Island& island, double h);
   void apply_impulses(double h);

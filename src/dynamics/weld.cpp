@@ -8,13 +8,15 @@ namespace clench {
 
 static void check_weld(const World& world, Id<Body> object, Id<Body> to) {
   const std::string name = excerpt(world.body(object).name);
-  if (world.body(object).kind != BodyKind::object) fail("expected an object to weld, got '{}'", name);
+  if (world.body(object).kind != BodyKind::object)
+    fail("expected an object to weld, got '{}'", name);
   if (object == to) fail("'{}' cannot be welded to itself", name);
   const auto& welds = world.dynamic_settings().welds;
   if (const auto old = welds.find(object); old != welds.end())
     fail("'{}' is welded to '{}' already", name, excerpt(world.body(old->second).name));
   Id<Body> carrier = to;
-  for (auto next = welds.find(carrier); next != welds.end(); next = welds.find(carrier)) carrier = next->second;
+  for (auto next = welds.find(carrier); next != welds.end(); next = welds.find(carrier))
+    carrier = next->second;
   if (carrier == object) fail("'{}' is welded to '{}' already", excerpt(world.body(to).name), name);
 }
 
@@ -50,16 +52,19 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
   for (size_t i = 0; i < piece.bodies.size(); ++i) {
     const Body& body = world.body(piece.bodies[i].body);
     const int part = system.place(piece.bodies[i].body).body;
-    const Twist was = apart.twist(static_cast<int>(i), of_piece, Vector6d::Zero()), is = together.twist(part, own, root);
+    const Twist was = apart.twist(static_cast<int>(i), of_piece, Vector6d::Zero()),
+                is = together.twist(part, own, root);
     const Eigen::Matrix3d R = world.pose(piece.bodies[i].body).matrix();
     const Eigen::Vector3d linear = body.mass * (was.linear - is.linear);
-    const Eigen::Vector3d angular = R * (body.mass * body.inertia_per_mass) * R.transpose() * (was.angular - is.angular);
+    const Eigen::Vector3d angular =
+        R * (body.mass * body.inertia_per_mass) * R.transpose() * (was.angular - is.angular);
     together.add_linear(part, together.com(part), linear, 1, impulse);
     together.add_angular(part, angular, 1, impulse);
   }
   Eigen::VectorXd armature = Eigen::VectorXd::Zero(tree.size());
   for (const ArticulationJoint& joint : tree.joints)
-    armature[joint.coordinate] += joint.ratio * joint.ratio * world.robot(joint.robot).joints[joint.joint].armature;
+    armature[joint.coordinate] +=
+        joint.ratio * joint.ratio * world.robot(joint.robot).joints[joint.joint].armature;
   together.factor(armature);
   together.half_solve(impulse);
   together.other_half_solve(impulse);
@@ -72,7 +77,8 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
 
 void unweld(World& world, Id<Body> object) {
   DynamicSettings settings = world.dynamic_settings();
-  if (settings.welds.erase(object) == 0) fail("'{}' is welded to nothing", excerpt(world.body(object).name));
+  if (settings.welds.erase(object) == 0)
+    fail("'{}' is welded to nothing", excerpt(world.body(object).name));
   world.set_dynamic_settings(std::move(settings));
 }
 

@@ -4,9 +4,9 @@
 
 namespace clench {
 
-/// From now on the object, with all that is welded to it, stays as it stands to the other body: in runs it moves as if it were a
-/// part of it. Their momentum stays: what moved differently before moves together afterwards. Placed by hand, they are welded
-/// as they then stand.
+/// From now on the object, with all that is welded to it, stays as it stands to the other body: in
+/// runs it moves as if it were a part of it. Their momentum stays: what moved differently before
+/// moves together afterwards. Placed by hand, they are welded as they then stand.
 /// object  a free body that is welded to nothing
 /// to      any other body, which does not hang on the object by welds
 /// throws  Error

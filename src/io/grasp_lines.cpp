@@ -235,10 +235,10 @@ int read_edges(Fields& fields) {
   if (value == "exact") return round_edges;
   const double edges = value.is_number() ? value.get<double>() : -1;
   if (edges != std::floor(edges) || edges > max_edges || (edges < 3 && edges != round_edges))
-    Fields::refuse(fields.at("edges"),
-                   fmt::format("a whole number from 3 to {}, or \"exact\" or 0 for round cones",
-                               max_edges),
-                   value);
+    Fields::refuse(
+        fields.at("edges"),
+        fmt::format("a whole number from 3 to {}, or \"exact\" or 0 for round cones", max_edges),
+        value);
   return static_cast<int>(edges);
 }
 
@@ -251,7 +251,8 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.object_file = fields.text("object_file", false);
   if (const Json* pose = fields.find("pose")) out.X_OH = read_pose(*pose, fields.at("pose"));
   out.dofs = fields.numbers("dofs");
-  for (const auto& [key, list] : {std::pair{"dof_names", &out.dof_names}, {"dof_units", &out.dof_units}})
+  for (const auto& [key, list] :
+       {std::pair{"dof_names", &out.dof_names}, {"dof_units", &out.dof_units}})
     if (fields.find(key)) *list = fields.texts(key, out.dofs.size());
   check_dof_names(fields.at("dof_names"), out.dof_names);
   check_dof_units(fields.at("dof_units"), out.dof_units);

@@ -1,4 +1,5 @@
-// Lists of grasps as JSON lines: what kind of file it is on the first, a grasp on each that follows.
+// Lists of grasps as JSON lines: what kind of file it is on the first, a grasp on each that
+// follows.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -40,7 +40,8 @@ BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options) {
   check_options(options);
   return of_file([&] {
-    RobotSpec robot = FileCache(options, all_formats).robot(find_file(path.string(), "", options), options.body);
+    RobotSpec robot =
+        FileCache(options, all_formats).robot(find_file(path.string(), "", options), options.body);
     robot.source = path.generic_string();
     read_chosen_files(robot, options);
     return robot;
@@ -89,7 +90,8 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
     FileCache cache(options, all_formats);
     const auto found = find_file(path.string(), "", options);
     WorldSpec world = world_of(found, cache);
-    std::set<std::pair<std::string, const Shape*>> told;  // of what stands there more than once, one
+    std::set<std::pair<std::string, const Shape*>>
+        told;  // of what stands there more than once, one
     std::vector<const BodySpec*> objects, obstacles;
     for (const PlacedBody& placed : world.bodies) {
       const std::string& file = placed.body.file.empty() ? placed.body.name : placed.body.file;

@@ -5,14 +5,16 @@
 
 namespace clench {
 
-/// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any case.
+/// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any
+/// case.
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, expected, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// A robot from .cfg or .xml of GraspIt!, .urdf, .mjcf, or .xml that holds one of these.
 RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// A world from .wld, .xml or a scene of MJCF; with one thing in it from the file of a robot or a body.
+/// A world from .wld, .xml or a scene of MJCF; with one thing in it from the file of a robot or a
+/// body.
 WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace clench

@@ -25,11 +25,12 @@ class RobotFolder {
   /// "hand.urdf does not hold ..."
   void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
 
-  /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ. Equal ones share a
-  /// file.
+  /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ. Equal ones
+  /// share a file.
   /// returns  the name from the robot's folder on
   std::string mesh(const Mesh& mesh, const Appearance& looks, const std::string& part);
-  /// eigen/HAND_urdf.egr, or .xml where amplitudes have limits; virtual/HAND_urdf.vgr; glove/HAND_urdf.txt.
+  /// eigen/HAND_urdf.egr, or .xml where amplitudes have limits; virtual/HAND_urdf.vgr;
+  /// glove/HAND_urdf.txt.
   /// returns  the name from the robot's folder on
   std::string eigengrasps(const EigengraspSet& set);
   std::string virtual_contacts(const VirtualContactSet& set);

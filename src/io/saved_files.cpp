@@ -110,8 +110,8 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
       ReadOptions options = reading_;
       options.folder = robot.files.folder;
       options.packages.insert(robot.files.packages.begin(), robot.files.packages.end());
-      read = &(given_[robot.name] = FileCache(options, all_formats)
-                                       .robot(robot.file, robot.files.body));
+      read = &(given_[robot.name] =
+                   FileCache(options, all_formats).robot(robot.file, robot.files.body));
     }
   } catch (const Error& error) {
     fail(error.kind(), "robot '{}' cannot be saved: {}", excerpt(robot.name), error.what());

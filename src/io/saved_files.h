@@ -24,8 +24,8 @@ class SavedFiles {
   const std::filesystem::path& root() const { return root_; }      ///< absolute, or empty
   const std::filesystem::path& folder() const { return folder_; }  ///< of the world, absolute
 
-  /// What the body's file gives when it is read again; null when it has none, or it is gone or holds
-  /// another surface, which is warned of.
+  /// What the body's file gives when it is read again; null when it has none, or it is gone or
+  /// holds another surface, which is warned of.
   const BodySpec* again(const BodySpec& body);
   /// throws Error  "robot 'DLR' cannot be saved: ..."
   const RobotSpec& again(const RobotSpec& robot);

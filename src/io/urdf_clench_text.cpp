@@ -57,7 +57,8 @@ void ClenchText::add_dof(int number) {
        attribute("kind", std::string(kinds[static_cast<int>(dof.kind)])) +
        attribute("velocity", dof.default_velocity * scale) +
        unless(0, "kp", dof.kp / scale / scale) + unless(0, "kd", dof.kd / scale / scale) +
-       unless(0, "damping_ratio", dof.damping_ratio) + unless(0, "breakaway", dof.breakaway_torque / scale) +
+       unless(0, "damping_ratio", dof.damping_ratio) +
+       unless(0, "breakaway", dof.breakaway_torque / scale) +
        unless(0, "handle", dof.dragger_scale) + attribute("start", dof.default_value * scale) +
        (dof.driven ? "" : attribute("driven", std::string("false"))) + "/>");
 }
@@ -128,8 +129,8 @@ void ClenchText::add_actuator(const ActuatorSpec& actuator) {
     out += attribute("moves", plan_.joints[plan_.leader_of[actuator.dof]].name);
   out += attribute("gear", sense * actuator.gear);
   if (actuator.law_known)
-    out += attribute("gain", actuator.gain) + fmt::format(" bias=\"{} {} {}\"", actuator.bias[0],
-                                                          actuator.bias[1], actuator.bias[2]);
+    out += attribute("gain", actuator.gain) +
+           fmt::format(" bias=\"{} {} {}\"", actuator.bias[0], actuator.bias[1], actuator.bias[2]);
   const auto range = [&](const char* name, const auto& bounds) {
     if (bounds) out += fmt::format(" {}=\"{} {}\"", name, (*bounds)[0], (*bounds)[1]);
   };

@@ -109,7 +109,8 @@ void Planner::set_limits(UrdfJoint& joint) const {
   joint.max = turned ? -low : high;
   // that of a slide is told by its limits
   joint.endless = spec.endless && !stopped;
-  if (joint.endless && spec.kind == JointKind::prismatic) joint.min = -unlimited, joint.max = unlimited;
+  if (joint.endless && spec.kind == JointKind::prismatic)
+    joint.min = -unlimited, joint.max = unlimited;
 }
 
 /// With everything but its place in the tree.

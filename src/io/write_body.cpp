@@ -45,7 +45,8 @@ void add_softness(const BodySpec& body, std::vector<std::string>& out) {
     out.push_back(fmt::format("soft layer {} m", body.soft_layer));
   if (body.poisson_ratio != plain.poisson_ratio)
     out.push_back(fmt::format("Poisson's ratio {}", body.poisson_ratio));
-  if (body.restitution != plain.restitution) out.push_back(fmt::format("restitution {}", body.restitution));
+  if (body.restitution != plain.restitution)
+    out.push_back(fmt::format("restitution {}", body.restitution));
 }
 
 // --- Inventor ---

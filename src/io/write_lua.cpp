@@ -167,8 +167,9 @@ void LuaWriter::begin() {
   if (world_.time_step) line("world.time_step = " + number(*world_.time_step));
   if (world_.gravity) line("world.gravity = " + list(*world_.gravity));
   for (const FrictionSpec& f : world_.friction)
-    line(fmt::format("world:set_friction({}, {}, {{static = {}, kinetic = {}{}}})", as_lua(f.a), as_lua(f.b), number(f.statics),
-                     number(f.kinetic), f.restitution ? ", restitution = " + number(*f.restitution) : ""));
+    line(fmt::format("world:set_friction({}, {}, {{static = {}, kinetic = {}{}}})", as_lua(f.a),
+                     as_lua(f.b), number(f.statics), number(f.kinetic),
+                     f.restitution ? ", restitution = " + number(*f.restitution) : ""));
   if (!world_.robots.empty()) line("local robots = {}");
 }
 
@@ -185,8 +186,8 @@ void LuaWriter::add_body(const PlacedBody& placed) {
   else
     made = file(files_.write_body(body).generic_string());
   if (!read && body.appearance.visual)
-    files_.warn(fmt::format("the surface that pictures show of '{}' is not saved",
-                            excerpt(body.name)));
+    files_.warn(
+        fmt::format("the surface that pictures show of '{}' is not saved", excerpt(body.name)));
   if (!read && !body.appearance.triangle_colors.empty())
     files_.warn(
         fmt::format("the colours of the triangles of '{}' are not saved", excerpt(body.name)));

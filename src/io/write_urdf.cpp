@@ -185,9 +185,10 @@ void UrdfText::tell_moved_frames() const {
   for (const UrdfLink& link : plan_.links)
     if (link.body && !(link.X_UB == Pose{})) moved.push_back(link.name);
   if (!moved.empty())
-    folder_.warn(fmt::format("{}: the frames of these links are others in it, on the axes of their "
-                             "joints: {}",
-                             folder_.file(), some_names(moved)));
+    folder_.warn(
+        fmt::format("{}: the frames of these links are others in it, on the axes of their "
+                    "joints: {}",
+                    folder_.file(), some_names(moved)));
 }
 
 bool UrdfText::has_all_dofs(const char* what) const {

@@ -79,7 +79,8 @@ bool holds(const ScaledProgram& scaled, const SolvedPart& part, const Terms& t, 
     const double value = -(t.b.dot(t.y) + t.h.dot(t.z));
     const double off = std::max(max_norm(t.Aty + t.Gtz), outside(scaled, t.z));
     r.dual_residual = off / value;
-    // of equations that all but agree the value is small: then sums are as good as rounding lets them be
+    // of equations that all but agree the value is small: then sums are as good as rounding lets
+    // them be
     const double rounding = 1e-15 * std::max(max_norm(t.y), max_norm(t.z));
     return value > 0 && off <= std::max(proof_tolerance * value, rounding);
   }

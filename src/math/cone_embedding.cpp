@@ -61,8 +61,8 @@ ConePoint first_point(const ConeRows& rows, ConeKkt& kkt) {
   return p;
 }
 
-// The step that takes `part` of the residuals away and brings the products of s and z, and of tau and kappa, to
-// what is asked of them.
+// The step that takes `part` of the residuals away and brings the products of s and z, and of tau
+// and kappa, to what is asked of them.
 struct Newton {
   const ConeRows& rows;
   const ConeKkt& kkt;
@@ -100,7 +100,8 @@ struct Newton {
     d.x = both.head(n);
     d.z = both.tail(rows.count());
     d.z.tail(m) = scaling.apply_inverse(d.z.tail(m));
-    // from the rows, not from z: so that rounding is left to the products, which the next step repairs
+    // from the rows, not from z: so that rounding is left to the products, which the next step
+    // repairs
     d.s = (d.tau * rows.b - part * missing.z - rows.A * d.x).tail(m);
     d.kappa = -(product + at.kappa * d.tau) / at.tau;
     return d;

@@ -7,7 +7,8 @@
 
 namespace clench {
 
-/// Where the embedding is: x / tau solves the program when tau > 0, x or z proves that nothing does when kappa > 0
+/// Where the embedding is: x / tau solves the program when tau > 0, x or z proves that nothing does
+/// when kappa > 0
 struct ConePoint {
   Eigen::VectorXd x, z;  // z: one per row
   Eigen::VectorXd s;     // one per row of the cones
@@ -22,8 +23,8 @@ struct ConeQuality {
   double proof() const { return std::min(infeasible, unbounded); }
 };
 
-/// optimal: point.x / tau solves it; infeasible: point.z proves it; unbounded: point.x does; inaccurate: the best
-/// point
+/// optimal: point.x / tau solves it; infeasible: point.z proves it; unbounded: point.x does;
+/// inaccurate: the best point
 struct EmbeddingEnd {
   ConeStatus status = ConeStatus::inaccurate;
   ConePoint point;
@@ -32,7 +33,8 @@ struct EmbeddingEnd {
 };
 
 /// rows  scaled to about one
-/// source  Goulart & Chen (2024), Clarabel: an interior-point solver for conic programs with quadratic objectives
+/// source  Goulart & Chen (2024), Clarabel: an interior-point solver for conic programs with
+///         quadratic objectives
 EmbeddingEnd solve_embedding(const ConeRows& rows);
 
 }  // namespace clench

@@ -22,15 +22,16 @@ struct ConeRows {
   int in_cones() const { return count() - equal; }
 };
 
-/// [P A^T; A -W^2], its cones' rows over W and its unknowns there times W: [P A^T W^-1; W^-1 A -1]. That is
-/// what keeps it well conditioned to the end. W is 0 in the equations.
+/// [P A^T; A -W^2], its cones' rows over W and its unknowns there times W: [P A^T W^-1; W^-1 A -1].
+/// That is what keeps it well conditioned to the end. W is 0 in the equations.
 class ConeKkt {
  public:
   explicit ConeKkt(const ConeRows& rows);
   /// rows and scaling must outlive the solutions
   /// returns  false when there is no factor
   bool factor(const NesterovTodd& scaling);
-  /// right and left in its own rows and unknowns; refined, so that what keeps the factors regular is not in it
+  /// right and left in its own rows and unknowns; refined, so that what keeps the factors regular
+  /// is not in it
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:

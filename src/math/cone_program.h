@@ -5,8 +5,9 @@
 
 namespace clench {
 
-/// minimise 1/2 x.P x + c.x  subject to  A x = b,  G x + s = h,  s in K: the first `nonnegative` rows of s
-/// are >= 0, then come second-order cones (t, u), |u| <= t, of the sizes given. P, A or G may be empty.
+/// minimise 1/2 x.P x + c.x  subject to  A x = b,  G x + s = h,  s in K: the first `nonnegative`
+/// rows of s are >= 0, then come second-order cones (t, u), |u| <= t, of the sizes given. P, A or G
+/// may be empty.
 struct ConeProgram {
   Eigen::MatrixXd P;  ///< symmetric, positive semidefinite
   Eigen::VectorXd c;  ///< one per unknown

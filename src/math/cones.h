@@ -1,5 +1,5 @@
-// Products of second-order cones {(t, u): |u| <= t} and what an interior-point method does on them. A cone of
-// size 1 is the half line t >= 0.
+// Products of second-order cones {(t, u): |u| <= t} and what an interior-point method does on them.
+// A cone of size 1 is the half line t >= 0.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -14,7 +14,8 @@ Eigen::VectorXd cone_unit(const ConeSizes& cones);
 /// The least t - |u|: how far inside v lies; below 0: outside. Infinite without cones.
 double cone_margin(const ConeSizes& cones, const Eigen::VectorXd& v);
 
-/// The longest step a for which v + a dv stays inside; infinite when each does.   v  strictly inside
+/// The longest step a for which v + a dv stays inside; infinite when each does.   v  strictly
+/// inside
 double longest_step(const ConeSizes& cones, const Eigen::VectorXd& v, const Eigen::VectorXd& dv);
 
 /// Jordan's product a o b = (a.b, a0 b1 + b0 a1), and its inverse: divide(a, a o b) = b.
@@ -25,7 +26,8 @@ Eigen::VectorXd cone_divide(const ConeSizes& cones, const Eigen::VectorXd& a,
 
 /// The symmetric W that takes z and s to the same point: W z = W^-1 s = lambda.
 /// s, z    strictly inside
-/// source  Nesterov & Todd (1997); Vandenberghe (2010), The CVXOPT linear and quadratic cone program solvers
+/// source  Nesterov & Todd (1997); Vandenberghe (2010), The CVXOPT linear and quadratic cone
+///         program solvers
 class NesterovTodd {
  public:
   /// W = 1

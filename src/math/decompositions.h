@@ -32,7 +32,8 @@ Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric);
 /// x of m x = right.   m  symmetric and positive definite
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd& right);
 
-/// x of least |m x - right|, where m's columns are independent; dependent ones share as the pivots fall.
+/// x of least |m x - right|, where m's columns are independent; dependent ones share as the pivots
+/// fall.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& m, const Eigen::VectorXd& right);
 
 /// x of m x = right, for many right sides.
@@ -56,7 +57,8 @@ struct IndependentRows {
 /// A row within `tolerance` of the span of others, of the largest row, depends on them.   m  finite
 IndependentRows independent_rows(const Eigen::MatrixXd& m, double tolerance);
 
-/// The least turn that brings one direction to another; between opposite ones, any of the half turns.
+/// The least turn that brings one direction to another; between opposite ones, any of the half
+/// turns.
 Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace clench

@@ -19,7 +19,8 @@ constexpr double zero = 1e-11, tie = 1e-12;
 /// The rows  basic + (inverse of the basis) (w - M z - z0) = right;  columns: w, z, z0, right.
 class Tableau {
  public:
-  Tableau(const MatrixXd& M, const VectorXd& q) : n_(static_cast<int>(q.size())), rows_(n_, 2 * n_ + 2), basis_(n_) {
+  Tableau(const MatrixXd& M, const VectorXd& q)
+      : n_(static_cast<int>(q.size())), rows_(n_, 2 * n_ + 2), basis_(n_) {
     rows_.leftCols(n_).setIdentity();
     rows_.middleCols(n_, n_) = -M;
     rows_.col(2 * n_).setConstant(-1);
@@ -51,7 +52,9 @@ class Tableau {
     const double ratio = rows_(best, 2 * n_ + 1) / rows_(best, entering);
     for (int i = 0; i < n_; ++i) {
       const double pivot = rows_(i, entering);
-      if (basis_[i] == z0() && pivot > least && rows_(i, 2 * n_ + 1) / pivot <= ratio + tie * (1 + std::abs(ratio))) return i;
+      if (basis_[i] == z0() && pivot > least &&
+          rows_(i, 2 * n_ + 1) / pivot <= ratio + tie * (1 + std::abs(ratio)))
+        return i;
     }
     return best;
   }
@@ -130,8 +133,10 @@ LcpSolution solve_lcp(const MatrixXd& M, const VectorXd& q, int max_iterations) 
         if (tableau.basic(i) >= n) basic.push_back(tableau.basic(i) - n);
       std::sort(basic.begin(), basic.end());
       solution.z = solve_basis(M, q, basic);
-      if (solution.z.allFinite()) solution.status = LcpStatus::solved;
-      else solution.z.setZero();
+      if (solution.z.allFinite())
+        solution.status = LcpStatus::solved;
+      else
+        solution.z.setZero();
       return solution;
     }
     entering = tableau.complement(left);

@@ -6,7 +6,8 @@ namespace clench {
 
 enum class LcpStatus {
   solved,
-  ray,             ///< the pivots end at infinity: no solution found, and none exists where M is copositive-plus
+  /// the pivots end at infinity: no solution found, and none exists where M is copositive-plus
+  ray,
   iteration_limit  ///< or a basis that rounding made singular
 };
 
@@ -16,9 +17,9 @@ struct LcpSolution {
   int iterations = 0;
 };
 
-/// z >= 0 with w = M z + q >= 0 and z.w = 0, by Lemke's method with a covering vector of ones. Ties are broken
-/// lexicographically, so that pivots never cycle, and the same way every time. Dense: up to a few hundred rows, of
-/// numbers of about one.
+/// z >= 0 with w = M z + q >= 0 and z.w = 0, by Lemke's method with a covering vector of ones. Ties
+/// are broken lexicographically, so that pivots never cycle, and the same way every time. Dense: up
+/// to a few hundred rows, of numbers of about one.
 ///
 /// max_iterations  0: 50 per row, and 200
 /// source          Cottle, Pang & Stone (1992), The linear complementarity problem, 4.4 and 4.9

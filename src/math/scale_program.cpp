@@ -9,7 +9,8 @@ namespace clench {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// rows that others give to this are dependent; what is said of them must then agree to ten times that
+// rows that others give to this are dependent; what is said of them must then agree to ten times
+// that
 static constexpr double depends = 1e-10, agrees = 1e-9;
 
 // 0 counts as 1

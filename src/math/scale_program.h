@@ -1,4 +1,5 @@
-// Rows, columns and sizes of a cone program brought to about one, by powers of two: without rounding.
+// Rows, columns and sizes of a cone program brought to about one, by powers of two: without
+// rounding.
 #pragma once
 #include <optional>
 
@@ -6,8 +7,8 @@
 
 namespace clench {
 
-/// The same program in unknowns x' = x / columns, with rows multiplied by rows_equal and rows_cone (one number a
-/// cone).
+/// The same program in unknowns x' = x / columns, with rows multiplied by rows_equal and rows_cone
+/// (one number a cone).
 struct ScaledProgram {
   Eigen::MatrixXd P, A, G;
   Eigen::VectorXd c, b, h;

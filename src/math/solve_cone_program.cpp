@@ -104,8 +104,8 @@ EmbeddingEnd contradiction(const ScaledProgram& scaled, const SolvedPart& part, 
   return end;
 }
 
-// The least change of x that meets A x = b, as the last steps of the solver lose digits: as small as what is missing, far
-// within what cones are checked to.
+// The least change of x that meets A x = b, as the last steps of the solver lose digits: as small
+// as what is missing, far within what cones are checked to.
 void restore_equations(const MatrixXd& A, const VectorXd& b, VectorXd& x) {
   VectorXd left = b - A * x;
   for (int pass = 0; pass < 3; ++pass) {
@@ -118,7 +118,8 @@ void restore_equations(const MatrixXd& A, const VectorXd& b, VectorXd& x) {
   }
 }
 
-// The same of a proof, A^T y + G^T z = 0, each number by a part of its cone's, so that what is hardly inside stays there.
+// The same of a proof, A^T y + G^T z = 0, each number by a part of its cone's, so that what is
+// hardly inside stays there.
 VectorXd restored_proof(const ConeRows& rows, const VectorXd& z) {
   VectorXd sizes = VectorXd::Constant(z.size(), z.lpNorm<Eigen::Infinity>());
   int start = rows.equal;
@@ -185,8 +186,8 @@ ConeSolution unscaled(const ConeProgram& program, const ScaledProgram& scaled,
   return out;
 }
 
-// Unknowns whose columns are sums of others', in P, A and G: x moves along them and nothing notices but, perhaps,
-// the objective.
+// Unknowns whose columns are sums of others', in P, A and G: x moves along them and nothing notices
+// but, perhaps, the objective.
 struct Idle {
   std::vector<int> unknowns;
   std::vector<int> others;
@@ -263,7 +264,8 @@ ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled,
   return fewer;
 }
 
-// how far half lines may be at first: by the size of what is asked for, or, where nothing is, by the nearest of them
+// how far half lines may be at first: by the size of what is asked for, or, where nothing is, by
+// the nearest of them
 double first_limit(const ScaledProgram& scaled, const std::vector<int>& roomy) {
   VectorXd asked(scaled.b.size() + scaled.h.size());
   asked << scaled.b, scaled.h;
@@ -275,8 +277,9 @@ double first_limit(const ScaledProgram& scaled, const std::vector<int>& roomy) {
   return far * (asked.isZero(0) ? nearest : asked.lpNorm<Eigen::Infinity>());
 }
 
-// A solution, or one of the proofs; of a program that has neither solution nor bound, any of the two. Half lines far away
-// are left out, which would set the size of all numbers, and come in where they bind or are needed.
+// A solution, or one of the proofs; of a program that has neither solution nor bound, any of the
+// two. Half lines far away are left out, which would set the size of all numbers, and come in where
+// they bind or are needed.
 ConeSolution solve_once(const ConeProgram& program) {
   const ScaledProgram scaled = scale_program(program);
   const std::vector<int> roomy = roomy_rows(scaled);

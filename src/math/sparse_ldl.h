@@ -1,11 +1,13 @@
-// Symmetric systems that are mostly zeros: positive definite in some unknowns, negative in the others.
+// Symmetric systems that are mostly zeros: positive definite in some unknowns, negative in the
+// others.
 #pragma once
 #include <Eigen/SparseCore>
 #include <memory>
 
 namespace clench {
 
-/// m = L D L^T after a reordering that keeps L sparse; it exists for every quasi-definite m, without pivots.
+/// m = L D L^T after a reordering that keeps L sparse; it exists for every quasi-definite m,
+/// without pivots.
 /// source  Vanderbei (1995), Symmetric quasidefinite matrices
 class SparseLdl {
  public:

@@ -10,8 +10,8 @@
 
 namespace clench {
 
-// a stop is deep in the threshold, so that the whole of a patch is within it, and far above rounding:
-// steps aim at the one part of the threshold, and what is below the other is there
+// a stop is deep in the threshold, so that the whole of a patch is within it, and far above
+// rounding: steps aim at the one part of the threshold, and what is below the other is there
 static constexpr double aim = 0.2;
 static constexpr double there = 0.3;
 // a bound is at least this part of the distance, and used beyond so many thresholds

@@ -11,8 +11,8 @@ namespace clench {
 // six digits of a metre and of a radian
 static constexpr double digits = 1e-5;
 
-// inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its breakaway DOF has gone
-// on beyond it; any other follows its DOF
+// inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its
+// breakaway DOF has gone on beyond it; any other follows its DOF
 static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
                                                           const Eigen::VectorXd& q,
                                                           const std::vector<JointPosition>& given,
@@ -26,7 +26,8 @@ static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
     const Joint& joint = robot.joints[j];
     const bool sprung = robot.dofs[joint.dof].kind == DofKind::compliant;
     const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[j]) * joint.ratio > 0;
-    const bool inside = joint.endless || (*out[j] >= joint.min - digits && *out[j] <= joint.max + digits);
+    const bool inside =
+        joint.endless || (*out[j] >= joint.min - digits && *out[j] <= joint.max + digits);
     if (beyond && inside) continue;
     if (listeners.warn && beyond)
       listeners.warn(fmt::format(

@@ -10,8 +10,9 @@ namespace clench {
 /// wins. DOF values outside their limits are brought to the nearest limit. The listeners are told.
 World build_world(const WorldSpec& spec, const Listeners& listeners = {});
 
-/// Switches off the pairs of a robot's own bodies that overlap, or are nearer than `closer_than` [m],
-/// where it stands: models whose links reach into each other at a joint could otherwise never move.
+/// Switches off the pairs of a robot's own bodies that overlap, or are nearer than `closer_than`
+/// [m], where it stands: models whose links reach into each other at a joint could otherwise never
+/// move.
 /// returns  those pairs
 std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double closer_than = 0);
 

@@ -146,7 +146,9 @@ void Describer::add_friction() {
       const Friction f = table.friction(i, j);
       const Friction usual = i < known ? standard.friction(i, j) : Friction{};
       if (i >= known && i == j) continue;
-      if (f.statics != usual.statics || f.kinetic != usual.kinetic || f.restitution != usual.restitution) add(i, j);
+      if (f.statics != usual.statics || f.kinetic != usual.kinetic ||
+          f.restitution != usual.restitution)
+        add(i, j);
     }
 }
 
@@ -183,7 +185,8 @@ WorldSpec Describer::describe() {
   out_.gravity = world_.gravity();
   add_keyframes();
   add_friction();
-  if (const double step = world_.dynamic_settings().step; step != DynamicSettings{}.step) out_.time_step = step;
+  if (const double step = world_.dynamic_settings().step; step != DynamicSettings{}.step)
+    out_.time_step = step;
   add_collision();
   return std::move(out_);
 }

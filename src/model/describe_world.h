@@ -4,9 +4,10 @@
 
 namespace clench {
 
-/// Everything that World::hash covers but how a world moves beside its time step (velocities, motors, DynamicSettings), and
-/// how things look. Where those are as in a new world build_world makes one of the same hash. Bodies in the order of creation,
-/// all their properties given; robots with their DOFs and breakaway states, but without what nothing acts on (tendons, tactile
+/// Everything that World::hash covers but how a world moves beside its time step (velocities,
+/// motors, DynamicSettings), and how things look. Where those are as in a new world build_world
+/// makes one of the same hash. Bodies in the order of creation, all their properties given; robots
+/// with their DOFs and breakaway states, but without what nothing acts on (tendons, tactile
 /// sensors).
 WorldSpec describe_world(const World& world);
 

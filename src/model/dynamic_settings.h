@@ -23,10 +23,12 @@ struct Gains {
 };
 
 struct RobotDynamics {
-  bool floating = false;             ///< does its base move freely? else it stands, or moves as its velocity says
-  bool gravity_compensation = true;  ///< do its motors carry its own weight?
+  /// does its base move freely? else it stands, or moves as its velocity says
+  bool floating = false;
+  bool gravity_compensation = true;         ///< do its motors carry its own weight?
   std::vector<std::optional<Gains>> gains;  ///< in place of those of its file; empty: none
-  bool breakaway = false;            ///< do joints leave breakaway DOFs? else these drive them rigidly, as in the original's dynamics
+  /// do joints leave breakaway DOFs? else these drive them rigidly, as in the original's dynamics
+  bool breakaway = false;
 
   bool operator==(const RobotDynamics&) const = default;
 };
@@ -35,10 +37,12 @@ struct DynamicSettings {
   double step = 1e-3;  ///< > 0 [s]
   DynamicsEngine engine = DynamicsEngine::clench;
   FrictionCone cone = FrictionCone::round;
-  int cone_edges = 8;  ///< of a pyramid
+  int cone_edges = 8;                         ///< of a pyramid
   std::map<Id<Robot>, RobotDynamics> robots;  ///< others are as RobotDynamics begins
-  std::map<Id<Body>, Eigen::Vector3d> surface_velocities;  ///< of conveyor belts, in their bodies' frames [m/s]
-  std::map<Id<Body>, Id<Body>> welds;  ///< objects, and the body with which each moves as one piece; no cycles
+  /// of conveyor belts, in their bodies' frames [m/s]
+  std::map<Id<Body>, Eigen::Vector3d> surface_velocities;
+  /// objects, and the body with which each moves as one piece; no cycles
+  std::map<Id<Body>, Id<Body>> welds;
 
   bool operator==(const DynamicSettings&) const = default;
   const RobotDynamics& robot(Id<Robot> id) const {

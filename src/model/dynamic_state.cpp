@@ -2,7 +2,8 @@
 
 namespace clench {
 
-// source  the polynomial that begins and ends at rest, without acceleration (Craig (2005), Introduction to Robotics, 7.3)
+// source  the polynomial that begins and ends at rest, without acceleration (Craig (2005),
+//         Introduction to Robotics, 7.3)
 static double quintic(const Trajectory& t, double s, bool slope) {
   const double d = t.to - t.from;
   if (slope) return d * s * s * (30 + s * (-60 + s * 30));
@@ -27,9 +28,9 @@ static size_t bytes_of(const std::vector<T>& items) {
 }
 
 size_t DynamicState::bytes() const {
-  size_t sum = sizeof *this + bytes_of(twists) + bytes_of(solved) + bytes_of(dof_velocities) + bytes_of(joint_velocities) +
-               bytes_of(controls) + bytes_of(dof_efforts) + bytes_of(loads) + bytes_of(manifolds) +
-               bytes_of(sweep_poses) + bytes_of(row_forces);
+  size_t sum = sizeof *this + bytes_of(twists) + bytes_of(solved) + bytes_of(dof_velocities) +
+               bytes_of(joint_velocities) + bytes_of(controls) + bytes_of(dof_efforts) +
+               bytes_of(loads) + bytes_of(manifolds) + bytes_of(sweep_poses) + bytes_of(row_forces);
   for (const Manifold& m : manifolds) sum += bytes_of(m.points);
   return sum;
 }

@@ -1,4 +1,5 @@
-// How a world moves: velocities, what motors are to do, and what a step of dynamics leaves for the next one.
+// How a world moves: velocities, what motors are to do, and what a step of dynamics leaves for the
+// next one.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -28,14 +29,15 @@ struct Load {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]
 };
 
-/// What the motor of a DOF does. position: a spring and a damper of the DOF's gains hold it at the target; velocity: the
-/// damper alone; effort: it gives what it is told.
+/// What the motor of a DOF does. position: a spring and a damper of the DOF's gains hold it at the
+/// target; velocity: the damper alone; effort: it gives what it is told.
 enum class ControlMode { position, velocity, effort };
 
-/// A smooth way from one value to another: a polynomial of the fifth degree in time, without acceleration at its ends.
+/// A smooth way from one value to another: a polynomial of the fifth degree in time, without
+/// acceleration at its ends.
 struct Trajectory {
-  double from = 0, to = 0;                  ///< [rad or m]
-  double begin = 0, duration = 0;           ///< in the world's time [s]
+  double from = 0, to = 0;         ///< [rad or m]
+  double begin = 0, duration = 0;  ///< in the world's time [s]
 
   double value(double time) const;
   double velocity(double time) const;
@@ -49,39 +51,44 @@ struct DofControl {
   std::optional<Trajectory> trajectory;
 };
 
-/// A point of a manifold: where two bodies touch, in their frames, so that it follows them while they hardly move.
+/// A point of a manifold: where two bodies touch, in their frames, so that it follows them while
+/// they hardly move.
 struct ManifoldPoint {
   Eigen::Vector3d p_a = {}, p_b = {};  ///< on both surfaces, each in its body's frame [m]
   Eigen::Vector3d normal = {};         ///< unit, from a into b, in the frame of a
   Feature feature_a = {}, feature_b = {};
-  double gap = 0;                 ///< when the last step ended [m]
+  double gap = 0;                                    ///< when the last step ended [m]
   std::shared_ptr<const SoftPatch> patch = nullptr;  ///< of a soft contact, else null
-  double torsion_radius = 0;      ///< of a soft contact, under the force torsion_force [m]
-  double torsion_force = 0;       ///< [N]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on b, of the last step, in the frame of a [N]
-  double torsion = 0;             ///< about the normal, on b [N m]
+  double torsion_radius = 0;  ///< of a soft contact, under the force torsion_force [m]
+  double torsion_force = 0;   ///< [N]
+  /// on b, of the last step, in the frame of a [N]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  double torsion = 0;  ///< about the normal, on b [N m]
 };
 
 /// What is known of a pair of bodies between steps.
 struct Manifold {
-  Id<Body> a, b;         ///< the earlier one is a
-  Pose X_AB;             ///< when it was last measured
-  Pose X_AB_left;        ///< when the last step ended: elsewhere, somebody has moved them, and it is measured anew
-  double clearance = 0;  ///< they were at least this far apart when it was measured [m]; 0: they overlapped
+  Id<Body> a, b;  ///< the earlier one is a
+  Pose X_AB;      ///< when it was last measured
+  /// when the last step ended: elsewhere, somebody has moved them, and it is measured anew
+  Pose X_AB_left;
+  /// they were at least this far apart when it was measured [m]; 0: they overlapped
+  double clearance = 0;
   std::vector<ManifoldPoint> points;  ///< none beyond the contact threshold
 };
 
 /// What steps came to.
 struct StepReport {
-  int64_t steps = 0;        ///< solved
-  int64_t impacts = 0;      ///< steps that ended before their time, where bodies met
-  int64_t iterations = 0;   ///< of the solver
-  int64_t fallbacks = 0;    ///< islands of bodies that needed its slow methods
-  int64_t failures = 0;     ///< islands whose residual stayed above 1e-9 m/s, or 1e-8 m/s of what rests
+  int64_t steps = 0;       ///< solved
+  int64_t impacts = 0;     ///< steps that ended before their time, where bodies met
+  int64_t iterations = 0;  ///< of the solver
+  int64_t fallbacks = 0;   ///< islands of bodies that needed its slow methods
+  /// islands whose residual stayed above 1e-9 m/s, or 1e-8 m/s of what rests
+  int64_t failures = 0;
   int64_t overlaps = 0;     ///< pairs of bodies that stood in each other when a step began
   double residual = 0;      ///< of the last step [m/s]
   double max_residual = 0;  ///< of all
-  int contacts = 0;             ///< points of the last step
+  int contacts = 0;         ///< points of the last step
 };
 
 /// What a motor, limit, clutch or dry friction gave in the last step.
@@ -93,21 +100,22 @@ struct RowForce {
 
 /// Of a world that has moved; flat arrays like WorldState's.
 struct DynamicState {
-  double time = 0;                           ///< [s]
-  double asked = 0;                          ///< length of the last step, were it not for an impact [s]
-  std::vector<Twist> twists;                 ///< by the index of the body's id; of links too, as of the last step
-  std::vector<Twist> solved;                 ///< likewise: as the last step left them, whatever somebody has set since
-  std::vector<double> dof_velocities;        ///< [rad/s or m/s]
-  std::vector<double> joint_velocities;      ///< likewise
-  std::vector<DofControl> controls;          ///< one per DOF
-  std::vector<double> dof_efforts;           ///< that motors gave in the last step [N m or N]
-  std::vector<Load> loads;                   ///< by index of the body, for the next step alone
-  std::vector<Manifold> manifolds;           ///< of pairs that may meet soon, in creation order
-  std::vector<Pose> sweep_poses;             ///< poses when the pairs were last looked for
-  double sweep_reach = 0;                    ///< how near pairs had to be then [m]
+  double time = 0;            ///< [s]
+  double asked = 0;           ///< length of the last step, were it not for an impact [s]
+  std::vector<Twist> twists;  ///< by the index of the body's id; of links too, as of the last step
+  /// likewise: as the last step left them, whatever somebody has set since
+  std::vector<Twist> solved;
+  std::vector<double> dof_velocities;            ///< [rad/s or m/s]
+  std::vector<double> joint_velocities;          ///< likewise
+  std::vector<DofControl> controls;              ///< one per DOF
+  std::vector<double> dof_efforts;               ///< that motors gave in the last step [N m or N]
+  std::vector<Load> loads;                       ///< by index of the body, for the next step alone
+  std::vector<Manifold> manifolds;               ///< of pairs that may meet soon, in creation order
+  std::vector<Pose> sweep_poses;                 ///< poses when the pairs were last looked for
+  double sweep_reach = 0;                        ///< how near pairs had to be then [m]
   uint64_t sweep_model = 0, sweep_settings = 0;  ///< stamps then
-  double sweep_threshold = 0;                ///< within which they touched then [m]
-  std::vector<RowForce> row_forces;          ///< of what is no contact, by kind and index, for a warm start
+  double sweep_threshold = 0;                    ///< within which they touched then [m]
+  std::vector<RowForce> row_forces;  ///< of what is no contact, by kind and index, for a warm start
   StepReport report;
 
   size_t bytes() const;

@@ -111,12 +111,15 @@ static bool presses(const World& world, const Manifold& m) {
          relative_pose(world, m.a, m.b) == m.X_AB_left;
 }
 
-// The touch of each point of the last step: that on the same features, else the nearest. One that presses where none is becomes one;
-// of balls the step knows better than their facets where they touch.   returns  -1: none
-static std::vector<int> match(const World& world, const Manifold& manifold, const Pose& X_AB, std::vector<Touch>& touches) {
+// The touch of each point of the last step: that on the same features, else the nearest. One that
+// presses where none is becomes one; of balls the step knows better than their facets where they
+// touch.   returns  -1: none
+static std::vector<int> match(const World& world, const Manifold& manifold, const Pose& X_AB,
+                              std::vector<Touch>& touches) {
   constexpr double near = 1e-3;
   const bool press = presses(world, manifold);
-  if (press && (world.body(manifold.a).shape->ball() || world.body(manifold.b).shape->ball())) touches.clear();
+  if (press && (world.body(manifold.a).shape->ball() || world.body(manifold.b).shape->ball()))
+    touches.clear();
   const size_t count = touches.size();
   std::vector<bool> taken(count);
   std::vector<int> out;
@@ -138,8 +141,12 @@ static std::vector<int> match(const World& world, const Manifold& manifold, cons
     const ManifoldPoint& p = manifold.points[k];
     if (out[k] >= 0 || p.force.isZero(0)) continue;
     out[k] = static_cast<int>(touches.size());
-    touches.push_back({.p_a = p.p_a, .p_b = X_AB * p.p_b, .normal_b = p.normal, .gap = std::max(p.gap, 0.0),
-                       .feature_a = p.feature_a, .feature_b = p.feature_b});
+    touches.push_back({.p_a = p.p_a,
+                       .p_b = X_AB * p.p_b,
+                       .normal_b = p.normal,
+                       .gap = std::max(p.gap, 0.0),
+                       .feature_a = p.feature_a,
+                       .feature_b = p.feature_b});
   }
   return out;
 }
@@ -151,7 +158,8 @@ static void add_pressing(const World& world, const Wanted& wanted, std::vector<B
   for (const Manifold& m : world.dynamics()->manifolds) {
     if (!presses(world, m)) continue;
     for (const BodyPair& pair : {BodyPair{m.a, m.b}, BodyPair{m.b, m.a}})
-      if (wanted(pair) && std::ranges::find(pairs, pair) == pairs.end() && std::ranges::find(pairs, BodyPair{pair.second, pair.first}) == pairs.end())
+      if (wanted(pair) && std::ranges::find(pairs, pair) == pairs.end() &&
+          std::ranges::find(pairs, BodyPair{pair.second, pair.first}) == pairs.end())
         pairs.push_back(pair);
   }
 }
@@ -207,7 +215,8 @@ std::vector<Contact> contacts(const World& world, QueryContext* context) {
   Remember memory(world, context);
   std::vector<Contact> out;
   std::vector<BodyPair> pairs = near_bodies(world, world.contact_threshold(), *memory);
-  add_pressing(world, [](const BodyPair& pair) { return pair == ordered(pair.first, pair.second); }, pairs);
+  add_pressing(
+      world, [](const BodyPair& pair) { return pair == ordered(pair.first, pair.second); }, pairs);
   for (auto [a, b] : pairs) {
     memory->progress().check();
     if (first_is_held(world.body(a), world.body(b))) std::swap(a, b);
@@ -220,9 +229,15 @@ std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> othe
                               std::span<const Id<Body>> bodies, QueryContext* context) {
   Remember memory(world, context);
   std::vector<Contact> out;
-  std::vector<BodyPair> pairs = near_bodies(world, others, bodies, world.contact_threshold(), *memory);
-  const auto among = [](std::span<const Id<Body>> some, Id<Body> id) { return std::ranges::find(some, id) != some.end(); };
-  add_pressing(world, [&](const BodyPair& pair) { return among(others, pair.first) && among(bodies, pair.second); }, pairs);
+  std::vector<BodyPair> pairs =
+      near_bodies(world, others, bodies, world.contact_threshold(), *memory);
+  const auto among = [](std::span<const Id<Body>> some, Id<Body> id) {
+    return std::ranges::find(some, id) != some.end();
+  };
+  add_pressing(
+      world,
+      [&](const BodyPair& pair) { return among(others, pair.first) && among(bodies, pair.second); },
+      pairs);
   for (const auto& [a, b] : pairs) {
     memory->progress().check();
     add_contacts(world, a, b, out);

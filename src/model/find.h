@@ -1,5 +1,6 @@
-// Who collides, how far apart, where they touch: queries over a world, which may be asked from many threads, each with a
-// context of its own. Without one nothing is remembered; the answers are the same.
+// Who collides, how far apart, where they touch: queries over a world, which may be asked from many
+// threads, each with a context of its own. Without one nothing is remembered; the answers are the
+// same.
 #pragma once
 #include <span>
 #include <vector>
@@ -17,7 +18,8 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
 /// Does any? It ends at the first that is found.
 bool collides(const World& world, QueryContext* context = nullptr);
 /// Does one of these with anything?
-bool collides(const World& world, std::span<const Id<Body>> bodies, QueryContext* context = nullptr);
+bool collides(const World& world, std::span<const Id<Body>> bodies,
+              QueryContext* context = nullptr);
 
 struct BodyDistance {
   double distance = 0;       ///< [m]; 0 when colliding; infinite when a body has no geometry
@@ -54,8 +56,9 @@ struct Contact {
   double torsion = 0;
 };
 
-/// Contacts of all pairs that may collide; `body` is the later group's. As long as nobody places a pair elsewhere, all that pressed in the
-/// last step are among them, and those of balls are the step's, whose surface lies outside their facets.
+/// Contacts of all pairs that may collide; `body` is the later group's. As long as nobody places a
+/// pair elsewhere, all that pressed in the last step are among them, and those of balls are the
+/// step's, whose surface lies outside their facets.
 std::vector<Contact> contacts(const World& world, QueryContext* context = nullptr);
 std::vector<Contact> contacts(const World& world, std::span<const Id<Body>> others,
                               std::span<const Id<Body>> bodies, QueryContext* context = nullptr);

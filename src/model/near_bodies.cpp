@@ -30,7 +30,8 @@ int widest_axis(const std::vector<SweepItem>& items) {
   return axis;
 }
 
-// By the boxes' lower ends: by insertion, which is quick where they are nearly in order, until too much has been moved.
+// By the boxes' lower ends: by insertion, which is quick where they are nearly in order, until too
+// much has been moved.
 void sort_along(int axis, std::vector<SweepItem>& items) {
   const auto before = [axis](const SweepItem& x, const SweepItem& y) {
     return x.box->low[axis] < y.box->low[axis];
@@ -59,7 +60,8 @@ void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
   }
 }
 
-// with so few bodies the pairs that may collide are looked at one by one, with more a sweep finds them
+// with so few bodies the pairs that may collide are looked at one by one, with more a sweep finds
+// them
 constexpr size_t few = 64;
 
 std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext& context) {
@@ -116,11 +118,10 @@ bool any_near(const World& world, QueryContext& context, Asked collides) {
   std::vector<std::pair<PairCache*, BodyPair>> order;
   for (const BodyPair& p : near_bodies(world, 0, context))
     order.emplace_back(&memory_of(p, context), p);
-  std::ranges::stable_sort(order, [](const auto& x, const auto& y) {
-    return x.first->hit_rate > y.first->hit_rate;
-  });
-  return std::ranges::any_of(
-      order, [&](const auto& x) { return ask(x.second, *x.first, collides); });
+  std::ranges::stable_sort(
+      order, [](const auto& x, const auto& y) { return x.first->hit_rate > y.first->hit_rate; });
+  return std::ranges::any_of(order,
+                             [&](const auto& x) { return ask(x.second, *x.first, collides); });
 }
 
 Pose relative_pose(const World& world, Id<Body> a, Id<Body> b) {

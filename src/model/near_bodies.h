@@ -1,4 +1,5 @@
-// Which bodies of a world are near enough to be looked at: a sweep over their boxes, then their spheres.
+// Which bodies of a world are near enough to be looked at: a sweep over their boxes, then their
+// spheres.
 // source  Cohen, Lin, Manocha & Ponamgi (1995), I-COLLIDE: sweep and prune
 #pragma once
 #include <span>
@@ -21,8 +22,8 @@ std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext
 std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> a,
                                   std::span<const Id<Body>> b, double reach, QueryContext& context);
 
-/// Is there a pair of bodies near enough to touch for which collides(pair, its memory) is true? Pairs that collided often of
-/// late are asked first, and when one does, no others are looked for.
+/// Is there a pair of bodies near enough to touch for which collides(pair, its memory) is true?
+/// Pairs that collided often of late are asked first, and when one does, no others are looked for.
 bool any_near(const World& world, QueryContext& context,
               FunctionRef<bool(const BodyPair&, PairCache&)> collides);
 

@@ -10,7 +10,8 @@
 
 namespace clench {
 
-/// What holds a body in the world, its rounding included: a box along the world's axes, one along its own, and a sphere.
+/// What holds a body in the world, its rounding included: a box along the world's axes, one along
+/// its own, and a sphere.
 struct BodyBox {
   Eigen::Vector3d low, high;
   Eigen::Matrix3d axes;  ///< of its own box, a column each
@@ -29,22 +30,25 @@ struct SweepItem {
 /// May two bodies be as near as reach [m]? True where they are.
 bool within_reach(const BodyBox& a, const BodyBox& b, double reach);
 
-/// One for each thread that asks. It makes answers faster and changes no bit of them: whatever it remembers it compares with
-/// how the world is now, so that nobody has to tell it of changes, restored snapshots or removed bodies.
+/// One for each thread that asks. It makes answers faster and changes no bit of them: whatever it
+/// remembers it compares with how the world is now, so that nobody has to tell it of changes,
+/// restored snapshots or removed bodies.
 class QueryContext {
  public:
-  /// Begins a query of a world; of another family than the last, and all that was remembered is forgotten: ids mean other
-  /// bodies there.
+  /// Begins a query of a world; of another family than the last, and all that was remembered is
+  /// forgotten: ids mean other bodies there.
   void attend(const std::shared_ptr<const void>& lineage, const WorldModel& model);
   /// body     with geometry
   /// returns  stays where it is until attend() is called for a larger model
   const BodyBox& box(Id<Body> id, const Body& body, const Pose& X_WB);
-  /// Bodies with geometry of a small world, and the pairs of them that may collide, as numbers in that list, both in
-  /// creation order; found anew where the world is made or set otherwise than it was.
+  /// Bodies with geometry of a small world, and the pairs of them that may collide, as numbers in
+  /// that list, both in creation order; found anew where the world is made or set otherwise than it
+  /// was.
   struct Candidates {
     std::vector<Id<Body>> bodies;
     std::vector<std::pair<int, int>> pairs;
-    /// The same pairs, those first that collided often of late, each with its memory once it has one.
+    /// The same pairs, those first that collided often of late, each with its memory once it has
+    /// one.
     struct Likely {
       int i, j;
       PairCache* cache = nullptr;
@@ -53,8 +57,8 @@ class QueryContext {
     std::vector<Likely> likely;
   };
   Candidates& candidates(const WorldModel& model, const WorldSettings& settings);
-  /// Bodies with geometry of a large world, in creation order where the world is made otherwise than it was, else as the
-  /// last sweep has left them: nearly in order, when little has moved.
+  /// Bodies with geometry of a large world, in creation order where the world is made otherwise
+  /// than it was, else as the last sweep has left them: nearly in order, when little has moved.
   std::vector<SweepItem>& sweep_order(const WorldModel& model);
   /// Coherence memory of a pair, as ordered() gives it.
   PairCache& pair(Id<Body> a, Id<Body> b);

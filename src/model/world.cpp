@@ -211,8 +211,8 @@ void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
     set_collision(false, made.body_of(a), made.body_of(b));
 }
 
-// Neighbours never meet: a link and the nearest body with a shape on the way to the base. In robots of the original
-// no two links of a chain do, and the base meets no chain's first link.
+// Neighbours never meet: a link and the nearest body with a shape on the way to the base. In robots
+// of the original no two links of a chain do, and the base meets no chain's first link.
 void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) {
   std::vector<Id<Body>> shaped;  // by link: itself or what carries it
   for (const Link& link : robot.links) {
@@ -289,7 +289,8 @@ void World::erase(Id<Body> id) {
   std::erase_if(settings.pairs_off,
                 [&](const auto& pair) { return pair.first == id || pair.second == id; });
   settings.dynamics.surface_velocities.erase(id);
-  std::erase_if(settings.dynamics.welds, [&](const auto& weld) { return weld.first == id || weld.second == id; });
+  std::erase_if(settings.dynamics.welds,
+                [&](const auto& weld) { return weld.first == id || weld.second == id; });
   if (state_.dynamics) {
     DynamicState& state = edit_dynamics();
     std::erase_if(state.manifolds, [&](const Manifold& m) { return m.a == id || m.b == id; });

@@ -51,8 +51,8 @@ class World {
   using Values = Eigen::Map<const Eigen::VectorXd>;
   Values dofs(Id<Robot> id) const;    ///< one per DOF [rad or m]
   Values joints(Id<Robot> id) const;  ///< q of each [rad or m]
-  /// Does the joint stand where its DOF has it? One that has left a breakaway DOF does not, nor one that is held against
-  /// its spring.
+  /// Does the joint stand where its DOF has it? One that has left a breakaway DOF does not, nor one
+  /// that is held against its spring.
   bool follows_dof(Id<Robot> robot, int joint) const;
   /// One per joint: its q where it does not follow its DOF.
   std::vector<JointPosition> own_joint_positions(Id<Robot> robot) const;
@@ -69,8 +69,10 @@ class World {
   /// throws  Error on a wrong count or a number that is not finite; values outside the limits are
   ///         refused by name
   void set_dofs(Id<Robot> robot, const Eigen::VectorXd& q);
-  /// Base and DOFs at once, as a search wants it; DOFs outside their limits are brought to the nearest one.
-  /// throws  Error when the robot is carried, on a wrong count, or when something is not finite; nothing moves then
+  /// Base and DOFs at once, as a search wants it; DOFs outside their limits are brought to the
+  /// nearest one.
+  /// throws  Error when the robot is carried, on a wrong count, or when something is not finite;
+  ///         nothing moves then
   void set_posture(Id<Robot> robot, const Pose& X_WB, const Eigen::VectorXd& q);
   /// The same, with joints that do not follow; used by motion, which has its own checks.
   /// apart  one per joint
@@ -119,7 +121,8 @@ class World {
   void set_dynamic_settings(DynamicSettings settings);
   /// null: all is at rest, and no time has passed
   const DynamicState* dynamics() const { return state_.dynamics.get(); }
-  /// Its arrays have a place for everything that is there; DOFs that are new to it hold where they are.
+  /// Its arrays have a place for everything that is there; DOFs that are new to it hold where they
+  /// are.
   DynamicState& edit_dynamics();
   double time() const { return state_.dynamics ? state_.dynamics->time : 0; }
   Twist twist(Id<Body> id) const;
@@ -132,10 +135,12 @@ class World {
   Eigen::VectorXd dof_velocities(Id<Robot> id) const;
   /// throws  Error on a wrong count or a number that is not finite
   void set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities);
-  /// What a step does: velocities, and everything else, stay. Nothing is checked but that it is a place.
+  /// What a step does: velocities, and everything else, stay. Nothing is checked but that it is a
+  /// place.
   void drift(Id<Body> body, const Pose& X_WB);
   /// joints  all, those that do not follow their DOF among them
-  void drift(Id<Robot> robot, const Pose& X_WB, std::span<const double> dofs, std::span<const double> joints);
+  void drift(Id<Robot> robot, const Pose& X_WB, std::span<const double> dofs,
+             std::span<const double> joints);
   void set_follows_dof(Id<Robot> robot, int joint, bool follows);
 
   // --- what may collide ---
@@ -157,9 +162,9 @@ class World {
 
   // --- time machine ---
   std::shared_ptr<const Snapshot> snapshot() const;
-  /// Exactly as in the snapshot, which was taken of this world or of a clone of it, or of one that this is a clone of:
-  /// what was removed since is back, what was added since is gone.
-  /// throws Error when it was taken of another world
+  /// Exactly as in the snapshot, which was taken of this world or of a clone of it, or of one that
+  /// this is a clone of: what was removed since is back, what was added since is gone. throws Error
+  /// when it was taken of another world
   void restore(const Snapshot& snapshot);
   /// the same object for a world and all clones of it
   std::shared_ptr<const void> lineage() const { return lineage_; }
@@ -206,8 +211,8 @@ class World {
   std::shared_ptr<WorldModel> model_ = std::make_shared<WorldModel>();
   std::shared_ptr<WorldSettings> settings_ = std::make_shared<WorldSettings>();
   WorldState state_;
-  /// Of a world and all its clones: the last numbers that were given. They never go back, so that a restored world cannot
-  /// revive a stale id.
+  /// Of a world and all its clones: the last numbers that were given. They never go back, so that a
+  /// restored world cannot revive a stale id.
   struct Lineage {
     std::atomic<uint32_t> serials = 0;
     std::atomic<uint64_t> stamps = 0;

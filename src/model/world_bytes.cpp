@@ -42,7 +42,8 @@ size_t WorldSettings::bytes() const {
 }
 
 size_t WorldState::bytes() const {
-  return bytes_of(X_WB) + bytes_of(dofs) + bytes_of(joints) + bytes_of(follows_dof) + (dynamics ? dynamics->bytes() : 0);
+  return bytes_of(X_WB) + bytes_of(dofs) + bytes_of(joints) + bytes_of(follows_dof) +
+         (dynamics ? dynamics->bytes() : 0);
 }
 
 size_t World::bytes() const {

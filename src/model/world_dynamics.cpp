@@ -13,7 +13,8 @@ void World::set_dynamic_settings(DynamicSettings settings) {
   check(time_step_rule, settings.step, "world");
   // what is as it was at first is no setting
   for (auto& [id, robot] : settings.robots)
-    if (std::ranges::none_of(robot.gains, [](const auto& gains) { return gains.has_value(); })) robot.gains.clear();
+    if (std::ranges::none_of(robot.gains, [](const auto& gains) { return gains.has_value(); }))
+      robot.gains.clear();
   std::erase_if(settings.robots, [](const auto& of) { return of.second == RobotDynamics{}; });
   edit_settings().dynamics = std::move(settings);
 }
@@ -38,7 +39,8 @@ DynamicState& World::edit_dynamics() {
   for (const auto id : robots()) {
     const Robot& r = robot(id);
     for (size_t i = 0; i < r.dofs.size(); ++i)
-      if (const size_t index = r.first_dof + i; index >= known) state.controls[index] = first_control(r, i);
+      if (const size_t index = r.first_dof + i; index >= known)
+        state.controls[index] = first_control(r, i);
   }
   return state;
 }
@@ -54,7 +56,8 @@ DofControl World::control(Id<Robot> id, int dof) const {
   const Robot& r = robot(id);
   const size_t index = r.first_dof + static_cast<size_t>(dof);
   const DynamicState* state = state_.dynamics.get();
-  return state && index < state->controls.size() ? state->controls[index] : first_control(r, static_cast<size_t>(dof));
+  return state && index < state->controls.size() ? state->controls[index]
+                                                 : first_control(r, static_cast<size_t>(dof));
 }
 
 Twist World::twist(Id<Body> id) const {
@@ -76,7 +79,8 @@ void World::carry_welded() {
   DynamicState& state = edit_dynamics();
   for (const auto& [object, carrier] : welds) {
     Id<Body> first = carrier;  // that is itself welded to nothing
-    for (auto next = welds.find(first); next != welds.end(); next = welds.find(first)) first = next->second;
+    for (auto next = welds.find(first); next != welds.end(); next = welds.find(first))
+      first = next->second;
     state.twists[object.index] = carried_twist(object, first);
   }
 }
@@ -98,7 +102,8 @@ Eigen::VectorXd World::dof_velocities(Id<Robot> id) const {
   const Robot& r = robot(id);
   const auto count = static_cast<Eigen::Index>(r.dofs.size());
   const DynamicState* state = state_.dynamics.get();
-  if (!state || state->dof_velocities.size() < r.first_dof + r.dofs.size()) return Eigen::VectorXd::Zero(count);
+  if (!state || state->dof_velocities.size() < r.first_dof + r.dofs.size())
+    return Eigen::VectorXd::Zero(count);
   return Eigen::Map<const Eigen::VectorXd>(state->dof_velocities.data() + r.first_dof, count);
 }
 
@@ -130,7 +135,8 @@ void World::update_link_twists(Id<Robot> id) {
       if (!joint_moves_link(r, static_cast<int>(j), static_cast<int>(l))) continue;
       const double v = state.joint_velocities[r.first_joint + j];
       twist.linear += v * all.velocity(r, static_cast<int>(j), com);
-      if (r.joints[j].kind == JointKind::revolute) twist.angular += v * all.axis(r, static_cast<int>(j));
+      if (r.joints[j].kind == JointKind::revolute)
+        twist.angular += v * all.axis(r, static_cast<int>(j));
     }
     state.twists[part.index] = twist;
   }
@@ -139,7 +145,8 @@ void World::update_link_twists(Id<Robot> id) {
     if (!mounting || mounting->parent != id) continue;
     const Id<Body> carried = robot(other).base;
     state.twists[carried.index] = carried_twist(carried, r.links[mounting->link].body);
-    if (mounting->piece) state.twists[mounting->piece->index] = carried_twist(*mounting->piece, carried);
+    if (mounting->piece)
+      state.twists[mounting->piece->index] = carried_twist(*mounting->piece, carried);
     update_link_twists(other);
   }
 }
@@ -149,7 +156,8 @@ void World::drift(Id<Body> id, const Pose& X_WB) {
   state_.X_WB[id.index] = X_WB;
 }
 
-void World::drift(Id<Robot> id, const Pose& X_WB, std::span<const double> dofs, std::span<const double> joints) {
+void World::drift(Id<Robot> id, const Pose& X_WB, std::span<const double> dofs,
+                  std::span<const double> joints) {
   const Robot& r = robot(id);
   std::ranges::copy(dofs, state_.dofs.begin() + static_cast<std::ptrdiff_t>(r.first_dof));
   std::ranges::copy(joints, state_.joints.begin() + static_cast<std::ptrdiff_t>(r.first_joint));
@@ -171,7 +179,9 @@ void World::come_to_rest(Id<Robot> id) {
   if (!state_.dynamics) return;
   DynamicState& state = edit_dynamics();
   const Robot& r = robot(id);
-  state.twists[r.base.index] = r.mounting ? carried_twist(r.base, robot(r.mounting->parent).links[r.mounting->link].body) : Twist{};
+  state.twists[r.base.index] =
+      r.mounting ? carried_twist(r.base, robot(r.mounting->parent).links[r.mounting->link].body)
+                 : Twist{};
   for (size_t i = 0; i < r.dofs.size(); ++i) state.dof_velocities[r.first_dof + i] = 0;
   for (size_t i = 0; i < r.joints.size(); ++i) state.joint_velocities[r.first_joint + i] = 0;
   update_link_twists(id);
@@ -186,7 +196,8 @@ void World::hold_dofs(Id<Robot> id) {
   DynamicState& state = edit_dynamics();
   const Robot& r = robot(id);
   for (size_t i = r.first_dof; i < r.first_dof + r.dofs.size(); ++i)
-    state.controls[i] = {.mode = state.controls[i].mode, .target = state_.dofs[i], .trajectory = {}};
+    state.controls[i] = {
+        .mode = state.controls[i].mode, .target = state_.dofs[i], .trajectory = {}};
 }
 
 }  // namespace clench

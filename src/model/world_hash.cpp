@@ -42,7 +42,8 @@ static void add(Hasher& h, const DofControl& control) {
 
 static void add(Hasher& h, const Gains& gains) { h.add(gains.kp), h.add(gains.kd); }
 
-// how a world moves, but for manifolds and warm starts; one that never did has the same as one at rest
+// how a world moves, but for manifolds and warm starts; one that never did has the same as one at
+// rest
 static void add_motion(Hasher& h, const World& world) {
   const DynamicState* state = world.dynamics();
   const auto at = [](const auto& list, size_t i) {
@@ -53,7 +54,8 @@ static void add_motion(Hasher& h, const World& world) {
   const DynamicState& s = state ? *state : rest;
   h.add(s.time);
   for (const auto id : world.bodies()) {
-    for (const Twist& twist : {at(s.twists, id.index), at(s.solved, id.index)}) add(h, twist.linear), add(h, twist.angular);
+    for (const Twist& twist : {at(s.twists, id.index), at(s.solved, id.index)})
+      add(h, twist.linear), add(h, twist.angular);
     const Load load = at(s.loads, id.index);
     add(h, load.force), add(h, load.torque);
   }
@@ -63,14 +65,16 @@ static void add_motion(Hasher& h, const World& world) {
       h.add(at(s.dof_velocities, i));
       add(h, world.control(id, static_cast<int>(i - robot.first_dof)));
     }
-    for (size_t j = robot.first_joint; j < robot.first_joint + robot.joints.size(); ++j) h.add(at(s.joint_velocities, j));
+    for (size_t j = robot.first_joint; j < robot.first_joint + robot.joints.size(); ++j)
+      h.add(at(s.joint_velocities, j));
   }
 }
 
 static void add(Hasher& h, const World& world, const DynamicSettings& settings) {
   const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
   h.add(settings.step);
-  for (const int x : {static_cast<int>(settings.engine), static_cast<int>(settings.cone), settings.cone_edges})
+  for (const int x :
+       {static_cast<int>(settings.engine), static_cast<int>(settings.cone), settings.cone_edges})
     h.add(static_cast<uint64_t>(x));
   for (const auto id : world.robots()) {
     const RobotDynamics& robot = settings.robot(id);
@@ -80,8 +84,10 @@ static void add(Hasher& h, const World& world, const DynamicSettings& settings) 
       if (gains) add(h, *gains);
     }
   }
-  for (const auto& [id, velocity] : settings.surface_velocities) h.add(world.body(id).name), add(h, velocity);
-  for (const auto& [object, to] : settings.welds) h.add(world.body(object).name), h.add(world.body(to).name);
+  for (const auto& [id, velocity] : settings.surface_velocities)
+    h.add(world.body(id).name), add(h, velocity);
+  for (const auto& [object, to] : settings.welds)
+    h.add(world.body(object).name), h.add(world.body(to).name);
 }
 
 uint64_t World::hash() const {

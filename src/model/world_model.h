@@ -70,9 +70,10 @@ struct WorldState {
   std::vector<Pose> X_WB;      ///< by the index of the body's id
   std::vector<double> dofs;    ///< of all robots, from Robot::first_dof on [rad or m]
   std::vector<double> joints;  ///< q, from Robot::first_joint on [rad or m]
-  std::vector<unsigned char>
-      follows_dof;  ///< of each joint: is it engaged, and stands where its DOF has it?
-  /// null until something moves: then all is at rest, and no time has passed. Copied by who changes it while it is shared.
+  /// of each joint: is it engaged, and stands where its DOF has it?
+  std::vector<unsigned char> follows_dof;
+  /// null until something moves: then all is at rest, and no time has passed. Copied by who changes
+  /// it while it is shared.
   std::shared_ptr<DynamicState> dynamics;
 
   /// so that a copy of the other one allocates nothing

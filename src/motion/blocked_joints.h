@@ -20,13 +20,15 @@ struct BlockedJoints {
 
 /// speeds  a joint at 0 is never blocked
 /// touching  contacts of the robot's bodies, and of those of all robots that it carries
-/// A contact that all joints together lead apart blocks none. Of the others, each blocks the joints that alone would
-/// move one body into the other. A gap below `closed` [m] blocks also what would merely slide.
+/// A contact that all joints together lead apart blocks none. Of the others, each blocks the joints
+/// that alone would move one body into the other. A gap below `closed` [m] blocks also what would
+/// merely slide.
 BlockedJoints blocked_joints(const World& world, Id<Robot> robot, const JointSpeeds& speeds,
                              std::span<const Contact> touching, double closed);
 
-/// How fast the contact's body moves against the other at their point, one joint at unit speed: 0 when the joint moves
-/// neither or both.   frames  of the robot, in the world;   returns  world axes [m per unit of the joint]
+/// How fast the contact's body moves against the other at their point, one joint at unit speed: 0
+/// when the joint moves neither or both.   frames  of the robot, in the world;   returns  world
+/// axes [m per unit of the joint]
 Eigen::Vector3d contact_velocity(const World& world, Id<Robot> robot, const RobotFrames& frames,
                                  int joint, const Contact& contact);
 

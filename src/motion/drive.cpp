@@ -16,18 +16,19 @@ namespace clench {
 static constexpr double arrived = 1e-13;
 // changes below this are no motion [rad or m]
 static constexpr double no_motion = 1e-5;
-// fingers that slide along a surface stop and go; one that has not come to rest after so many contacts is stopped
+// fingers that slide along a surface stop and go; one that has not come to rest after so many
+// contacts is stopped
 static constexpr int max_events = 2000;
-// once something holds a joint of a compliant DOF, its tendon is pulled in steps that would turn the joint by this,
-// and its springs come to rest after each [rad or m]
+// once something holds a joint of a compliant DOF, its tendon is pulled in steps that would turn
+// the joint by this, and its springs come to rest after each [rad or m]
 static constexpr double pull_step = 0.02;
 // at its end it waits for springs that creep on, so often
 static constexpr int max_unrest = 20;
 
 namespace {
 
-// may a compliant DOF go on? it leaves blocked joints behind, and winds up their springs until contacts and limits
-// would hold against whatever more it pulls
+// may a compliant DOF go on? it leaves blocked joints behind, and winds up their springs until
+// contacts and limits would hold against whatever more it pulls
 bool tendon_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked,
                         const SpringBalance& springs) {
   bool free = false, unwinds = false;
@@ -90,8 +91,8 @@ std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double 
   return pairs;
 }
 
-// how far the path runs before a DOF arrives, picks up a joint that it had left behind, or has deflected springs by
-// a step
+// how far the path runs before a DOF arrives, picks up a joint that it had left behind, or has
+// deflected springs by a step
 double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
   double length = std::numeric_limits<double>::infinity();
   for (int dof = 0; dof < rates.size(); ++dof) {

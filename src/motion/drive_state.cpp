@@ -24,8 +24,8 @@ double span_of(const JointSpec& joint) {
   return joint.X_PJ.position.norm() + slides;
 }
 
-// bound of the distance of any point of the body from the axis of a joint that moves it, whatever the joints do
-// on the way: lengths along the links, then the body's own extent
+// bound of the distance of any point of the body from the axis of a joint that moves it, whatever
+// the joints do on the way: lengths along the links, then the body's own extent
 double lever(const Drive& drive, int joint, Id<Body> id) {
   const Robot& robot = drive.robot();
   const Body& body = drive.world.body(id);

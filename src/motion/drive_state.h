@@ -1,4 +1,5 @@
-// A robot on its way while it is driven: its DOFs, its joints that do not follow them, the pairs under watch.
+// A robot on its way while it is driven: its DOFs, its joints that do not follow them, the pairs
+// under watch.
 #pragma once
 #include <functional>
 

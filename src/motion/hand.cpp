@@ -16,7 +16,8 @@ static DriveResult close_stage(World& world, Id<Robot> id, double speed, const D
   DofMotion motion{world.dofs(id), Eigen::VectorXd::Zero(world.dofs(id).size())};
   for (const int i : dofs) {
     motion.rates[i] = robot.dofs[i].default_velocity * speed;
-    if (motion.rates[i] != 0) motion.targets[i] = range_around(robot, i, motion.targets[i])[motion.rates[i] > 0];
+    if (motion.rates[i] != 0)
+      motion.targets[i] = range_around(robot, i, motion.targets[i])[motion.rates[i] > 0];
   }
   return drive(world, id, motion, options);
 }

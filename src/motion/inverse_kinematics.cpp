@@ -46,7 +46,8 @@ class Search {
     X_LT_ = world.pose(robot_.body_of(link_)).inverse() * world.pose(body) * options.X_BT;
     free_.assign(robot_.dofs.size(), options.dofs.empty());
     for (const int dof : options.dofs) free_[dof] = true;
-    for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d) ranges_.push_back(range_around(robot_, d, world.dofs(id)[d]));
+    for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d)
+      ranges_.push_back(range_around(robot_, d, world.dofs(id)[d]));
   }
 
   bool moves_anything() const {
@@ -196,7 +197,8 @@ IkResult inverse_kinematics(const World& world, Id<Robot> id, Id<Body> body, con
     if (context) context->progress().check();
     VectorXd start = now;
     for (int d = 0; d < start.size() && out.starts > 0; ++d)
-      if (search.may_move(d)) start[d] = random_value(range_around(robot, d, now[d]), now[d], random);
+      if (search.may_move(d))
+        start[d] = random_value(range_around(robot, d, now[d]), now[d], random);
     const Posture end = search.descend(start, out.iterations);
     const bool there = search.reached(end), collision = there && collides_at(end.q);
     out.in_collision += collision;
@@ -211,7 +213,8 @@ IkResult inverse_kinematics(const World& world, Id<Robot> id, Id<Body> body, con
 VectorXd random_posture(const World& world, Id<Robot> id, Random& random) {
   const Robot& robot = world.robot(id);
   VectorXd q = world.dofs(id);
-  for (int d = 0; d < q.size(); ++d) q[d] = random_value(range_around(robot, d, q[d]), q[d], random);
+  for (int d = 0; d < q.size(); ++d)
+    q[d] = random_value(range_around(robot, d, q[d]), q[d], random);
   return q;
 }
 

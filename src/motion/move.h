@@ -1,4 +1,5 @@
-// Moving rigid things until they touch: a body, or a robot by its base. Continuous, never tunnelling.
+// Moving rigid things until they touch: a body, or a robot by its base. Continuous, never
+// tunnelling.
 #pragma once
 #include <vector>
 
@@ -10,14 +11,14 @@ struct MoveResult {
   double fraction = 0;               ///< of the way gone, in [0, 1]
   bool touched = false;              ///< did a contact end it?
   std::vector<BodyPair> stopped_by;  ///< moved body first
-  bool iteration_limit =
-      false;        ///< did it end for its number of steps, sliding for metres within micrometres?
+  /// did it end for its number of steps, sliding for metres within micrometres?
+  bool iteration_limit = false;
   int queries = 0;  ///< distance queries it took
 };
 
-/// Moves an object or obstacle along the straight line and shortest turn to X_WB, until it first touches something.
-/// The gap that remains is in (0, threshold]. A body that starts in contact may leave or slide; it is not pushed in.
-/// throws Error naming the pairs when it starts in collision
+/// Moves an object or obstacle along the straight line and shortest turn to X_WB, until it first
+/// touches something. The gap that remains is in (0, threshold]. A body that starts in contact may
+/// leave or slide; it is not pushed in. throws Error naming the pairs when it starts in collision
 MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB);
 
 /// The same for a robot that nobody carries, with all that it carries.
@@ -26,7 +27,8 @@ MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB);
 /// Moves a hand along its approach direction until it touches, at most `reach` [m].
 MoveResult approach(World& world, Id<Robot> robot, double reach);
 
-/// throws Error  "hand:autograsp: the motion starts in collision: palm and flask" when one of the bodies collides
+/// throws Error  "hand:autograsp: the motion starts in collision: palm and flask" when one of the
+///               bodies collides
 void refuse_collision(World& world, std::span<const Id<Body>> moving, const std::string& subject);
 
 }  // namespace clench

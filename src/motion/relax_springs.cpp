@@ -7,9 +7,11 @@
 
 namespace clench {
 
-// springs are at rest when no joint has farther to go: a micrometre at the tip of a finger [rad or m]
+// springs are at rest when no joint has farther to go: a micrometre at the tip of a finger [rad or
+// m]
 static constexpr double at_rest = 1e-5;
-// contacts that a finger slides along change on the way; so many changes are followed before the tendon is pulled on
+// contacts that a finger slides along change on the way; so many changes are followed before the
+// tendon is pulled on
 static constexpr int max_turns = 20;
 
 namespace {

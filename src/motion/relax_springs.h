@@ -7,8 +7,8 @@ namespace clench {
 
 enum class Springs { at_rest, moving, stopped };
 
-/// Lets springs come to rest among the contacts, the DOFs where they are, or a new touch stop them where one is to. A
-/// finger that static friction does not hold slides until kinetic friction does.
+/// Lets springs come to rest among the contacts, the DOFs where they are, or a new touch stop them
+/// where one is to. A finger that static friction does not hold slides until kinetic friction does.
 /// result  counts queries and events, and names the pair that stopped them
 /// returns  moving: they creep on after many changes of contact
 Springs relax_springs(Drive& drive, const DriveOptions& options, DriveResult& result);

@@ -41,7 +41,8 @@ std::vector<Vector3d> edges_of(const Contact& contact, bool sliding) {
 }
 
 // The y nearest to `to` with sides^T y >= least, a column a side; empty: there is none.
-// source  Lawson & Hanson (1974), Solving least squares problems, ch. 23: least distance programming
+// source  Lawson & Hanson (1974), Solving least squares problems, ch. 23: least distance
+//         programming
 std::optional<VectorXd> nearest_allowed(const Eigen::MatrixXd& sides, const VectorXd& least,
                                         const VectorXd& to) {
   const int n = static_cast<int>(to.size());

@@ -34,7 +34,8 @@ constexpr double fineness = 1.0 / 16;  // longest edge of a piece, of the mesh's
 constexpr int deepest = 5;             // each step cuts a triangle in four
 constexpr double around = 0.25;        // the normal is a mean over this, of the swept area's size
 
-// the hand as far open as its closing DOFs go, the others as near zero as they can; in the base frame
+// the hand as far open as its closing DOFs go, the others as near zero as they can; in the base
+// frame
 RobotFrames frames_opened(const Robot& robot) {
   std::vector<double> q;
   for (const Joint& joint : robot.joints) {
@@ -76,8 +77,8 @@ void cut(const std::array<Vector3d, 3>& corners, const Vector3d& normal, const M
       cut(part, normal, motion, longest, depth + 1, pieces);
     return;
   }
-  // what is swept grows linearly over a triangle: its sum and its centre are exact, unless part of the
-  // triangle moves backward
+  // what is swept grows linearly over a triangle: its sum and its centre are exact, unless part of
+  // the triangle moves backward
   Vector3d speeds;
   for (int i = 0; i < 3; ++i) speeds[i] = std::max(0.0, normal.dot(motion.at(corners[i])));
   const double all = speeds.sum(), swept = 0.5 * (b - a).cross(c - a).norm() * all / 3;
@@ -131,7 +132,8 @@ Vector3d mean_normal(const std::vector<Piece>& pieces) {
   return mean;
 }
 
-// frame at the surface point that a ray against `direction` through p meets first, or the piece nearest to p
+// frame at the surface point that a ray against `direction` through p meets first, or the piece
+// nearest to p
 Pose site(const Shape& shape, const std::vector<Piece>& pieces, const Vector3d& p,
           const Vector3d& direction) {
   const double size = shape.bounds().size().norm();

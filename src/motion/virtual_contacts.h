@@ -7,18 +7,18 @@ namespace clench {
 struct FindSitesOptions {
   int count_per_link = 1;  ///< places on each link, along its length, 1 to 100
   bool palm = true;        ///< one on the palm, too
-  std::string object_material =
-      "wood";  ///< material that is to be grasped: gives mu with the link's own
+  /// material that is to be grasped: gives mu with the link's own
+  std::string object_material = "wood";
 };
 
 /// Where surfaces move forward when the hand closes. The hand is open and every DOF moves at its
-/// default velocity; a piece of surface counts as much as the volume that it sweeps, area times speed
-/// along its outward normal. A link's place is the centre of what it sweeps, brought onto the surface
-/// against the mean normal; several are the centres of equal shares along the link's length. The
-/// normal is that of the surface around. The palm, which is the base or the link that stays where it
-/// is and lies nearest to the approach point, counts as moving along the approach direction, and its
-/// place lies at that point, when there is surface. Frames are contact frames; each has
-/// the 8 edges of a point.
+/// default velocity; a piece of surface counts as much as the volume that it sweeps, area times
+/// speed along its outward normal. A link's place is the centre of what it sweeps, brought onto the
+/// surface against the mean normal; several are the centres of equal shares along the link's
+/// length. The normal is that of the surface around. The palm, which is the base or the link that
+/// stays where it is and lies nearest to the approach point, counts as moving along the approach
+/// direction, and its place lies at that point, when there is surface. Frames are contact frames;
+/// each has the 8 edges of a point.
 ///
 /// returns  chain by chain, the palm last; nothing for links that do not move, or without geometry,
 ///          and nothing at all for robots whose DOFs all have default velocity 0

@@ -9,13 +9,13 @@
 namespace clench {
 
 /// Who draws several has them faster from a Renderer, and the same to the bit.
-/// throws  Stopped; Error that says what to install when there is no EGL or no OpenGL 3.3, on a size out of
-///         range, and on a number of the scene out of range, naming the mesh or cone
+/// throws  Stopped; Error that says what to install when there is no EGL or no OpenGL 3.3, on a
+///         size out of range, and on a number of the scene out of range, naming the mesh or cone
 Picture render(const Scene& scene, const RenderOptions& options = {}, const Font& font = Font());
 
-/// The view that `render` uses when the scene names none: everything that must be in the frame, from above and
-/// that side which shows most of the contacts and of what is grasped. `aspect` is width over
-/// height.
+/// The view that `render` uses when the scene names none: everything that must be in the frame,
+/// from above and that side which shows most of the contacts and of what is grasped. `aspect` is
+/// width over height.
 Eye frame_all(const Scene& scene, double aspect, bool ortho = false);
 
 }  // namespace clench

@@ -9,9 +9,10 @@
 
 namespace clench {
 
-/// Keeps the OpenGL context, compiled programs, meshes on the graphics card, and the last scene of paper quality with
-/// its light: at most some 256 MB of meshes and one scene of up to as much. A picture is the same, to the bit, whatever
-/// was drawn before. Used by one thread at a time, any; leaves what OpenGL context is current as it was.
+/// Keeps the OpenGL context, compiled programs, meshes on the graphics card, and the last scene of
+/// paper quality with its light: at most some 256 MB of meshes and one scene of up to as much. A
+/// picture is the same, to the bit, whatever was drawn before. Used by one thread at a time, any;
+/// leaves what OpenGL context is current as it was.
 class Renderer {
  public:
   Renderer();

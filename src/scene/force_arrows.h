@@ -12,8 +12,8 @@ struct PlacedForce {
   Eigen::Vector3d f_W = Eigen::Vector3d::Zero();  ///< [N]
 };
 
-/// An arrow a force, which ends where it presses: as long as the force times metres_per_newton, > 0. Forces below a
-/// thousandth of the largest are left out.
+/// An arrow a force, which ends where it presses: as long as the force times metres_per_newton, >
+/// 0. Forces below a thousandth of the largest are left out.
 std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double metres_per_newton);
 
 /// Forces of the eight longest such arrows in newtons, beyond their tails; the largest first.

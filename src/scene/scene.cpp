@@ -59,8 +59,8 @@ bool is_floor(const Bounds& floor, const std::vector<Bounds>& all) {
   });
 }
 
-// cones whose contacts lie close are lowered until each stays on its own side of the middle, so that
-// they can be counted; below a fifth of their height they could not be seen
+// cones whose contacts lie close are lowered until each stays on its own side of the middle, so
+// that they can be counted; below a fifth of their height they could not be seen
 void lower_crowded(std::vector<DrawCone>& cones) {
   constexpr double share = 0.45, lowest = 0.2;
   for (DrawCone& cone : cones) {
@@ -236,8 +236,8 @@ Scene make_scene(const World& world, const SceneOptions& options) {
     if (!drawn(body)) continue;
     scene.meshes.push_back(draw_body(body, world.pose(world.bodies()[i]), options));
     scene.meshes.back().background = body.kind == BodyKind::obstacle && is_floor(bounds[i], bounds);
-    scene.meshes.back().framed = options.framing == Framing::all || touched.empty() ||
-                                 touched.contains(world.bodies()[i]);
+    scene.meshes.back().framed =
+        options.framing == Framing::all || touched.empty() || touched.contains(world.bodies()[i]);
     floor = floor || scene.meshes.back().background;
     all.add(bounds[i].low), all.add(bounds[i].high);
   }

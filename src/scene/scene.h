@@ -63,8 +63,9 @@ struct Scene {
   std::optional<Eye> eye = {};            ///< empty: frame everything
 };
 
-/// How large friction cones are: apart, each lowered where its neighbours are near; of one size; or their heights
-/// in proportion to the friction coefficient or to the normal force, the largest of that size.
+/// How large friction cones are: apart, each lowered where its neighbours are near; of one size; or
+/// their heights in proportion to the friction coefficient or to the normal force, the largest of
+/// that size.
 enum class ConeSizes { apart, equal, friction, force };
 
 /// The normal force at a contact, by its place.
@@ -73,15 +74,15 @@ struct ContactLoad {
   double force = 0;                               ///< [N]
 };
 
-/// What a view that is chosen must hold: all, or, where robots touch objects, those objects and the links of
-/// those robots, but not their bases and what carries them.
+/// What a view that is chosen must hold: all, or, where robots touch objects, those objects and the
+/// links of those robots, but not their bases and what carries them.
 enum class Framing { contacts, all };
 
 struct SceneOptions {
   bool contacts = true;  ///< draw friction cones at the contacts of robots with objects
   bool patches = false;  ///< draw the patches of all soft contacts
-  bool approach =
-      false;  ///< draw an arrow from the approach point of each robot that closes, along its direction
+  /// draw an arrow from the approach point of each robot that closes, along its direction
+  bool approach = false;
   bool ground = true;  ///< a floor under the lowest point, unless an obstacle is the floor
   bool transparent_objects = true;  ///< so that contacts show
   ConeSizes cone_sizes = ConeSizes::apart;
@@ -95,8 +96,8 @@ struct SceneOptions {
 
 /// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact
 /// between a part of a robot and an object, opening into the object by its friction angle. With
-/// patches, at each soft contact the fitted surface of the object, or of the body that is touched, as
-/// far as it was looked at, and on it the rim of the ellipse that presses at 5 N.
+/// patches, at each soft contact the fitted surface of the object, or of the body that is touched,
+/// as far as it was looked at, and on it the rim of the ellipse that presses at 5 N.
 /// throws  Error on a cone height that is negative or not finite, and on a force that is not finite
 Scene make_scene(const World& world, const SceneOptions& options = {});
 

@@ -46,8 +46,8 @@ std::set<Id<Body>> touched_bodies(const World& world, std::span<const Contact> c
   std::set<Id<Body>> out;
   std::map<Id<Robot>, std::vector<int>> touching;
   for (const Contact& contact : contacts) {
-    for (const auto& [object, part] : {std::pair(contact.body, contact.other),
-                                       std::pair(contact.other, contact.body)}) {
+    for (const auto& [object, part] :
+         {std::pair(contact.body, contact.other), std::pair(contact.other, contact.body)}) {
       const Id<Robot> robot = world.body(part).robot;
       if (world.body(object).kind != BodyKind::object || !robot) continue;
       out.insert(object);

@@ -18,8 +18,8 @@ struct WrenchPicture {
   double epsilon = 0;                           ///< told in its second line [N]
 };
 
-/// The solid, seen through, with axes that reach beyond it, numbers at round steps along them [N], the
-/// ball and its radius, and an arrow along the weakest direction. Labels: the axes, the weakest
+/// The solid, seen through, with axes that reach beyond it, numbers at round steps along them [N],
+/// the ball and its radius, and an arrow along the weakest direction. Labels: the axes, the weakest
 /// direction, the ball, then the numbers. The caption tells epsilon and the unit.
 Scene make_wrench_scene(const WrenchPicture& picture);
 

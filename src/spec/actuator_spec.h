@@ -1,5 +1,5 @@
-// Actuators as an MJCF file describes them. What motors take from them (limits, gains, which DOFs are
-// driven) is in DofSpec; their laws are kept for scripts.
+// Actuators as an MJCF file describes them. What motors take from them (limits, gains, which DOFs
+// are driven) is in DofSpec; their laws are kept for scripts.
 #pragma once
 #include <array>
 #include <optional>
@@ -7,8 +7,9 @@
 
 namespace clench {
 
-/// force = gain * control + bias[0] + bias[1] * length + bias[2] * velocity, times the gear, on its target. Length and
-/// velocity are those of the target times the gear. A position servo has gain kp and bias {0, -kp, -kv}.
+/// force = gain * control + bias[0] + bias[1] * length + bias[2] * velocity, times the gear, on its
+/// target. Length and velocity are those of the target times the gear. A position servo has gain kp
+/// and bias {0, -kp, -kv}.
 struct ActuatorSpec {
   std::string name;           ///< empty: it has none
   std::string kind;           ///< as its file calls it: "motor", "position", "general"
@@ -18,7 +19,7 @@ struct ActuatorSpec {
   double gain = 1;            ///< [N m or N per unit of control]
   std::array<double, 3> bias = {0, 0, 0};
   double damping_ratio = 0;  ///< of a servo, whose bias has no damping then: as DofSpec
-  bool law_known = true;  ///< false: gain and bias do not describe it
+  bool law_known = true;     ///< false: gain and bias do not describe it
   std::optional<std::array<double, 2>> control_range;
   std::optional<std::array<double, 2>> force_range;  ///< before the gear [N m or N]
 };

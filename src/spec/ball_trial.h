@@ -1,11 +1,12 @@
-// A ball in a hand that closes on it, without a world: quick enough to be tried at hundreds of places.
+// A ball in a hand that closes on it, without a world: quick enough to be tried at hundreds of
+// places.
 #pragma once
 #include "clench/spec/hand_tree.h"
 
 namespace clench {
 
-/// The open hand as points of its links, and a ball of a quarter of its fingers' length. DOFs close as their default
-/// velocities say; the others stay at rest.
+/// The open hand as points of its links, and a ball of a quarter of its fingers' length. DOFs close
+/// as their default velocities say; the others stay at rest.
 class BallTrial {
  public:
   /// robot  outlives it
@@ -18,15 +19,17 @@ class BallTrial {
   double radius() const { return radius_; }
   /// Where the tips are on average when the hand is half closed, in the base.
   Eigen::Vector3d tips_centre() const;
-  /// Whither the hand opens, unit, in the base: the way that the tips go as it begins to close, where they agree; else the way that the fingers
-  /// point, or that leads from the palm to their tips. A direction within 20 degrees of an axis of the base is that axis.
+  /// Whither the hand opens, unit, in the base: the way that the tips go as it begins to close,
+  /// where they agree; else the way that the fingers point, or that leads from the palm to their
+  /// tips. A direction within 20 degrees of an axis of the base is that axis.
   std::optional<Eigen::Vector3d> direction() const;
-  /// Centre of a ball that comes against the direction, on the line through `from`, where it touches the open hand; empty:
-  /// it passes by.
+  /// Centre of a ball that comes against the direction, on the line through `from`, where it
+  /// touches the open hand; empty: it passes by.
   std::optional<Eigen::Vector3d> touch(const Eigen::Vector3d& from,
                                        const Eigen::Vector3d& direction) const;
-  /// How well the hand surrounds the ball when each DOF has closed until its links touch it: the least, over all
-  /// directions, of the cosine between the direction and the contact nearest to it, less friction. -1 .. 1
+  /// How well the hand surrounds the ball when each DOF has closed until its links touch it: the
+  /// least, over all directions, of the cosine between the direction and the contact nearest to it,
+  /// less friction. -1 .. 1
   double held(const Eigen::Vector3d& centre) const;
 
  private:

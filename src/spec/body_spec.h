@@ -13,8 +13,8 @@ namespace clench {
 
 /// How a body looks; physics does not read it.
 struct Appearance {
-  Eigen::Vector3f color =
-      Eigen::Vector3f(0.7f, 0.7f, 0.7f);         ///< linear part of the file's diffuse colour, 0..1
+  /// linear part of the file's diffuse colour, 0..1
+  Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
   float transparency = 0;                        ///< 0 opaque .. 1 invisible
   std::vector<Eigen::Vector3f> triangle_colors;  ///< one per triangle, or empty
   bool given = false;                            ///< does it come from the file?
@@ -31,9 +31,9 @@ struct BodySpec {
   std::string material = "wood";
   double mass = 0.3;                                ///< [kg]
   bool material_given = false, mass_given = false;  ///< do they come from a file or a script?
-  bool inertia_told = false;                        ///< was it told where an inertia not given comes from?
-  std::optional<Eigen::Vector3d>
-      com;  ///< centre of mass in the body frame [m]; else from the shape
+  bool inertia_told = false;  ///< was it told where an inertia not given comes from?
+  /// centre of mass in the body frame [m]; else from the shape
+  std::optional<Eigen::Vector3d> com;
   std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape
   std::optional<double> elastic_modulus;            ///< Young's modulus [Pa]; absent: rigid
   double soft_layer = 0.003;   ///< of an elastic body: height of its soft layer, > 0 [m]
@@ -43,8 +43,8 @@ struct BodySpec {
 };
 
 /// what    it is, before its name
-/// throws  Error "body 'cup': mass: expected a number from 1e-12 to 1e+12 [kg], got 0" for a name or
-///         number that its rule refuses
+/// throws  Error "body 'cup': mass: expected a number from 1e-12 to 1e+12 [kg], got 0" for a name
+///         or number that its rule refuses
 void check_body(const BodySpec& spec, std::string_view what);
 void check_appearance(const Appearance& appearance, std::string_view subject);
 

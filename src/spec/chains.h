@@ -10,8 +10,8 @@ struct Chain {
   std::vector<int> links;  ///< each on the one before
 };
 
-/// Every child of the base begins a chain. Elsewhere that one goes on which alone leads on to joints; where none does,
-/// the first child. In the order of their first links.
+/// Every child of the base begins a chain. Elsewhere that one goes on which alone leads on to
+/// joints; where none does, the first child. In the order of their first links.
 std::vector<Chain> chains_of(const RobotSpec& robot);
 
 /// Where a link is in the chains.
@@ -27,7 +27,8 @@ ChainPlace place_of(const std::vector<Chain>& chains, int link);
 /// returns  empty when there is none
 std::optional<int> link_at(const std::vector<Chain>& chains, ChainPlace place);
 
-/// The chain whose last link it is, by which files of the original name it.   returns  empty when there is none
+/// The chain whose last link it is, by which files of the original name it.   returns  empty when
+/// there is none
 std::optional<int> chain_ending_at(const RobotSpec& robot, int link);
 
 /// A joint as users count it: by chain, then by number in it.

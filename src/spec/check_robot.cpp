@@ -128,7 +128,8 @@ static void check_actuators(const RobotSpec& robot, const std::string& name) {
   for (size_t i = 0; i < robot.actuators.size(); ++i) {
     const ActuatorSpec& actuator = robot.actuators[i];
     const std::string subject = fmt::format("{}: actuator {}", name, i + 1);
-    for (const std::string* text : {&actuator.name, &actuator.kind, &actuator.joint, &actuator.tendon})
+    for (const std::string* text :
+         {&actuator.name, &actuator.kind, &actuator.joint, &actuator.tendon})
       check_name(*text, subject);
     const int dofs = static_cast<int>(robot.dofs.size());
     if (actuator.dof < -1 || actuator.dof >= dofs)

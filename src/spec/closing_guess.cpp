@@ -18,8 +18,8 @@ constexpr double sideways = 0.15;  // the same for a DOF that swings a finger si
 constexpr double rolling = 0.02;   // of the tips' distance to the centre: a shorter way is a roll
 constexpr double lopsided = 0.1;   // of the range: a middle farther than this from 0 is no swing
 
-/// The tip of a finger alone, as all its joints are now; the palm stands where it does in `posture`.
-/// Long hands would else take the square of their length.
+/// The tip of a finger alone, as all its joints are now; the palm stands where it does in
+/// `posture`. Long hands would else take the square of their length.
 Eigen::Vector3d tip_at(const HandTree& hand, const Posture& posture, const std::vector<double>& q,
                        const Finger& finger) {
   Pose X = posture.at(hand.palm);
@@ -128,8 +128,8 @@ Posture half_way(const HandTree& hand) {
   return out;
 }
 
-/// Which way each tip goes, in the palm's frame, as DOFs go a quarter of the way to an end; zero: it
-/// stays.
+/// Which way each tip goes, in the palm's frame, as DOFs go a quarter of the way to an end; zero:
+/// it stays.
 std::vector<Eigen::Vector3d> ways_of_tips(const HandTree& hand, const std::vector<double>& senses) {
   auto q = hand.rest.q;
   for (const int dof : hand.dofs) {

@@ -33,7 +33,8 @@ bool beyond(const RobotSpec& robot, int link, int other) {
   return link == other;
 }
 
-// what each joint of the DOF turns or slides by for one unit of the tendon's pull; empty: its ratios stand
+// what each joint of the DOF turns or slides by for one unit of the tendon's pull; empty: its
+// ratios stand
 std::vector<double> free_motion(const RobotSpec& robot, int dof) {
   std::vector<JointAxis> own;
   for (const JointAxis& axis : axes_of(robot))

@@ -41,21 +41,21 @@ struct PregraspState {
 struct GraspSpec {
   std::string hand_name = {}, object_name = {};
   std::string hand_file = {}, object_file = {};  ///< where they come from; empty: not known
-  std::optional<Pose> X_OH = {};    ///< the hand's base in the object; empty: put together by hand
-  std::vector<double> dofs = {};    ///< values of all [rad or m]; of those that are named, else
+  std::optional<Pose> X_OH = {};  ///< the hand's base in the object; empty: put together by hand
+  std::vector<double> dofs = {};  ///< values of all [rad or m]; of those that are named, else
   std::vector<std::string> dof_names = {};  ///< empty: not known, and the DOFs are all in order
   std::vector<std::string> dof_units = {};  ///< "rad" or "m", as many as names
-  std::vector<double> joints = {};  ///< positions of all [rad or m]
+  std::vector<double> joints = {};          ///< positions of all [rad or m]
   std::vector<PointContact> points = {};
   std::vector<std::string> links = {};             ///< one per contact: what touches there
   Eigen::Vector3d com = Eigen::Vector3d::Zero();   ///< of the object, object frame [m]
   double rho = 1;                                  ///< that torques are divided by [m]
   double largest_radius = 1, gyration_radius = 1;  ///< of the object; 1 when it has no extent [m]
   GraspOptions options = {};                       ///< that it was measured with
-  std::map<std::string, double> measures =
-      {};  ///< of the grasp, by name, as far as they were asked for
-  std::map<std::string, double> info =
-      {};  ///< what its maker notes: energy, seed, run, spread [rad]
+  /// of the grasp, by name, as far as they were asked for
+  std::map<std::string, double> measures = {};
+  /// what its maker notes: energy, seed, run, spread [rad]
+  std::map<std::string, double> info = {};
   std::map<std::string, std::string> labels = {};  ///< the same in words: planner, script
   std::optional<PregraspState> pregrasp = {};
   std::optional<bool> collision_free = {};  ///< was the hand, as it grasped? empty: nobody looked

@@ -101,7 +101,8 @@ HandTree hand_tree(const RobotSpec& robot) {
     const auto [low, high] = hand.ranges.back();
     if (low < high) hand.dofs.push_back(d);
     const double start = robot.dofs[d].default_value;
-    hand.rest.q.push_back(low <= high && !dof_is_endless(robot, d) ? std::clamp(start, low, high) : start);
+    hand.rest.q.push_back(low <= high && !dof_is_endless(robot, d) ? std::clamp(start, low, high)
+                                                                   : start);
   }
   hand.rest.poses = link_poses(robot, hand.rest.q);
   find_fingers(hand);

@@ -1,8 +1,8 @@
 // A robot as a hand: its palm, and the fingers that hang on it.
 //
-// Fingers are the links that end the tree, as far as joints lie between them and the palm; the palm is the last link that
-// all of them hang on. A single finger of one or two joints closes against what carries it; a longer one is an arm, and
-// has no fingers.
+// Fingers are the links that end the tree, as far as joints lie between them and the palm; the palm
+// is the last link that all of them hang on. A single finger of one or two joints closes against
+// what carries it; a longer one is an arm, and has no fingers.
 #pragma once
 #include "clench/spec/robot_spec.h"
 

@@ -1,5 +1,5 @@
-// What an inertia may be: one rule, the same for files, scripts, specs and worlds; and what is made of one
-// that may not.
+// What an inertia may be: one rule, the same for files, scripts, specs and worlds; and what is made
+// of one that may not.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -20,12 +20,13 @@ enum class InertiaFault {
 /// Of an inertia about the centre of mass, per mass [m^2].
 InertiaFault inertia_fault(const Eigen::Matrix3d& per_mass);
 
-/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got one of 50
+/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got one of
+///               50
 ///         times that sum"
 void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject);
 
-/// The same axes and the same largest moment; the others raised by the same until their sum is that.
-/// `per_mass`  one that breaks the triangle
+/// The same axes and the same largest moment; the others raised by the same until their sum is
+/// that. `per_mass`  one that breaks the triangle
 Eigen::Matrix3d with_triangle(const Eigen::Matrix3d& per_mass);
 
 /// What a reader does about an inertia: see inertia_fault.
@@ -43,8 +44,8 @@ Inertial repair_inertia(Eigen::Matrix3d& per_mass);
 inline constexpr const char* raised_moments =
     "inertia that no body has, as one moment exceeds the sum of the others; these are raised to it";
 
-/// The symmetric part of `rows` [m^2], repaired; empty when it is no inertia: the shape's is to be used.
-/// They are told of all three, with `place` in front.
+/// The symmetric part of `rows` [m^2], repaired; empty when it is no inertia: the shape's is to be
+/// used. They are told of all three, with `place` in front.
 std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
                                                const std::string& place,
                                                const Listeners& listeners);

@@ -53,22 +53,29 @@ static bool inertia_is_larger(const BodySpec& body) {
 }
 
 std::string doubt_mass(double mass, const Shape* shape) {
-  // osmium has 22,600, air 1.2; motors that lie elsewhere, and surfaces that are thinner than the thing, explain less
+  // osmium has 22,600, air 1.2; motors that lie elsewhere, and surfaces that are thinner than the
+  // thing, explain less
   constexpr double heaviest = 250'000, lightest = 1;
   if (!shape || !shape->has_volume()) return {};
   const double density = mass / shape->solid().volume;
   if (density <= heaviest && density >= lightest) return {};
-  return fmt::format("its mass of {:.4g} kg makes {:.3g} kg/m^3: is its unit right?", mass, density);
+  return fmt::format("its mass of {:.4g} kg makes {:.3g} kg/m^3: is its unit right?", mass,
+                     density);
 }
 
 std::string doubt_modulus(double modulus) {
   constexpr double softest = 1e4;  // rubber has some 1e6
-  return modulus >= softest ? "" : fmt::format("{} Pa is softer than any rubber; is it meant in MPa?", modulus);
+  return modulus >= softest
+             ? ""
+             : fmt::format("{} Pa is softer than any rubber; is it meant in MPa?", modulus);
 }
 
 std::string doubt_gravity(const Eigen::Vector3d& gravity) {
   const double size = gravity.norm();
-  return size > 100 ? fmt::format("gravity is {:.4g} m/s^2, and the earth's is 9.81: is its unit right?", size) : "";
+  return size > 100
+             ? fmt::format("gravity is {:.4g} m/s^2, and the earth's is 9.81: is its unit right?",
+                           size)
+             : "";
 }
 
 // of a file that gives a mass

@@ -5,16 +5,17 @@
 
 namespace clench {
 
-/// Ten times denser than any metal, or lighter than air, by the volume of its surface?   returns  a sentence; "" when it is plausible
+/// Ten times denser than any metal, or lighter than air, by the volume of its surface?   returns  a
+/// sentence; "" when it is plausible
 std::string doubt_mass(double mass, const Shape* shape);
 /// Is a modulus that of nothing that is grasped?   [Pa]   returns  likewise, "1.5 Pa is ..."
 std::string doubt_modulus(double modulus);
 /// Is gravity ten times that of the earth?   [m/s^2]   returns  likewise
 std::string doubt_gravity(const Eigen::Vector3d& gravity);
 
-/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area; a mass, a
-/// centre of mass or an inertia that contradicts its surface.
-/// `place`: what the sentence begins with, "w.wld:3"
+/// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area;
+/// a mass, a centre of mass or an inertia that contradicts its surface. `place`: what the sentence
+/// begins with, "w.wld:3"
 void check_plausible_object(const BodySpec& body, const std::string& place,
                             const Listeners& listeners);
 

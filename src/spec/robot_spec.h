@@ -1,4 +1,5 @@
-// A robot as a file describes it: a base, a tree of links that joints move, and the DOFs that move the joints.
+// A robot as a file describes it: a base, a tree of links that joints move, and the DOFs that move
+// the joints.
 #pragma once
 #include <map>
 #include <optional>
@@ -22,12 +23,12 @@ enum class JointKind { revolute, prismatic };
 struct DofSpec {
   std::string name = {};  ///< as its file calls it; empty: it has none
   DofKind kind = DofKind::rigid;
-  bool driven = true;           ///< false: no motor holds it while a world runs, unless one is asked to
+  bool driven = true;  ///< false: no motor holds it while a world runs, unless one is asked to
   double default_velocity = 0;  ///< of closing [rad/s or m/s]; 0 does not move
   double max_effort = 0;        ///< [N m or N]
   double max_velocity = 0;      ///< [rad/s or m/s]; 0: not known
   double kp = 0, kd = 0;        ///< controller gains [N m/rad or N/m], [N m s/rad or N s/m]
-  double damping_ratio = 0;     ///< adds 2 damping_ratio sqrt(kp inertia) to kd; 1: critical damping
+  double damping_ratio = 0;  ///< adds 2 damping_ratio sqrt(kp inertia) to kd; 1: critical damping
   double breakaway_torque = 0;  ///< [N m]
   double dragger_scale = 0;     ///< size of its handle in a viewer [m]
   double default_value = 0;     ///< [rad or m]
@@ -37,18 +38,18 @@ struct DofSpec {
 struct JointSpec {
   std::string name = {};  ///< as its file calls it; empty: it has none
   JointKind kind = JointKind::revolute;
-  Pose X_PJ =
-      {};  ///< at q = 0, in the frame of the link's parent, or behind the link's joint before it
+  /// at q = 0, in the frame of the link's parent, or behind the link's joint before it
+  Pose X_PJ = {};
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, in the joint's frame
   int dof = 0;
   double ratio = 1;
   double min = 0, max = 0;  ///< of q [rad or m]
-  bool endless = false;     ///< nothing stops it: min and max say how far it closes, and is searched
-  double viscous = 0;       ///< friction [N m s/rad or N s/m]
-  double coulomb = 0;       ///< friction [N m or N]
-  double armature = 0;      ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]
-  double spring = 0;        ///< stiffness [N m/rad or N/m]
-  double rest = 0;          ///< q at which the spring is slack [rad or m]
+  bool endless = false;  ///< nothing stops it: min and max say how far it closes, and is searched
+  double viscous = 0;    ///< friction [N m s/rad or N s/m]
+  double coulomb = 0;    ///< friction [N m or N]
+  double armature = 0;   ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]
+  double spring = 0;     ///< stiffness [N m/rad or N/m]
+  double rest = 0;       ///< q at which the spring is slack [rad or m]
 };
 
 /// What the joint does at q, in its frame.
@@ -94,8 +95,8 @@ struct RobotSpec {
   BodySpec base;
   std::vector<DofSpec> dofs;
   std::vector<LinkSpec> links;
-  bool chain_links_collide =
-      false;  ///< may links of one chain meet that are no neighbours? the original's never do
+  /// may links of one chain meet that are no neighbours? the original's never do
+  bool chain_links_collide = false;
   CollisionRules collision_rules;
   std::optional<Pose> X_BA;  ///< approach frame in the base: +z is the direction of approach
   std::optional<EigengraspSet> eigengrasps;
@@ -106,7 +107,8 @@ struct RobotSpec {
   std::vector<TactileSpec> tactile;
   std::vector<TendonSpec> tendons;
   std::vector<TendonWrapper> wrappers;
-  std::vector<ActuatorSpec> actuators;  ///< in the file's order; what motors take from them is in dofs
+  /// in the file's order; what motors take from them is in dofs
+  std::vector<ActuatorSpec> actuators;
 };
 
 /// Approach frame from a reference point and a direction, both in the base frame.

@@ -1,5 +1,5 @@
-// Tendons of a hand, the posts they wrap around, and tactile sensors: kept as a file describes them;
-// nothing acts on them.
+// Tendons of a hand, the posts they wrap around, and tactile sensors: kept as a file describes
+// them; nothing acts on them.
 #pragma once
 #include <Eigen/Core>
 #include <optional>

@@ -76,15 +76,16 @@ void check_each(const Quantity& quantity, std::initializer_list<NamedNumber> num
 
 /// A position within the bounds of coordinates, and a unit quaternion.
 bool is_place(const Pose& X);
-/// throws Error  "robot 'arm': expected a position within 1e+09 m of the origin, got (0, 0, 1e+308)"
+/// throws Error  "robot 'arm': expected a position within 1e+09 m of the origin, got (0, 0,
+///               1e+308)"
 void check_place(const Pose& X, std::string_view subject);
 
 // --- names ---
 
 inline constexpr size_t max_name_length = 250;  ///< bytes, as file systems have it
 
-/// Why a text is no name of a body, robot, link, DOF or material: it is longer than max_name_length,
-/// has control characters or is not UTF-8; empty when it is one.
+/// Why a text is no name of a body, robot, link, DOF or material: it is longer than
+/// max_name_length, has control characters or is not UTF-8; empty when it is one.
 std::string name_fault(std::string_view name);
 /// throws Error  "world:add_object: name: expected no control characters, got 'a?b'"
 void check_name(std::string_view name, std::string_view subject);

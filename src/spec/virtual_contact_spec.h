@@ -8,7 +8,8 @@
 namespace clench {
 
 /// Columns are generators of the friction that a unit normal force can carry, in the contact frame:
-/// force / mu, and torque / mu [m]. Only x, y and the torque about z are used by contacts of fingers.
+/// force / mu, and torque / mu [m]. Only x, y and the torque about z are used by contacts of
+/// fingers.
 using FrictionEdges = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 inline constexpr int max_friction_edges = 100;
@@ -20,8 +21,8 @@ struct VirtualContactSpec {
   FrictionEdges edges;  ///< 6 x edges; may have no columns
 };
 
-/// throws Error with one sentence, begun by the subject, when a rule refuses a number or the frame, or
-/// there are more than max_friction_edges
+/// throws Error with one sentence, begun by the subject, when a rule refuses a number or the frame,
+/// or there are more than max_friction_edges
 void check_virtual_contact(const VirtualContactSpec& contact, const std::string& subject);
 
 }  // namespace clench

@@ -16,16 +16,17 @@ struct PlacedBody {
   Pose X_WB;
 };
 
-/// A joint's own position, which its DOF does not tell: it has broken away from a breakaway DOF, or is held against its
-/// spring by what a compliant finger touches. None while it follows its DOF [rad or m].
+/// A joint's own position, which its DOF does not tell: it has broken away from a breakaway DOF, or
+/// is held against its spring by what a compliant finger touches. None while it follows its DOF
+/// [rad or m].
 using JointPosition = std::optional<double>;
 
 struct PlacedRobot {
   RobotSpec robot;
   Pose X_WB;
   std::vector<double> dofs;  ///< one per DOF [rad or m]
-  std::vector<JointPosition>
-      joint_positions;  ///< one per joint, link by link; empty: all follow their DOFs
+  /// one per joint, link by link; empty: all follow their DOFs
+  std::vector<JointPosition> joint_positions;
 };
 
 /// The child's base is fixed to a link of the parent.
@@ -51,7 +52,8 @@ struct WorldEntry {
   int index;  ///< into bodies, robots or connections
 };
 
-/// Friction of a pair of materials, new ones or of another coefficient than every world begins with.
+/// Friction of a pair of materials, new ones or of another coefficient than every world begins
+/// with.
 struct FrictionSpec {
   std::string a, b;
   double statics = 0, kinetic = 0;
@@ -102,11 +104,13 @@ struct WorldSpec {
   std::optional<double> contact_threshold;  ///< [m]; absent: that of an empty world
   std::optional<double> time_step;          ///< of dynamics [s]; absent: that of an empty world
   std::vector<FrictionSpec> friction;       ///< in the order in which new materials get their names
-  /// materials whose friction on those that every world begins with, but for frictionless, is the larger of both's own
+  /// materials whose friction on those that every world begins with, but for frictionless, is the
+  /// larger of both's own
   std::vector<std::string> larger_friction;
-  std::optional<CollisionSpec> collision;   ///< absent: what the robots bring along
+  std::optional<CollisionSpec> collision;          ///< absent: what the robots bring along
   std::vector<std::array<PartRef, 2>> never_meet;  ///< beside what the robots bring along
-  std::optional<Eigen::Vector3d> gravity;   ///< in the world frame [m/s^2]; absent: standard_gravity along -z
+  /// in the world frame [m/s^2]; absent: standard_gravity along -z
+  std::optional<Eigen::Vector3d> gravity;
   std::vector<KeyframeSpec> keyframes;
 };
 

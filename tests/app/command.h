@@ -101,7 +101,8 @@ class Terminal {
     wait_for("\r\n");
   }
 
-  /// Reads until the text appears; what was read before counts no more.   returns what was read, or fails the test
+  /// Reads until the text appears; what was read before counts no more.   returns what was read, or
+  /// fails the test
   std::string wait_for(const std::string& text) {
     for (;;) {
       const size_t at = rest_.find(text);

@@ -73,7 +73,8 @@ TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(has(run("--version").out, "clench 0."));
   CHECK(has(run("version").out, "clench 0."));
   CHECK(has(run("help").out, "Usage: clench"));
-  CHECK(has(run("plan --coun 3 a.cfg b.iv").out, "clench plan: there is no option '--coun'; did you mean '--count'?"));
+  CHECK(has(run("plan --coun 3 a.cfg b.iv").out,
+            "clench plan: there is no option '--coun'; did you mean '--count'?"));
   CHECK(run("plan --coun 3 a.cfg b.iv").code == 2);
   CHECK(has(run("plan a.cfg b.iv c.iv").out, "clench plan: one argument too many: 'c.iv'"));
   // no arguments and no terminal
@@ -161,7 +162,8 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
   CHECK(run("run " + pages + "/clench.lua").code == 0);
   const std::string file = folder.file("file", "x");
   CHECK(has(run("doc " + file).out, "the file cannot be written: Not a directory"));
-  CHECK(has(run("doc", "", "cd " + (folder / ".") + " &&").out, "clench doc: expected a folder to write to, as there is no docs/api here"));
+  CHECK(has(run("doc", "", "cd " + (folder / ".") + " &&").out,
+            "clench doc: expected a folder to write to, as there is no docs/api here"));
 }
 
 TEST_CASE("output that cannot be written is an error") {

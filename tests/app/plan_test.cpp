@@ -18,16 +18,19 @@ static std::string text_of(const std::string& path) {
 
 // the values of `epsilon` in a list of grasps, as clench reads them
 static std::string epsilons(const std::string& path) {
-  return run("-q -e 'for _, g in ipairs(clench.grasps(\"" + path + "\")) do print(g.epsilon) end'").out;
+  return run("-q -e 'for _, g in ipairs(clench.grasps(\"" + path + "\")) do print(g.epsilon) end'")
+      .out;
 }
 
 // a cube as an OBJ file [m]
 static std::string cube_of(double side) {
   std::string text;
   for (int i = 0; i < 8; ++i)
-    text += fmt::format("v {} {} {}\n", side * ((i & 1) ^ (i >> 1 & 1)), side * (i >> 1 & 1), side * (i >> 2));
-  return text + "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
-                "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+    text += fmt::format("v {} {} {}\n", side * ((i & 1) ^ (i >> 1 & 1)), side * (i >> 1 & 1),
+                        side * (i >> 2));
+  return text +
+         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
+         "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
 }
 
 TEST_CASE("plan lists the best grasps, writes them best first, and says what was done") {
@@ -71,7 +74,8 @@ TEST_CASE("what plan is given badly is told in one sentence, before the search")
   said("--count 1e3", "--count: expected a whole number from 1 to 1000000, got '1e3'");
   said("--count abc", "--count: expected a whole number from 1 to 1000000, got 'abc'");
   said("--seconds -1", "--seconds");
-  said("--seed x", "--seed: expected a whole number from -9223372036854775808 to 9223372036854775807, got 'x'");
+  said("--seed x",
+       "--seed: expected a whole number from -9223372036854775808 to 9223372036854775807, got 'x'");
   said("--seed +-5", "got '+-5'");
   said("--seed 99999999999999999999", "to 9223372036854775807, got '99999999999999999999'");
   said("--contacts finger", "--contacts: finger not in {");
@@ -79,9 +83,13 @@ TEST_CASE("what plan is given badly is told in one sentence, before the search")
   said("--mass none", "--mass: expected a mass in kg, got 'none'");
   said("--mass 1e20", "--mass: expected a number from 1e-12 to 1e+12 [kg], got 1e+20");
   said("--unit furlong", "--unit: unknown unit 'furlong', expected one of mm, cm, m, inch, foot");
-  said("-o a.csv --format xlsx", "--format: unknown format 'xlsx', expected one of jsonl, csv, npz");
-  said("-o " + (folder / "a.foo"), "-o: expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got 'a.foo'");
-  said("--pose 1,2", "--pose: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
+  said("-o a.csv --format xlsx",
+       "--format: unknown format 'xlsx', expected one of jsonl, csv, npz");
+  said("-o " + (folder / "a.foo"),
+       "-o: expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got "
+       "'a.foo'");
+  said("--pose 1,2",
+       "--pose: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
   said("--pose 1,2,nan", "--pose: expected X,Y,Z in metres");
   said("--obstacle-pose 0,0,0", "--obstacle-pose is given 1 times, and --obstacle 0 times");
   said("--format csv", "--format says how -o FILE is written, and there is no -o");
@@ -115,7 +123,9 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
                           " --unit m --seconds 0.5 -o " + out);
   CHECK(result.code == 1);
   CHECK(has(result.out, "plan.sample: 0 grasps"));
-  CHECK(has(result.out, "\nwhy: cube is wider than parallel_jaw opens: where points of its surface face each other they are at least 1000 mm apart, and the pads open to 80 mm"));
+  CHECK(has(result.out,
+            "\nwhy: cube is wider than parallel_jaw opens: where points of its surface face each "
+            "other they are at least 1000 mm apart, and the pads open to 80 mm"));
   CHECK(epsilons(out).empty());
 }
 
@@ -131,11 +141,12 @@ static std::string output_of(const std::string& script) {
 }
 
 // starts a command, waits until a file has three lines, and sends a signal
-static std::string end_by(const std::string& signal, const std::string& command, const std::string& out,
-                          const std::string& before = "") {
+static std::string end_by(const std::string& signal, const std::string& command,
+                          const std::string& out, const std::string& before = "") {
   return output_of(std::string(CLENCH_COMMAND) + " " + command +
                    " & pid=$!\n"
-                   "while [ $(cat " + out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n" + before +
+                   "while [ $(cat " +
+                   out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n" + before +
                    "\nkill -" + signal + " $pid\nwait $pid 2>/dev/null\necho code $?\n");
 }
 
@@ -151,30 +162,36 @@ TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
   CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
 }
 
-TEST_CASE("killing a search loses none of the grasps that its file has, and at most the last second's") {
+TEST_CASE(
+    "killing a search loses none of the grasps that its file has, and at most the last second's") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  const std::string text = end_by("KILL", barrett + "--no-verify --seconds 60 --threads 1 -o " + out, out,
-                                  "lines=$(wc -l < " + out + ")\nsleep 1\necho more $(( $(wc -l < " + out + ") - lines ))");
+  const std::string text = end_by(
+      "KILL", barrett + "--no-verify --seconds 60 --threads 1 -o " + out, out,
+      "lines=$(wc -l < " + out + ")\nsleep 1\necho more $(( $(wc -l < " + out + ") - lines ))");
   CHECK(has(text, "code 137"));
   // within that second more were written, each whole; under the sanitizers a grasp takes longer
   if (clench::test::cases(8) == 8) CHECK(std::stoi(text.substr(text.rfind("more ") + 5)) > 0);
   const std::string list = epsilons(out), file = text_of(out);
   CHECK(list.find("clench") == std::string::npos);
   CHECK(file.ends_with("}\n"));
-  CHECK(std::count(list.begin(), list.end(), '\n') == std::count(file.begin(), file.end(), '\n') - 1);
+  CHECK(std::count(list.begin(), list.end(), '\n') ==
+        std::count(file.begin(), file.end(), '\n') - 1);
 }
 
 // under the sanitizers the time that is left after Ctrl-C is too short for what planners do then
 #ifndef __SANITIZE_ADDRESS__
-TEST_CASE("Ctrl-C in the middle of any planner: the script gets the grasps so far, and ends with the code 130") {
+TEST_CASE(
+    "Ctrl-C in the middle of any planner: the script gets the grasps so far, and ends with the "
+    "code 130") {
   const Folder folder;
   const std::vector<std::string> planners = {"anneal",    "sample", "guided", "loop",
                                              "primitive", "random", "list",   "antipodal"};
   for (const std::string& planner : planners) {
     const std::string out = folder / planner;
     // an energy that is asked, or a grasp that is found, says that it is under way
-    const auto script = folder.file(planner + ".lua", "local planner, out = '" + planner + "', '" + out + R"('
+    const auto script =
+        folder.file(planner + ".lua", "local planner, out = '" + planner + "', '" + out + R"('
 local world = clench.load("worlds/barrett_mug.wld", {root = "."})
 local hand, mug = world.robots[1], world.objects[1]
 local lines, contact = io.open(out, "w"), clench.energy.contact {hand = hand, object = mug}
@@ -219,12 +236,14 @@ TEST_CASE("a search that is killed leaves its grasps in a list that can be read"
 
 TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the list") {
   const Folder folder;
-  const auto object = folder.file("<script>alert(1)<\x2fscript><img src=x>\xE9'.obj", cube_of(0.05));
+  const auto object =
+      folder.file("<script>alert(1)<\x2fscript><img src=x>\xE9'.obj", cube_of(0.05));
   const auto page = folder / "a.html", out = folder / "a.jsonl";
   const std::string quoted = "\"" + object + "\"";
-  const auto result = run("plan models/hands/barrett/barrett.cfg " + quoted +
-                          " --unit m --count 1 --no-verify --report " + page + " -o " + out +
-                          " --pose 0,0,0.5,0,0,90 --obstacle models/obstacles/floor.iv --obstacle-pose -0.25,0,-1");
+  const auto result =
+      run("plan models/hands/barrett/barrett.cfg " + quoted +
+          " --unit m --count 1 --no-verify --report " + page + " -o " + out +
+          " --pose 0,0,0.5,0,0,90 --obstacle models/obstacles/floor.iv --obstacle-pose -0.25,0,-1");
   CHECK(result.code <= 1);
   const std::string html = text_of(page);
   // without three.js there is no page
@@ -255,20 +274,25 @@ TEST_CASE("--force-ratio says how hard verified grasps may press") {
   for (const char* bad : {"0", "-1", "nan", "inf", "hard"}) {
     const auto refused = run(plan + "--force-ratio " + bad);
     CHECK(refused.code == 2);
-    CHECK(has(refused.out, "--force-ratio: expected a number above 0, got '" + std::string(bad) + "'"));
+    CHECK(has(refused.out,
+              "--force-ratio: expected a number above 0, got '" + std::string(bad) + "'"));
   }
   const auto both = run(plan + "--force-ratio 20 --no-verify");
   CHECK(both.code == 2);
-  CHECK(has(both.out, "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for none"));
+  CHECK(has(both.out,
+            "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for "
+            "none"));
 }
 
 TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost") {
-  const auto survived = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 --verify --mass 0.1");
+  const auto survived = run(
+      "plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 --verify --mass 0.1");
   CAPTURE(survived.out);
   CHECK(survived.code == 0);
   CHECK(has(survived.out, "grasps that were shaken survived"));
   CHECK(has(survived.out, "shaken: lost along so many of six directions"));
-  const auto both = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --verify --no-verify");
+  const auto both =
+      run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --verify --no-verify");
   CHECK(both.code == 2);
   CHECK(has(both.out, "expected --verify or --no-verify, got both"));
   const auto alone = run("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --keep-lost");

@@ -1,5 +1,6 @@
-// Epsilon of the grasps of a file by a program that shares no code with the engine: it reads JSON lines, makes the friction pyramids
-// from points, normals and coefficients, and asks qhull for their hull.
+// Epsilon of the grasps of a file by a program that shares no code with the engine: it reads JSON
+// lines, makes the friction pyramids from points, normals and coefficients, and asks qhull for
+// their hull.
 //   recompute_epsilon FILE.jsonl...     exit code 1 when a grasp differs by more than 1e-6
 #include <Eigen/Geometry>
 #include <cstdio>
@@ -37,9 +38,11 @@ Eigen::MatrixXd wrenches_of(const json& grasp) {
   const double rho = grasp.at("rho");
   std::vector<Eigen::VectorXd> columns;
   for (const json& contact : grasp.at("points")) {
-    if (contact.contains("torsion_radius")) throw std::runtime_error("a soft contact: only points are known here");
+    if (contact.contains("torsion_radius"))
+      throw std::runtime_error("a soft contact: only points are known here");
     const Vector3d arm = vector_of(contact.at("point")) - com;
-    for (const Vector3d& f : edges_of(vector_of(contact.at("normal")), contact.at("mu"), grasp.at("edges"))) {
+    for (const Vector3d& f :
+         edges_of(vector_of(contact.at("normal")), contact.at("mu"), grasp.at("edges"))) {
       columns.emplace_back(6);
       columns.back() << f, arm.cross(f) / rho;
     }
@@ -53,7 +56,8 @@ Eigen::MatrixXd wrenches_of(const json& grasp) {
 double epsilon_of(const json& grasp) {
   const Eigen::MatrixXd wrenches = wrenches_of(grasp);
   if (wrenches.cols() < 7) return 0;
-  // where many wrenches lie in one plane but for rounding, qhull refuses to give facets unless it may move the points a little
+  // where many wrenches lie in one plane but for rounding, qhull refuses to give facets unless it
+  // may move the points a little
   auto hull = clench::bench::ask_qhull(wrenches, "qhull Qt");
   if (!hull) hull = clench::bench::ask_qhull(wrenches, "qhull QJ");
   return hull ? std::max(0.0, hull->min_offset) : 0;
@@ -67,7 +71,8 @@ int main(int count, char** paths) try {
   for (int i = 1; i < count; ++i) {
     std::ifstream file(paths[i]);
     std::string line;
-    if (!std::getline(file, line)) throw std::runtime_error(std::string(paths[i]) + ": expected grasps, got nothing");
+    if (!std::getline(file, line))
+      throw std::runtime_error(std::string(paths[i]) + ": expected grasps, got nothing");
     for (int number = 2; std::getline(file, line); ++number) {
       const json grasp = json::parse(line);
       const double said = grasp.at("measures").at("epsilon"), own = epsilon_of(grasp);
@@ -78,7 +83,8 @@ int main(int count, char** paths) try {
       std::printf("%s:%d: epsilon is said to be %.9g, and is %.9g\n", paths[i], number, said, own);
     }
   }
-  std::printf("%d grasps, %d of them in force closure; epsilon differs by at most %.2g\n", grasps, closed, worst);
+  std::printf("%d grasps, %d of them in force closure; epsilon differs by at most %.2g\n", grasps,
+              closed, worst);
   return different || !grasps ? 1 : 0;
 } catch (const std::exception& problem) {
   std::fprintf(stderr, "recompute_epsilon: %s\n", problem.what());

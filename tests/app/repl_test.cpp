@@ -45,13 +45,15 @@ TEST_CASE("help explains functions, values and names") {
       run("repl",
           "help(clench.rad)\nhelp(clench.pose{})\nhelp "
           "'inverse'\nhelp(clench.json)\nhelp()\nhelp(5)\nhelp(clench.pose{}.inverse)\n"
-          "help(clench.shapes.box)\nhelp 'robustness'\nhelp(string.rep)\nhelp(clench.stats)\nhelp 'gif'\nhelp 'nonsense'\n")
+          "help(clench.shapes.box)\nhelp 'robustness'\nhelp(string.rep)\nhelp(clench.stats)\nhelp "
+          "'gif'\nhelp 'nonsense'\n")
           .out;
   for (const char* part :
        {"clench.rad(degrees)\n  Degrees to radians.", "pose: A rigid transform", ".position",
         "pose:inverse()", "clench.json.encode", "help(x) explains a value", "nothing is known of 5",
         "clench.shapes.box(options)\n", "clench.study.robustness(grasp, options)",
-        "string.rep is a function of Lua's own", "clench.stats.quantile ", "'gif' is no name; it is spoken of by\n  clench.files.save_gif\n",
+        "string.rep is a function of Lua's own", "clench.stats.quantile ",
+        "'gif' is no name; it is spoken of by\n  clench.files.save_gif\n",
         "nothing is known of nonsense"})
     CHECK_MESSAGE(out.find(part) != std::string::npos, part);
 }

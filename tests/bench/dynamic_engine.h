@@ -11,7 +11,7 @@ class DynamicEngine {
  public:
   virtual ~DynamicEngine() = default;
   virtual void step(int count) = 0;
-  virtual Pose pose(int part) const = 0;               ///< of its centre
+  virtual Pose pose(int part) const = 0;  ///< of its centre
   virtual Eigen::Vector3d velocity(int part) const = 0;
 };
 

@@ -14,8 +14,9 @@ DynamicScene stack_of_ten(double gap) {
   DynamicScene scene{.name = "stack of ten"};
   scene.parts.push_back({.size = {1, 1, 0.1}, .X_W = Pose::translation({0, 0, -0.05})});
   for (int i = 0; i < 10; ++i)
-    scene.parts.push_back(
-        {.size = {0.06, 0.06, 0.04}, .mass = 0.44, .X_W = Pose::translation({0, 0, 0.02 + gap + i * (0.04 + gap)})});
+    scene.parts.push_back({.size = {0.06, 0.06, 0.04},
+                           .mass = 0.44,
+                           .X_W = Pose::translation({0, 0, 0.02 + gap + i * (0.04 + gap)})});
   scene.watched = 10;
   return scene;
 }
@@ -26,14 +27,18 @@ DynamicScene boxes_in_a_bin(double) {
   scene.parts.push_back({.size = {1, 1, 0.1}, .X_W = Pose::translation({0, 0, -0.05})});
   for (const double side : {-1.0, 1.0}) {
     const double at = side * (half + wall / 2);
-    scene.parts.push_back({.size = {wall, 2 * half + 2 * wall, height}, .X_W = Pose::translation({at, 0, height / 2})});
-    scene.parts.push_back({.size = {2 * half, wall, height}, .X_W = Pose::translation({0, at, height / 2})});
+    scene.parts.push_back({.size = {wall, 2 * half + 2 * wall, height},
+                           .X_W = Pose::translation({at, 0, height / 2})});
+    scene.parts.push_back(
+        {.size = {2 * half, wall, height}, .X_W = Pose::translation({0, at, height / 2})});
   }
   Random random(3);
   for (int i = 0; i < 20; ++i) {
-    const Vector3d size(random.uniform(0.03, 0.08), random.uniform(0.03, 0.08), random.uniform(0.03, 0.08));
+    const Vector3d size(random.uniform(0.03, 0.08), random.uniform(0.03, 0.08),
+                        random.uniform(0.03, 0.08));
     const Vector3d at(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), 0.1 + 0.14 * i);
-    scene.parts.push_back({.size = size, .mass = 800 * size.prod(), .X_W = {test::random_turn(random), at}});
+    scene.parts.push_back(
+        {.size = size, .mass = 800 * size.prod(), .X_W = {test::random_turn(random), at}});
   }
   scene.watched = static_cast<int>(scene.parts.size()) - 1;
   return scene;
@@ -43,20 +48,25 @@ DynamicScene slope(double degrees, double mu, double gap) {
   const Pose turn = Pose::turn(degrees * std::numbers::pi / 180, Vector3d::UnitY());
   DynamicScene scene{.name = "slope", .mu = mu, .watched = 1};
   scene.parts.push_back({.size = {4, 1, 0.1}, .X_W = turn});
-  scene.parts.push_back({.size = {0.06, 0.06, 0.04}, .mass = 0.44, .X_W = turn * Pose::translation({-1.8, 0, 0.07 + gap})});
+  scene.parts.push_back({.size = {0.06, 0.06, 0.04},
+                         .mass = 0.44,
+                         .X_W = turn * Pose::translation({-1.8, 0, 0.07 + gap})});
   return scene;
 }
 
 DynamicScene three_fingers(double gap) {
   constexpr double radius = 0.03, length = 0.04, depth = 0.01, press = 5, kp = 2;
   DynamicScene scene{.name = "hand of nine hinges", .mu = 0.8};
-  scene.parts.push_back({.form = Form::cylinder, .size = {radius, radius, 0.07}, .mass = 0.3, .X_W = {}});
+  scene.parts.push_back(
+      {.form = Form::cylinder, .size = {radius, radius, 0.07}, .mass = 0.3, .X_W = {}});
   for (int finger = 0; finger < 3; ++finger) {
     const Pose turn = Pose::turn(2 * std::numbers::pi * finger / 3, Vector3d::UnitZ());
     for (int l = 0; l < 3; ++l) {
       const double top = 3 * length - l * length, r = radius + gap + depth / 2;
       const int part = static_cast<int>(scene.parts.size());
-      scene.parts.push_back({.size = {depth, 0.016, length}, .mass = 0.05, .X_W = turn * Pose::translation({r, 0, top - length / 2})});
+      scene.parts.push_back({.size = {depth, 0.016, length},
+                             .mass = 0.05,
+                             .X_W = turn * Pose::translation({r, 0, top - length / 2})});
       // torques that press the middle of the last link
       const double arm = length * (2 - l) + length / 2;
       scene.links.push_back({.part = part,
@@ -80,7 +90,8 @@ static void add_pads(DynamicScene& scene, double half, double force) {
                            .axis = {-1.0 * side, 0, 0},
                            .effort = force,
                            .viscous = 100});
-    scene.parts.push_back({.size = {0.016, 0.06, 0.04}, .mass = 0.2, .X_W = Pose::translation({x, 0, 0})});
+    scene.parts.push_back(
+        {.size = {0.016, 0.06, 0.04}, .mass = 0.2, .X_W = Pose::translation({x, 0, 0})});
   }
 }
 

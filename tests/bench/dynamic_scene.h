@@ -13,19 +13,21 @@ enum class Form { box, cylinder, capsule };  ///< round ones about z
 
 struct Part {
   Form form = Form::box;
-  Eigen::Vector3d size = {};  ///< edges of a box; else radius, radius, length (of a capsule without its caps) [m]
-  double mass = 0;       ///< [kg]; 0: it stands
+  Eigen::Vector3d size =
+      {};  ///< edges of a box; else radius, radius, length (of a capsule without its caps) [m]
+  double mass = 0;  ///< [kg]; 0: it stands
   Pose X_W = {};
 };
 
-/// A hinge or slider that moves a part against an earlier one or the world, at 0 where the scene begins.
+/// A hinge or slider that moves a part against an earlier one or the world, at 0 where the scene
+/// begins.
 struct Link {
   int part = 0, parent = -1;
   bool slides = false;
-  Eigen::Vector3d origin, axis;      ///< in the world
-  double kp = 0, kd = 0, target = 0; ///< a spring and a damper, of a hinge
-  double effort = 0;                 ///< that acts always, of a slider [N]
-  double viscous = 0;                ///< damping of a slider [N s/m]
+  Eigen::Vector3d origin, axis;       ///< in the world
+  double kp = 0, kd = 0, target = 0;  ///< a spring and a damper, of a hinge
+  double effort = 0;                  ///< that acts always, of a slider [N]
+  double viscous = 0;                 ///< damping of a slider [N s/m]
 };
 
 struct DynamicScene {
@@ -43,12 +45,14 @@ DynamicScene boxes_in_a_bin(double gap);
 DynamicScene slope(double degrees, double mu, double gap);
 /// Three fingers of three hinges that hang about a cylinder of 0.3 kg and press with some 5 N each.
 DynamicScene three_fingers(double gap);
-/// Two pads on sliders that squeeze a capsule of 45 g, radius 4 mm, that lies across them (mujoco#3328).
+/// Two pads on sliders that squeeze a capsule of 45 g, radius 4 mm, that lies across them
+/// (mujoco#3328).
 DynamicScene pinched_capsule(double force, double gap);
 /// The same pads about a cube, whose weight is that which friction `share` of mu would just hold.
 DynamicScene critical_grip(double share, double gap);
 
-/// Closed and centred; round ones have corners at 0, 120 and 180 degrees, where our scenes touch them.
+/// Closed and centred; round ones have corners at 0, 120 and 180 degrees, where our scenes touch
+/// them.
 Mesh mesh_of(const Part& part);
 
 inline constexpr double gravity = 9.81;

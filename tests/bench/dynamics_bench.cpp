@@ -1,5 +1,6 @@
-// Steps a CPU second and accuracy together: our dynamics beside ODE and Bullet on scenes of primitives, block by block in one
-// process; grips that are hard to hold; a hand on an arm that holds a glass.
+// Steps a CPU second and accuracy together: our dynamics beside ODE and Bullet on scenes of
+// primitives, block by block in one process; grips that are hard to hold; a hand on an arm that
+// holds a glass.
 //   bench_dynamics [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -56,7 +57,8 @@ std::vector<Pose> poses_of(const Outcome& o, const DynamicScene& scene) {
 }
 
 template <class Make>
-std::vector<Outcome> race(const std::vector<EngineKind>& engines, Make&& make, const Length& length) {
+std::vector<Outcome> race(const std::vector<EngineKind>& engines, Make&& make,
+                          const Length& length) {
   std::vector<Outcome> out;
   for (const EngineKind& kind : engines) {
     const DynamicScene scene = make(kind.gap);
@@ -64,7 +66,8 @@ std::vector<Outcome> race(const std::vector<EngineKind>& engines, Make&& make, c
     Outcome& o = out.back();
     o.run->step(length.settle);
     o.begin = poses_of(o, scene);
-    for (size_t i = 0; i < scene.parts.size(); ++i) o.velocity.push_back(o.run->velocity(static_cast<int>(i)));
+    for (size_t i = 0; i < scene.parts.size(); ++i)
+      o.velocity.push_back(o.run->velocity(static_cast<int>(i)));
   }
   const DynamicScene scene = make(0);
   for (int done = 0; done < length.steps; done += length.block)
@@ -86,14 +89,17 @@ double ratio(const std::vector<Outcome>& all, const std::string& engine) {
   return middle(ratios);
 }
 
-/// Figures of engines that are not here, in steps of 1 ms a CPU second of a Zen 3 server: MuJoCo 3.3.8 with elliptic cones,
-/// and the original (GraspIt!) on a box on a slope. They stand beside ours for orientation: another machine, scenes alike.
+/// Figures of engines that are not here, in steps of 1 ms a CPU second of a Zen 3 server: MuJoCo
+/// 3.3.8 with elliptic cones, and the original (GraspIt!) on a box on a slope. They stand beside
+/// ours for orientation: another machine, scenes alike.
 struct Elsewhere {
   const char *engine, *scene;
   double rate;
 };
-constexpr Elsewhere elsewhere[] = {{"MuJoCo (elsewhere)", "stack of ten", 18500}, {"MuJoCo (elsewhere)", "hand holds", 9500},
-                                   {"MuJoCo (elsewhere)", "slope slides", 300000}, {"original (elsewhere)", "slope slides", 1400}};
+constexpr Elsewhere elsewhere[] = {{"MuJoCo (elsewhere)", "stack of ten", 18500},
+                                   {"MuJoCo (elsewhere)", "hand holds", 9500},
+                                   {"MuJoCo (elsewhere)", "slope slides", 300000},
+                                   {"original (elsewhere)", "slope slides", 1400}};
 
 /// A table that prints as it grows: rates, and what a scene asks about accuracy.
 class Table {
@@ -113,13 +119,15 @@ class Table {
       }
     report_.add("step [us]", scene, times);
   }
-  void add(const std::string& what, const std::string& scene, const std::string& engine, double value) {
+  void add(const std::string& what, const std::string& scene, const std::string& engine,
+           double value) {
     fmt::print("{:20} {:24} {:>10.3g} {}\n", scene, engine, value, what);
     values_[what + scene][engine].push_back(value);
     names_.emplace(what + scene, std::pair(what, scene));
   }
   void close() {
-    for (const auto& [key, times] : values_) report_.add(names_.at(key).first, names_.at(key).second, times);
+    for (const auto& [key, times] : values_)
+      report_.add(names_.at(key).first, names_.at(key).second, times);
   }
 
  private:
@@ -131,7 +139,8 @@ class Table {
 // an aim takes no 0
 double seen(double value) { return std::max(value, 1e-18); }
 
-void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& table, std::vector<Aim>& aims) {
+void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& table,
+                   std::vector<Aim>& aims) {
   const Length length = brief ? Length{20, 20, 10} : Length{500, 2000, 100};
   const auto all = race(peers, stack_of_ten, length);
   table.add_rates(all, "stack of ten");
@@ -144,7 +153,8 @@ void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& tabl
       return 0.04 - (at[i].position.z() - below);
     };
     for (int i = 1; i <= 10; ++i) {
-      drift = std::max(drift, (end[i].position - o.middle[i].position).norm() / (length.steps / 2 * h));
+      drift =
+          std::max(drift, (end[i].position - o.middle[i].position).norm() / (length.steps / 2 * h));
       deep = std::max(deep, overlap(end, i));
       deep_before = std::max(deep_before, overlap(o.middle, i));
     }
@@ -154,7 +164,8 @@ void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& tabl
     aims.push_back({"stack of ten, drift [m/s]", seen(drift), 1e-6, true});
     // it rests above
     aims.push_back({"stack of ten, penetration [m]", seen(deep), 1e-4, true});
-    aims.push_back({"stack of ten, growth of penetration [m/s]", seen(deep - deep_before), 1e-7, true});
+    aims.push_back(
+        {"stack of ten, growth of penetration [m/s]", seen(deep - deep_before), 1e-7, true});
   }
   aims.push_back({"stack of ten, ODE quick step / ours", ratio(all, "ODE quick step"), 2.5});
 }
@@ -170,12 +181,15 @@ void measure_bin(const std::vector<EngineKind>& peers, bool brief, Table& table)
     for (const double time : o.times) sum += time * length.block * 1e-6;
     table.add("time of all steps [s]", "boxes in a bin", o.engine, sum);
     const std::vector<Pose> end = poses_of(o, scene);
-    const auto left = std::ranges::count_if(end, [](const Pose& X) { return X.position.cwiseAbs().head<2>().maxCoeff() > 0.2 || X.position.z() < -0.06; });
+    const auto left = std::ranges::count_if(end, [](const Pose& X) {
+      return X.position.cwiseAbs().head<2>().maxCoeff() > 0.2 || X.position.z() < -0.06;
+    });
     table.add("boxes lost", "boxes in a bin", o.engine, static_cast<double>(left));
   }
 }
 
-void measure_hand(const std::vector<EngineKind>& peers, bool brief, Table& table, std::vector<Aim>& aims) {
+void measure_hand(const std::vector<EngineKind>& peers, bool brief, Table& table,
+                  std::vector<Aim>& aims) {
   const Length length = brief ? Length{20, 20, 10} : Length{500, 2000, 100};
   const auto all = race(peers, three_fingers, length);
   table.add_rates(all, "hand holds");
@@ -197,27 +211,35 @@ void measure_hand(const std::vector<EngineKind>& peers, bool brief, Table& table
   aims.push_back({"hand holds, drift in 60 s [m]", seen(drift), 1e-6, true});
 }
 
-void measure_slope(const std::vector<EngineKind>& peers, bool brief, Table& table, std::vector<Aim>& aims) {
+void measure_slope(const std::vector<EngineKind>& peers, bool brief, Table& table,
+                   std::vector<Aim>& aims) {
   const Length length = brief ? Length{20, 20, 10} : Length{500, 2000, 100};
   const double angle = slope_angle * std::numbers::pi / 180, limit = std::tan(angle);
-  const auto sliding = race(peers, [&](double gap) { return slope(slope_angle, 0.95 * limit, gap); }, length);
+  const auto sliding = race(
+      peers, [&](double gap) { return slope(slope_angle, 0.95 * limit, gap); }, length);
   table.add_rates(sliding, "slope slides");
   const double book = gravity * (std::sin(angle) - 0.95 * limit * std::cos(angle));
   for (const Outcome& o : sliding) {
-    const double error = std::abs((o.run->velocity(1) - o.velocity[1]).norm() / (length.steps * h) - book);
+    const double error =
+        std::abs((o.run->velocity(1) - o.velocity[1]).norm() / (length.steps * h) - book);
     table.add("acceleration, off by [m/s2]", "slope slides", o.engine, error);
-    if (&o == &sliding[0]) aims.push_back({"slope slides, acceleration off by [m/s2]", seen(error), 1e-9, true});
+    if (&o == &sliding[0])
+      aims.push_back({"slope slides, acceleration off by [m/s2]", seen(error), 1e-9, true});
   }
-  const auto sticking = race(peers, [&](double gap) { return slope(slope_angle, 1.05 * limit, gap); }, length);
+  const auto sticking = race(
+      peers, [&](double gap) { return slope(slope_angle, 1.05 * limit, gap); }, length);
   table.add_rates(sticking, "slope sticks");
   for (const Outcome& o : sticking) {
-    const double creep = (o.run->pose(1).position - o.begin[1].position).norm() / (length.steps * h);
+    const double creep =
+        (o.run->pose(1).position - o.begin[1].position).norm() / (length.steps * h);
     table.add("creep [m/s]", "slope sticks", o.engine, creep);
     if (&o == &sticking[0]) aims.push_back({"slope sticks, creep [m/s]", seen(creep), 1e-9, true});
   }
   for (const auto& [all, name] : {std::pair(&sliding, "slides"), std::pair(&sticking, "sticks")}) {
-    aims.push_back({fmt::format("slope {}, ODE quick step / ours", name), ratio(*all, "ODE quick step"), 0.7});
-    aims.push_back({fmt::format("slope {}, ODE quick step on meshes / ours", name), ratio(*all, "ODE quick step, meshes"), 3});
+    aims.push_back(
+        {fmt::format("slope {}, ODE quick step / ours", name), ratio(*all, "ODE quick step"), 0.7});
+    aims.push_back({fmt::format("slope {}, ODE quick step on meshes / ours", name),
+                    ratio(*all, "ODE quick step, meshes"), 3});
   }
   if (brief) return;
   // the same acceleration, whatever the step
@@ -245,7 +267,8 @@ double sinking(const EngineKind& kind, const DynamicScene& scene, double step, d
   return std::abs(before - run->pose(scene.watched).position.z()) / (steps * step);
 }
 
-void measure_grips(const std::vector<EngineKind>& engines, bool brief, Table& table, std::vector<Aim>& aims, Report& report) {
+void measure_grips(const std::vector<EngineKind>& engines, bool brief, Table& table,
+                   std::vector<Aim>& aims, Report& report) {
   const std::vector<double> steps = brief ? std::vector{1e-3} : std::vector{5e-4, 1e-3, 2e-3, 5e-3};
   const double seconds = brief ? 0.1 : 2;
   for (const EngineKind& kind : engines) {
@@ -253,7 +276,8 @@ void measure_grips(const std::vector<EngineKind>& engines, bool brief, Table& ta
     double capsule = 0, held = 0, unbalanced = 0, jitter = 0, fallen = INFINITY;
     for (const double step : steps) {
       if (!own && step != h) continue;
-      for (const double force : {12.0, 60.0}) capsule = std::max(capsule, sinking(kind, pinched_capsule(force, kind.gap), step, seconds));
+      for (const double force : {12.0, 60.0})
+        capsule = std::max(capsule, sinking(kind, pinched_capsule(force, kind.gap), step, seconds));
       held = std::max(held, sinking(kind, critical_grip(1.01, kind.gap), step, seconds));
       fallen = std::min(fallen, sinking(kind, critical_grip(0.99, kind.gap), step, 0.2));
       if (!own) continue;
@@ -269,11 +293,13 @@ void measure_grips(const std::vector<EngineKind>& engines, bool brief, Table& ta
     table.add("jitter of a pad's force, relative", "critical friction", kind.name, jitter);
     aims.push_back({"pinched capsule sinks [um/s]", seen(1e6 * capsule), 1e-3, true});
     aims.push_back({"critical friction, creep at 1.01 [um/s]", seen(1e6 * held), 1e-3, true});
-    aims.push_back({"critical friction, friction against weight off by", seen(unbalanced), 1e-6, true});
+    aims.push_back(
+        {"critical friction, friction against weight off by", seen(unbalanced), 1e-6, true});
     aims.push_back({"critical friction, jitter of a pad's force", seen(jitter), 1e-6, true});
     report.check(held < 1e-6, "critical friction: it is held at 1.01 of its weight");
     // after 0.5 s it falls at more than half of what the book says
-    report.check(fallen > 0.5 * 0.01 * gravity * 0.5, "critical friction: it falls at 0.99 of its weight");
+    report.check(fallen > 0.5 * 0.01 * gravity * 0.5,
+                 "critical friction: it falls at 0.99 of its weight");
   }
 }
 
@@ -281,7 +307,8 @@ void measure_demo(bool brief, Table& table, Report& report, std::vector<Aim>& ai
   World world = build_world(read_world("worlds/puma_barrett_glass.wld", {.root = "."}));
   const auto hand = world.robots().back();
   const auto objects = world.bodies();
-  const auto glass = *std::ranges::find_if(objects, [&](Id<Body> id) { return world.body(id).kind == BodyKind::object; });
+  const auto glass = *std::ranges::find_if(
+      objects, [&](Id<Body> id) { return world.body(id).kind == BodyKind::object; });
   Stepper stepper(world);
   close_by_motors(world, hand, 1);
   stepper.run(brief ? 0.01 : 3);
@@ -293,13 +320,15 @@ void measure_demo(bool brief, Table& table, Report& report, std::vector<Aim>& ai
     times.push_back((cpu() - start) / (brief ? 10 : 100));
   }
   const double moved = (world.pose(glass).position - before.position).norm();
-  fmt::print("{:20} {:24} {:>10.0f} steps a second\n", "arm, hand, glass", "ours", 1e6 / middle(times));
+  fmt::print("{:20} {:24} {:>10.0f} steps a second\n", "arm, hand, glass", "ours",
+             1e6 / middle(times));
   report.add("step [us]", "arm, hand, glass", {{"ours", times}});
   table.add("drift in 2 s [m]", "arm, hand, glass", "ours", moved);
   report.check(world.dynamics()->report.failures == 0, "arm, hand, glass: a step failed");
   size_t touching = 0;
   for (const Manifold& m : world.dynamics()->manifolds)
-    if (const Id<Body> other = m.a == glass ? m.b : m.a; (m.a == glass || m.b == glass) && world.body(other).robot == hand)
+    if (const Id<Body> other = m.a == glass ? m.b : m.a;
+        (m.a == glass || m.b == glass) && world.body(other).robot == hand)
       touching += m.points.size();
   report.check(brief || touching >= 3, "arm, hand, glass: the hand does not hold the glass");
   if (!brief) aims.push_back({"arm, hand, glass, drift in 2 s [m]", seen(moved), 1e-6, true});
@@ -314,7 +343,8 @@ int main(int argc, char** argv) {
   Report report;
   Table table(report);
   std::vector<Aim> aims;
-  std::vector<EngineKind> engines = {our_engine(), ode_engine(OdeMethod::quick_step, false), ode_engine(OdeMethod::world_step, false)};
+  std::vector<EngineKind> engines = {our_engine(), ode_engine(OdeMethod::quick_step, false),
+                                     ode_engine(OdeMethod::world_step, false)};
 #ifdef CLENCH_BENCH_BULLET
   engines.push_back(bullet_engine());
 #endif

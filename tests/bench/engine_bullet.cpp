@@ -1,4 +1,5 @@
-// Bullet as its examples use it: sequential impulses on rigid bodies, ten iterations, its own shapes. Collision margins lie inside them.
+// Bullet as its examples use it: sequential impulses on rigid bodies, ten iterations, its own
+// shapes. Collision margins lie inside them.
 #include <btBulletDynamicsCommon.h>
 
 #include "bench/dynamic_engine.h"
@@ -7,17 +8,26 @@ namespace clench::bench {
 
 namespace {
 
-btVector3 to_bullet(const Eigen::Vector3d& v) { return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z())); }
-Eigen::Vector3d from_bullet(const btVector3& v) { return {double(v.x()), double(v.y()), double(v.z())}; }
+btVector3 to_bullet(const Eigen::Vector3d& v) {
+  return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
+}
+Eigen::Vector3d from_bullet(const btVector3& v) {
+  return {double(v.x()), double(v.y()), double(v.z())};
+}
 btTransform to_bullet(const Pose& X) {
   const Eigen::Quaterniond& q = X.rotation;
-  return btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())), to_bullet(X.position));
+  return btTransform(
+      btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())),
+      to_bullet(X.position));
 }
 
 class Bullet : public DynamicEngine {
  public:
   Bullet(const DynamicScene& scene, double h)
-      : scene_(scene), h_(h), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+      : scene_(scene),
+        h_(h),
+        dispatcher_(&configuration_),
+        world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     world_.setGravity(btVector3(0, 0, btScalar(-gravity)));
     for (const Part& part : scene.parts) add_part(part);
     for (const Link& link : scene.links) add_link(link);
@@ -39,7 +49,9 @@ class Bullet : public DynamicEngine {
     const btQuaternion q = X.getRotation();
     return {Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()), from_bullet(X.getOrigin())};
   }
-  Eigen::Vector3d velocity(int part) const override { return from_bullet(bodies_[part]->getLinearVelocity()); }
+  Eigen::Vector3d velocity(int part) const override {
+    return from_bullet(bodies_[part]->getLinearVelocity());
+  }
 
  private:
   void add_part(const Part& part) {
@@ -47,7 +59,8 @@ class Bullet : public DynamicEngine {
     if (part.form == Form::box)
       shapes_.push_back(std::make_unique<btBoxShape>(to_bullet(0.5 * part.size)));
     else if (part.form == Form::cylinder)
-      shapes_.push_back(std::make_unique<btCylinderShapeZ>(to_bullet(Eigen::Vector3d(r, r, part.size.z() / 2))));
+      shapes_.push_back(
+          std::make_unique<btCylinderShapeZ>(to_bullet(Eigen::Vector3d(r, r, part.size.z() / 2))));
     else
       shapes_.push_back(std::make_unique<btCapsuleShapeZ>(r, btScalar(part.size.z())));
     btCollisionShape& shape = *shapes_.back();
@@ -65,9 +78,11 @@ class Bullet : public DynamicEngine {
 
   void add_link(const Link& link) {
     btRigidBody& child = *bodies_[link.part];
-    btRigidBody& parent = link.parent < 0 ? btTypedConstraint::getFixedBody() : *bodies_[link.parent];
+    btRigidBody& parent =
+        link.parent < 0 ? btTypedConstraint::getFixedBody() : *bodies_[link.parent];
     // z of a hinge's frame is its axis, x of a slider's
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(link.slides ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ(), link.axis);
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
+        link.slides ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ(), link.axis);
     const Pose frame{turn, link.origin};
     const btTransform at = to_bullet(frame);
     const btTransform in_child = child.getWorldTransform().inverse() * at;
@@ -80,7 +95,8 @@ class Bullet : public DynamicEngine {
       slider->setUpperAngLimit(0);
       joints_.push_back(std::move(slider));
     } else {
-      joints_.push_back(std::make_unique<btHingeConstraint>(parent, child, in_parent, in_child, true));
+      joints_.push_back(
+          std::make_unique<btHingeConstraint>(parent, child, in_parent, in_child, true));
     }
     world_.addConstraint(joints_.back().get(), true);
   }
@@ -89,13 +105,15 @@ class Bullet : public DynamicEngine {
   void push(const Link& link, size_t number) {
     if (link.slides) {
       btRigidBody& body = *bodies_[link.part];
-      const double force = link.effort - link.viscous * from_bullet(body.getLinearVelocity()).dot(link.axis);
+      const double force =
+          link.effort - link.viscous * from_bullet(body.getLinearVelocity()).dot(link.axis);
       body.applyCentralForce(to_bullet(force * link.axis));
       return;
     }
     auto& hinge = static_cast<btHingeConstraint&>(*joints_[number]);
     const double error = link.target - hinge.getHingeAngle();
-    hinge.enableAngularMotor(true, btScalar(link.kp / link.kd * error), btScalar(link.kp * std::abs(error) * h_));
+    hinge.enableAngularMotor(true, btScalar(link.kp / link.kd * error),
+                             btScalar(link.kp * std::abs(error) * h_));
   }
 
   DynamicScene scene_;
@@ -113,7 +131,8 @@ class Bullet : public DynamicEngine {
 }  // namespace
 
 EngineKind bullet_engine() {
-  return {"Bullet", 0, [](const DynamicScene& scene, double h) { return std::make_unique<Bullet>(scene, h); }};
+  return {"Bullet", 0,
+          [](const DynamicScene& scene, double h) { return std::make_unique<Bullet>(scene, h); }};
 }
 
 }  // namespace clench::bench

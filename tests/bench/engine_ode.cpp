@@ -1,4 +1,5 @@
-// ODE as its manual uses it: its own shapes, collision of all pairs that its hash space finds, contact joints made anew in every step.
+// ODE as its manual uses it: its own shapes, collision of all pairs that its hash space finds,
+// contact joints made anew in every step.
 #include <ode/ode.h>
 
 #include <deque>
@@ -11,7 +12,8 @@ namespace {
 
 class Ode : public DynamicEngine {
  public:
-  Ode(const DynamicScene& scene, double h, OdeMethod method, bool meshes) : scene_(scene), h_(h), method_(method) {
+  Ode(const DynamicScene& scene, double h, OdeMethod method, bool meshes)
+      : scene_(scene), h_(h), method_(method) {
     static const bool started = (dInitODE2(0), dAllocateODEDataForThread(dAllocateMaskAll), true);
     (void)started;
     dSetMessageHandler([](int, const char*, va_list) {});
@@ -35,7 +37,8 @@ class Ode : public DynamicEngine {
     for (int i = 0; i < count; ++i) {
       for (size_t l = 0; l < joints_.size(); ++l)
         if (scene_.links[l].slides) dJointAddSliderForce(joints_[l], scene_.links[l].effort);
-      dSpaceCollide(space_, this, [](void* self, dGeomID a, dGeomID b) { static_cast<Ode*>(self)->meet(a, b); });
+      dSpaceCollide(space_, this,
+                    [](void* self, dGeomID a, dGeomID b) { static_cast<Ode*>(self)->meet(a, b); });
       if (method_ == OdeMethod::quick_step)
         dWorldQuickStep(world_, h_);
       else
@@ -95,8 +98,9 @@ class Ode : public DynamicEngine {
     for (const auto& t : mesh.triangles)
       for (const int v : t) indices.push_back(static_cast<dTriIndex>(v));
     meshes_.push_back(dGeomTriMeshDataCreate());
-    dGeomTriMeshDataBuildDouble(meshes_.back(), vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3),
-                                indices.data(), static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
+    dGeomTriMeshDataBuildDouble(meshes_.back(), vertices.data(), 3 * sizeof(double),
+                                static_cast<int>(vertices.size() / 3), indices.data(),
+                                static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
     return dCreateTriMesh(space_, meshes_.back(), nullptr, nullptr, nullptr);
   }
 
@@ -158,7 +162,9 @@ class Ode : public DynamicEngine {
 EngineKind ode_engine(OdeMethod method, bool meshes) {
   std::string name = method == OdeMethod::quick_step ? "ODE quick step" : "ODE world step";
   if (meshes) name += ", meshes";
-  return {name, 0, [=](const DynamicScene& scene, double h) { return std::make_unique<Ode>(scene, h, method, meshes); }};
+  return {name, 0, [=](const DynamicScene& scene, double h) {
+            return std::make_unique<Ode>(scene, h, method, meshes);
+          }};
 }
 
 }  // namespace clench::bench

@@ -1,4 +1,5 @@
-// Our engine: fixed parts are obstacles, those on links a robot on a base without geometry, the others objects.
+// Our engine: fixed parts are obstacles, those on links a robot on a base without geometry, the
+// others objects.
 #include <algorithm>
 
 #include "bench/dynamic_engine.h"
@@ -41,7 +42,8 @@ class Ours : public DynamicEngine {
     }
     for (size_t i = 0; i < parts_.size(); ++i)
       if (link_of[i] < 0)
-        parts_[i] = world_.add_body(body(scene.parts[i], "part"), scene.parts[i].mass > 0 ? BodyKind::object : BodyKind::obstacle,
+        parts_[i] = world_.add_body(body(scene.parts[i], "part"),
+                                    scene.parts[i].mass > 0 ? BodyKind::object : BodyKind::obstacle,
                                     scene.parts[i].X_W);
     DynamicSettings settings;
     settings.step = h;
@@ -52,10 +54,11 @@ class Ours : public DynamicEngine {
       settings.robots[id].gravity_compensation = false;
       DynamicState& state = world_.edit_dynamics();
       for (size_t i = 0; i < scene.links.size(); ++i)
-        state.controls[i] = {.mode = scene.links[i].slides ? ControlMode::effort : ControlMode::position,
-                             .target = scene.links[i].target,
-                             .effort = scene.links[i].effort,
-                             .trajectory = {}};
+        state.controls[i] = {
+            .mode = scene.links[i].slides ? ControlMode::effort : ControlMode::position,
+            .target = scene.links[i].target,
+            .effort = scene.links[i].effort,
+            .trajectory = {}};
     }
     world_.set_dynamic_settings(settings);
     stepper_.emplace(world_);
@@ -88,7 +91,8 @@ class Ours : public DynamicEngine {
 
 EngineKind our_engine() {
   // a quarter of the contact threshold
-  return {"ours", 2.5e-5, [](const DynamicScene& scene, double h) { return std::make_unique<Ours>(scene, h); }};
+  return {"ours", 2.5e-5,
+          [](const DynamicScene& scene, double h) { return std::make_unique<Ours>(scene, h); }};
 }
 
 GripForces our_grip(const DynamicScene& scene, double h, double seconds) {
@@ -110,7 +114,8 @@ GripForces our_grip(const DynamicScene& scene, double h, double seconds) {
       forces.push_back(force);
     }
     if (before.size() == forces.size())
-      for (size_t i = 0; i < forces.size(); ++i) out.jitter = std::max(out.jitter, (forces[i] - before[i]).norm() / forces[i].norm());
+      for (size_t i = 0; i < forces.size(); ++i)
+        out.jitter = std::max(out.jitter, (forces[i] - before[i]).norm() / forces[i].norm());
     before = std::move(forces);
   }
   return out;

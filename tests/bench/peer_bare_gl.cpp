@@ -42,9 +42,7 @@ struct BareGl::Gl {
     eglBindAPI(EGL_OPENGL_API);
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
   }
-  void leave() const {
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  }
+  void leave() const { eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 };
 
 BareGl::BareGl(const Scene& scene, const Eigen::Matrix4d& to_clip, int width, int height)

@@ -42,7 +42,6 @@ class EmbreePoint : public PointPeer {
   std::optional<double> distance(const Eigen::Vector3d& p) override { return search(p).distance; }
   std::optional<Eigen::Vector3d> nearest(const Eigen::Vector3d& p) override { return search(p).q; }
 
-
   std::optional<double> cast(const Eigen::Vector3d& o, const Eigen::Vector3d& d) override {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

@@ -1,5 +1,6 @@
-// Pictures of 640 x 480 in software or on the graphics card: the first of a world, the second, one after its hand has
-// moved, and one from another side, as drafts and in paper quality, beside the same triangles drawn once by bare OpenGL.
+// Pictures of 640 x 480 in software or on the graphics card: the first of a world, the second, one
+// after its hand has moved, and one from another side, as drafts and in paper quality, beside the
+// same triangles drawn once by bare OpenGL.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -118,8 +119,10 @@ int main(int argc, char** argv) {
     aim("second, paper", large, 1000);
   }
   // of drawing the triangles once with nothing: geometric mean over the worlds
-  aims.push_back({"second draft / bare", 1 / report.ratio("second, draft", "bare", "second, draft"), 8, true});
-  aims.push_back({"second paper / bare", 1 / report.ratio("second, paper", "bare", "second, paper"), 60, true});
+  aims.push_back(
+      {"second draft / bare", 1 / report.ratio("second, draft", "bare", "second, draft"), 8, true});
+  aims.push_back({"second paper / bare", 1 / report.ratio("second, paper", "bare", "second, paper"),
+                  60, true});
   const bool good = report.judge(aims);
   const bool written = csv.empty() || report.write_csv(csv);
   return written && (good || !check) ? 0 : 1;

@@ -33,7 +33,8 @@ std::vector<Scene> scenes() {
   std::vector<Scene> out = {
       {"human hand + flask (ours)", ".", "models/hands/human/human20.cfg",
        "models/objects/flask.iv"},
-      {"Barrett + flask (ours)", ".", "models/hands/barrett/barrett.cfg", "models/objects/flask.iv"},
+      {"Barrett + flask (ours)", ".", "models/hands/barrett/barrett.cfg",
+       "models/objects/flask.iv"},
       {"Barrett + mug (ours)", ".", "models/hands/barrett/barrett.cfg", "models/objects/mug.iv"}};
   const auto shared = test::shared();
   if (shared.empty()) {

@@ -25,8 +25,8 @@ inline constexpr Situation situations[] = {{"far", 20e-3, 120e-3},
                                            {"touching", 5e-6, 95e-6},
                                            {"penetrating", -8.5e-3, -0.5e-3}};
 
-/// b turned at random about a, and moved along the line between the nearest points to a gap drawn from
-/// the situation's.
+/// b turned at random about a, and moved along the line between the nearest points to a gap drawn
+/// from the situation's.
 std::vector<Pose> poses_of(const MeshPair& pair, const Situation& situation, int count,
                            uint64_t seed);
 

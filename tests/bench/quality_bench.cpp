@@ -1,6 +1,6 @@
-// Our wrench spaces beside qhull: the same sets in one process, turn by turn, every answer compared; and
-// very many sets that are hard on hulls, none of which may fail. Prints medians and ratios, writes
-// them as CSV.
+// Our wrench spaces beside qhull: the same sets in one process, turn by turn, every answer
+// compared; and very many sets that are hard on hulls, none of which may fail. Prints medians and
+// ratios, writes them as CSV.
 //   bench_quality [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -117,8 +117,8 @@ std::vector<Named> real_sets(bool brief) {
 double size_of(const Wrenches& all) { return all.colwise().norm().maxCoeff(); }
 
 // qhull's ways: the fastest whose answers were all right counts, query by query and pair by pair.
-// Joggled answers, of QJ, are off by some 1e-10. Where Qt, which gives exact hulls of triangles, does not
-// refuse the set, it must say the same as ours, else another way
+// Joggled answers, of QJ, are off by some 1e-10. Where Qt, which gives exact hulls of triangles,
+// does not refuse the set, it must say the same as ours, else another way
 struct Way {
   const char *name, *options;
   bool competes;

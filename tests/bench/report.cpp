@@ -110,7 +110,8 @@ bool Report::judge(const std::vector<Aim>& aims) const {
   for (const Aim& aim : aims) {
     if (aim.measured())
       fmt::print("{:48} {:>8}   must be {} {}{}\n", aim.what,
-                 std::abs(aim.value) < 0.01 ? fmt::format("{:.2g}", aim.value) : fmt::format("{:.2f}", aim.value),
+                 std::abs(aim.value) < 0.01 ? fmt::format("{:.2g}", aim.value)
+                                            : fmt::format("{:.2f}", aim.value),
                  aim.at_most ? "<=" : ">=", aim.must, aim.met() ? "" : "   MISSED");
     else
       fmt::print("{:48} NOT MEASURED: is the other library here?\n", aim.what);

@@ -27,7 +27,8 @@ auto timed(std::vector<double>& times, Ask&& ask) {
 
 using Times = std::map<std::string, std::vector<double>>;  ///< by library [us]
 
-/// Libraries take turns on blocks of so many questions: near in time, and each with its own data at hand.
+/// Libraries take turns on blocks of so many questions: near in time, and each with its own data at
+/// hand.
 inline constexpr int block = 10;
 
 /// A figure that issue and specification ask for.

@@ -212,13 +212,17 @@ TEST_CASE("a face offset over a face touches at the outline of the overlap") {
     }
 }
 
-TEST_CASE("faces whose edges lie above each other touch along their normal, not aslant from edge to edge") {
+TEST_CASE(
+    "faces whose edges lie above each other touch along their normal, not aslant from edge to "
+    "edge") {
   const auto box = shape(test::box(0.06, 0.06, 0.06));
   const double gap = 2.5e-5;
   // aside by less than a thirtieth of the gap, in each direction and in both
   for (const double aside : {2e-9, 2e-8, 2e-7, 6e-7})
-    for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(1, 1, 0), Vector3d(-1, 0.5, 0)}) {
-      const auto touches = contact_set(*box, *box, Pose::translation(Vector3d(0, 0, 0.06 + gap) + aside * way));
+    for (const Vector3d& way :
+         {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(1, 1, 0), Vector3d(-1, 0.5, 0)}) {
+      const auto touches =
+          contact_set(*box, *box, Pose::translation(Vector3d(0, 0, 0.06 + gap) + aside * way));
       CHECK(touches.size() == 4);
       for (const Touch& touch : touches) {
         CHECK((touch.normal_b - Vector3d::UnitZ()).norm() < 1e-9);  // rounding of 1e-17 m in 25 um
@@ -235,7 +239,8 @@ TEST_CASE("a cylinder lying on a plane touches at the two ends of its line") {
       const Pose X_AB{Eigen::Quaterniond(Eigen::AngleAxisd(0.4 * turn, Vector3d::UnitZ())),
                       {0.1, 0, 0.02 + thin}};
       const auto touches = contact_set(*plane, *lying, X_AB);
-      // of 400 sides those beside the lowest are flat enough to count: within the slope of 1/30 of it
+      // of 400 sides those beside the lowest are flat enough to count: within the slope of 1/30 of
+      // it
       const double beside = sides > 100 ? 0.02 / 30 + 0.001 : 1e-9;
       CHECK(touches.size() >= 2);
       CHECK(touches.size() <= (sides > 100 ? 4 : 2));
@@ -389,7 +394,8 @@ TEST_CASE("a gap too narrow to point anywhere takes the face's normal") {
       for (int axis = 0; axis < 3; ++axis) {
         // as two bodies of a world stand: the position of one in the other has its rounding
         const double apart = (x + 0.1) - (x - gap);
-        const auto touches = contact_set(*cube, *cube, Pose::translation(apart * Vector3d::Unit(axis)));
+        const auto touches =
+            contact_set(*cube, *cube, Pose::translation(apart * Vector3d::Unit(axis)));
         CHECK(touches.size() == 4);
         for (const Touch& t : touches) CHECK((t.normal_b - Vector3d::Unit(axis)).norm() < 1e-6);
       }

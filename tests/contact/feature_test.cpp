@@ -1,4 +1,5 @@
-// What contacts lie on: right on every shape, whatever the pose and order, and the same from step to step.
+// What contacts lie on: right on every shape, whatever the pose and order, and the same from step
+// to step.
 #include <doctest/doctest.h>
 
 #include <map>

@@ -83,8 +83,11 @@ TEST_CASE("bad coefficients and names are refused, and leave the table as it was
   refuse("cork", "glass", {0.5, 0.6}, "friction of cork and glass: kinetic 0.6 exceeds static 0.5");
   refuse("", "glass", {0.5, 0.4}, "friction of '' and 'glass': a material needs a name");
   CHECK(table.names().size() == 7);
-  CHECK_THROWS_WITH_AS(table.index("rubbr"), "no material 'rubbr', expected one of frictionless, glass, metal, plastic, wood, "
-                       "rubber, stone; did you mean 'rubber'?", Error);
+  CHECK_THROWS_WITH_AS(
+      table.index("rubbr"),
+      "no material 'rubbr', expected one of frictionless, glass, metal, plastic, wood, "
+      "rubber, stone; did you mean 'rubber'?",
+      Error);
 }
 
 TEST_CASE("there are no more materials than a table can hold") {

@@ -56,8 +56,8 @@ double socket(double radius, double x, double y) {
 
 TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn") {
   Random random(1);
-  // edges of 11, 5.5, 2.8, 1.4, 0.7 mm beside a neighbourhood of 3.5 mm: the error falls by more than
-  // four with each halving
+  // edges of 11, 5.5, 2.8, 1.4, 0.7 mm beside a neighbourhood of 3.5 mm: the error falls by more
+  // than four with each halving
   const double tolerance[] = {0.2, 0.03, 0.004, 5e-4, 1e-4};
   for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
     for (int trial = 0; trial < test::cases(10); ++trial) {
@@ -274,8 +274,8 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   const ContactEllipse at_corner = contact_ellipse(corner, 5), at_edge = contact_ellipse(edge, 5);
   for (const double a : at_corner.semi_axes)
     CHECK(a == doctest::Approx(flat_indentation).epsilon(0.12));
-  // the strip |y| < d to the end of the neighbourhood is one of 2 d / sqrt(3) by 2 radius / sqrt(3), the
-  // rhomb in it one of sqrt(2/3) d by sqrt(2/3) radius; the rays see something between
+  // the strip |y| < d to the end of the neighbourhood is one of 2 d / sqrt(3) by 2 radius /
+  // sqrt(3), the rhomb in it one of sqrt(2/3) d by sqrt(2/3) radius; the rays see something between
   const std::array<double, 2> size = {flat_indentation, edge.radius};
   for (int i = 0; i < 2; ++i) {
     CHECK(at_edge.semi_axes[i] > std::sqrt(2.0 / 3) * size[i]);
@@ -283,8 +283,8 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   }
   CHECK(torsion_radius(edge, 5) < 0.3 * torsion_radius(face, 5));
   CHECK(torsion_radius(corner, 5) < 0.11 * torsion_radius(face, 5));
-  // a cone as sharp on a half-space would touch more widely, by Sneddon (1965), and the mattress under
-  // the corner even more: this much is sure
+  // a cone as sharp on a half-space would touch more widely, by Sneddon (1965), and the mattress
+  // under the corner even more: this much is sure
   const double steepness = std::sqrt(pi / (1.5 * std::sqrt(3.0)));  // of the cone with its sections
   const double half_space = std::sqrt(2 * 5 / (pi * rubber * steepness));
   const double mattress = std::cbrt(5 * 0.003 / rubber / (0.5 * std::sqrt(3.0))) / steepness;
@@ -595,8 +595,8 @@ std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X
   return out;
 }
 
-// all are as one: sums over pieces of circles are integrals to some digits, and springs that just touch
-// leave a kink
+// all are as one: sums over pieces of circles are integrals to some digits, and springs that just
+// touch leave a kink
 void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& expected, double sizes,
                  double depths) {
   REQUIRE(!some.empty());

@@ -135,8 +135,8 @@ TEST_CASE("ellipsoids of uneven meshes bend as the formula says, wherever they t
       (subdivisions == 3 ? coarse : fine).add(errors_of(land(mesh, turn), form));
     }
   }
-  // a half more than was found: edges of 3 mm and 1.5 mm beside a neighbourhood of 3.5 mm. Radii enter
-  // the torsion by the power 1/8
+  // a half more than was found: edges of 3 mm and 1.5 mm beside a neighbourhood of 3.5 mm. Radii
+  // enter the torsion by the power 1/8
   coarse.check(0.1, 0.08, 0.013);
   fine.check(0.045, 0.05, 0.008);
 }

@@ -18,14 +18,17 @@ constexpr double touch = 2.5e-5;
 
 }  // namespace
 
-TEST_CASE("a box on a slope sticks below the friction angle, and above it slides as it should, at any step") {
+TEST_CASE(
+    "a box on a slope sticks below the friction angle, and above it slides as it should, at any "
+    "step") {
   for (const double step : {5e-4, 1e-3, 5e-3})
     for (const double angle : {10 * degree, 30 * degree, 50 * degree}) {
       const double limit = std::tan(angle);
       for (const double mu : {1.01 * limit, 0.99 * limit, 0.5 * limit}) {
         Slope slope(angle, mu);
         set_step(slope.world, step);
-        const auto id = slope.put("box", box(0.06, 0.05, 0.04), 0.4, Pose::translation({-5, 0, 0.02 + touch}));
+        const auto id =
+            slope.put("box", box(0.06, 0.05, 0.04), 0.4, Pose::translation({-5, 0, 0.02 + touch}));
         run(slope.world, 0.2);
         const Eigen::Vector3d start = slope.world.pose(id).position;
         const double before = slope.speed(id);
@@ -42,66 +45,80 @@ TEST_CASE("a box on a slope sticks below the friction angle, and above it slides
     }
 }
 
-TEST_CASE("of a cube that slides the corners in front carry more than those behind, and each of a pair the same") {
+TEST_CASE(
+    "of a cube that slides the corners in front carry more than those behind, and each of a pair "
+    "the same") {
   const double angle = 20 * degree, mu = 0.95 * std::tan(angle), mass = 0.4;
   Slope slope(angle, mu);
   slope.put("box", box(0.1, 0.1, 0.1), mass, Pose::translation({-5, 0, 0.05 + touch}));
   run(slope.world, 1);
   std::vector<double> normal;
   for (const Contact& c : contacts(slope.world))
-    if (const Eigen::Vector3d up = slope.X_WS.rotation * Eigen::Vector3d::UnitZ(); c.force_W.dot(up) > 0) normal.push_back(c.force_W.dot(up));
+    if (const Eigen::Vector3d up = slope.X_WS.rotation * Eigen::Vector3d::UnitZ();
+        c.force_W.dot(up) > 0)
+      normal.push_back(c.force_W.dot(up));
   REQUIRE(normal.size() == 4);
   std::ranges::sort(normal);
-  // moments about the centre: friction acts half an edge below it. Rounding of the gaps spreads what is redundant a little
+  // moments about the centre: friction acts half an edge below it. Rounding of the gaps spreads
+  // what is redundant a little
   const double each = mass * g * std::cos(angle) / 4;
-  for (int i = 0; i < 4; ++i) CHECK(normal[i] == doctest::Approx(each * (i < 2 ? 1 - mu : 1 + mu)).epsilon(1e-4));
+  for (int i = 0; i < 4; ++i)
+    CHECK(normal[i] == doctest::Approx(each * (i < 2 ? 1 - mu : 1 + mu)).epsilon(1e-4));
 }
 
 TEST_CASE("kinetic friction holds once it slides, static friction until then") {
   Slope slope(30 * degree);
   slope.world.set_friction("wood", "wood", {.statics = 0.7, .kinetic = 0.3});
-  const auto id = slope.put("box", box(0.06, 0.05, 0.04), 0.4, Pose::translation({-5, 0, 0.02 + touch}));
+  const auto id =
+      slope.put("box", box(0.06, 0.05, 0.04), 0.4, Pose::translation({-5, 0, 0.02 + touch}));
   run(slope.world, 0.2);
   CHECK(std::abs(slope.speed(id)) < 1e-12);
   // a push that breaks it loose; then it goes on
   for (int i = 0; i < 20; ++i) {
-    slope.world.edit_dynamics().loads[id.index].force = slope.X_WS.rotation * Eigen::Vector3d(3, 0, 0);
+    slope.world.edit_dynamics().loads[id.index].force =
+        slope.X_WS.rotation * Eigen::Vector3d(3, 0, 0);
     run(slope.world, 0.001);
   }
   const double before = slope.speed(id);
   CHECK(before > 0.01);
   run(slope.world, 0.2);
-  CHECK((slope.speed(id) - before) / 0.2 == doctest::Approx(g * (0.5 - 0.3 * std::cos(30 * degree))).epsilon(1e-9));
+  CHECK((slope.speed(id) - before) / 0.2 ==
+        doctest::Approx(g * (0.5 - 0.3 * std::cos(30 * degree))).epsilon(1e-9));
 }
 
 TEST_CASE("a ball that is thrown along a floor slides, then rolls with 5/7 of its speed") {
   Slope floor(0, 0.3);
   const double radius = 0.05;
-  const auto id = floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({-8, 0, radius + touch}));
+  const auto id =
+      floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({-8, 0, radius + touch}));
   floor.world.set_inertia(id, 0.4 * radius * radius * Eigen::Matrix3d::Identity());
   floor.world.set_twist(id, {{2, 0, 0}, {0, 0, 0}});
   run(floor.world, 2.0 / 7 * 2 / (0.3 * g) + 0.15);
   // they touch in the middle of the gap between them, 1/4000 of the radius below the ball
   CHECK(floor.speed(id) == doctest::Approx(5.0 / 7 * 2).epsilon(1e-3));
-  CHECK(floor.world.twist(id).angular.y() * radius == doctest::Approx(floor.speed(id)).epsilon(5e-4));
+  CHECK(floor.world.twist(id).angular.y() * radius ==
+        doctest::Approx(floor.speed(id)).epsilon(5e-4));
 }
 
 TEST_CASE("a ball rolls down a slope at 5/7 of the slope's acceleration") {
   Slope slope(10 * degree, 0.6);
   const double radius = 0.05;
-  const auto id = slope.put("ball", ball(radius, 24, 48), 1, Pose::translation({-8, 0, radius + touch}));
+  const auto id =
+      slope.put("ball", ball(radius, 24, 48), 1, Pose::translation({-8, 0, radius + touch}));
   slope.world.set_inertia(id, 0.4 * radius * radius * Eigen::Matrix3d::Identity());
   run(slope.world, 0.3);
   const double before = slope.speed(id);
   run(slope.world, 0.5);
-  CHECK((slope.speed(id) - before) / 0.5 == doctest::Approx(5.0 / 7 * g * std::sin(10 * degree)).epsilon(5e-4));
+  CHECK((slope.speed(id) - before) / 0.5 ==
+        doctest::Approx(5.0 / 7 * g * std::sin(10 * degree)).epsilon(5e-4));
 }
 
 TEST_CASE("a spinning ball that is thrown slides as friction says, and ends as it rolls") {
   // backspin: w = -60 rad/s at 1 m/s comes back; v = (5 v0 + 2 r w0) / 7
   Slope floor(0, 0.2);
   const double radius = 0.05;
-  const auto id = floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({0, 0, radius + touch}));
+  const auto id =
+      floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({0, 0, radius + touch}));
   floor.world.set_inertia(id, 0.4 * radius * radius * Eigen::Matrix3d::Identity());
   floor.world.set_twist(id, {{1, 0, 0}, {0, -60, 0}});
   run(floor.world, 0.1);
@@ -110,7 +127,9 @@ TEST_CASE("a spinning ball that is thrown slides as friction says, and ends as i
   CHECK(floor.speed(id) == doctest::Approx((5 * 1 + 2 * radius * -60) / 7).epsilon(2e-3));
 }
 
-TEST_CASE("balls bounce off a floor to the height that their restitution says, and off each other along their line") {
+TEST_CASE(
+    "balls bounce off a floor to the height that their restitution says, and off each other along "
+    "their line") {
   Slope floor(0);
   const double radius = 0.05;
   const auto id = floor.put("ball", ball(radius), 1, Pose::translation({0, 0, radius + 0.5}));
@@ -188,13 +207,17 @@ TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimetre
   CHECK(world.twist(id).linear.x() < 1e-6);
 }
 
-TEST_CASE("what slides far in a step slides as it should, and stops at a narrow ridge of the same floor") {
+TEST_CASE(
+    "what slides far in a step slides as it should, and stops at a narrow ridge of the same "
+    "floor") {
   // 2 mm wide, as high as the box, 3 m ahead
   const Mesh ridge = moved(box(0.002, 1, 0.2), Pose::translation({3, 0, 0.1}));
   World world;
-  world.add_body(body_spec("floor", joined(box(8, 1, 0.2), ridge)), BodyKind::obstacle, {}, "floor");
+  world.add_body(body_spec("floor", joined(box(8, 1, 0.2), ridge)), BodyKind::obstacle, {},
+                 "floor");
   world.set_friction("wood", "wood", {.statics = 0.3, .kinetic = 0.3});
-  const auto id = world.add_body(body_spec("box", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({0, 0, 0.15 + touch}), "box");
+  const auto id = world.add_body(body_spec("box", box(0.1, 0.1, 0.1)), BodyKind::object,
+                                 Pose::translation({0, 0, 0.15 + touch}), "box");
   // 20 mm in a step
   world.set_twist(id, {{20, 0, 0}, {0, 0, 0}});
   run(world, 0.1);
@@ -210,9 +233,11 @@ TEST_CASE("a tall box tips over its edge when the slope is steep, and stands whe
   // 4 cm wide, 12 cm high: at atan(1 / 3) = 18.43 degrees its weight stands over the edge
   for (const double angle : {17.5 * degree, 19.5 * degree}) {
     Slope slope(angle, 2);
-    const auto id = slope.put("box", box(0.04, 0.04, 0.12), 0.5, Pose::translation({0, 0, 0.06 + touch}));
+    const auto id =
+        slope.put("box", box(0.04, 0.04, 0.12), 0.5, Pose::translation({0, 0, 0.06 + touch}));
     run(slope.world, 1.0);
-    const Eigen::Vector3d up = slope.X_WS.rotation.conjugate() * (slope.world.pose(id).rotation * Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d up = slope.X_WS.rotation.conjugate() *
+                               (slope.world.pose(id).rotation * Eigen::Vector3d::UnitZ());
     if (angle < 18 * degree)
       CHECK(up.z() > 1 - 1e-9);
     else
@@ -224,7 +249,8 @@ TEST_CASE("a stack of ten boxes stands still") {
   Slope floor(0, 0.5);
   std::vector<Id<Body>> boxes;
   for (int i = 0; i < 10; ++i)
-    boxes.push_back(floor.put("box" + std::to_string(i), box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + i * (0.1 + touch) + touch})));
+    boxes.push_back(floor.put("box" + std::to_string(i), box(0.1, 0.1, 0.1), 1,
+                              Pose::translation({0, 0, 0.05 + i * (0.1 + touch) + touch})));
   run(floor.world, 1.0);
   std::vector<Pose> before;
   for (const auto id : boxes) before.push_back(floor.world.pose(id));
@@ -247,14 +273,19 @@ TEST_CASE("the same motion wherever the world stands and however it is turned") 
     world.set_gravity(X.rotation * Eigen::Vector3d(0, 0, -g));
     world.set_friction("wood", "wood", {.statics = 0.5, .kinetic = 0.4});
     world.add_body(body_spec("plate", moved(box(4, 4, 0.2), {0, 0, -0.1})), BodyKind::obstacle, X);
-    const Pose start{Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0.5).normalized())), {0, 0, 0.2}};
-    const auto id = world.add_body(body_spec("box", box(0.1, 0.07, 0.05)), BodyKind::object, X * start);
+    const Pose start{
+        Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0.5).normalized())),
+        {0, 0, 0.2}};
+    const auto id =
+        world.add_body(body_spec("box", box(0.1, 0.07, 0.05)), BodyKind::object, X * start);
     world.set_twist(id, {X.rotation * Eigen::Vector3d(0.5, 0.2, 0), {0, 0, 0}});
     run(world, 0.3);
     return X.inverse() * world.pose(id);
   };
   const Pose here = end({});
-  const Pose there = end({Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -1, 2).normalized())), {1, -2, 0.5}});
+  const Pose there =
+      end({Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -1, 2).normalized())),
+           {1, -2, 0.5}});
   // tumbling enlarges rounding, blow by blow
   CHECK((here.position - there.position).norm() < 1e-6);
   CHECK((here.rotation.conjugate() * there.rotation).vec().norm() < 1e-5);
@@ -264,7 +295,9 @@ TEST_CASE("the same bits again, on a clone, and after a restored snapshot") {
   const auto start = [] {
     Slope slope(20 * degree, 0.3);
     for (int i = 0; i < 3; ++i)
-      slope.put("box" + std::to_string(i), box(0.1, 0.07, 0.05), 1, Pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.4 * i, Eigen::Vector3d::UnitX())), {0.05 * i, 0, 0.1 + 0.15 * i}});
+      slope.put("box" + std::to_string(i), box(0.1, 0.07, 0.05), 1,
+                Pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.4 * i, Eigen::Vector3d::UnitX())),
+                     {0.05 * i, 0, 0.1 + 0.15 * i}});
     return std::move(slope.world);
   };
   World one = start(), two = start();
@@ -296,14 +329,17 @@ TEST_CASE("a conveyor belt carries what lies on it, to its own speed and no furt
   CHECK(belt.world.pose(belt.ground) == Pose{});
 }
 
-TEST_CASE("the base of a robot without DOFs carries what lies on it, as it turns about an axis far away") {
+TEST_CASE(
+    "the base of a robot without DOFs carries what lies on it, as it turns about an axis far "
+    "away") {
   World world;
   world.set_friction("wood", "wood", {.statics = 0.9, .kinetic = 0.9});
   RobotSpec table = pendulum(0);
   table.base = body_spec("turntable", moved(box(2, 2, 0.1), {0, 0, -0.05}));
   const auto robot = world.add_robot(table, Pose::translation({5, 3, 0}));
   BodySpec spec = body_spec("cup", box(0.05, 0.05, 0.05));
-  const auto cup = world.add_body(spec, BodyKind::object, Pose::translation({5.3, 3, 0.025 + touch}));
+  const auto cup =
+      world.add_body(spec, BodyKind::object, Pose::translation({5.3, 3, 0.025 + touch}));
   run(world, 0.05);
   world.set_twist(world.robot(robot).base, {{0, 0, 0}, {0, 0, 2}});
   world.set_twist(cup, {{0, 0.6, 0}, {0, 0, 2}});
@@ -314,10 +350,14 @@ TEST_CASE("the base of a robot without DOFs carries what lies on it, as it turns
   CHECK(world.twist(cup).angular.z() == doctest::Approx(2).epsilon(1e-3));
 }
 
-TEST_CASE("obstacles that move into obstacles, and bodies that are removed while they touch, disturb nothing") {
+TEST_CASE(
+    "obstacles that move into obstacles, and bodies that are removed while they touch, disturb "
+    "nothing") {
   Slope floor(0);
-  const auto box_id = floor.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
-  const auto wall = floor.world.add_body(body_spec("wall", box(0.1, 0.1, 0.1)), BodyKind::obstacle, Pose::translation({1, 0, 0.2}), "wall");
+  const auto box_id =
+      floor.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
+  const auto wall = floor.world.add_body(body_spec("wall", box(0.1, 0.1, 0.1)), BodyKind::obstacle,
+                                         Pose::translation({1, 0, 0.2}), "wall");
   floor.world.set_twist(wall, {{0, 0, -1}, {0, 0, 0}});
   run(floor.world, 0.5);
   CHECK(floor.world.dynamics()->report.steps == 500);
@@ -327,7 +367,9 @@ TEST_CASE("obstacles that move into obstacles, and bodies that are removed while
   run(floor.world, 0.01);
 }
 
-TEST_CASE("a ball whose centre has come into a plate is pushed out of it, and contacts tell its weight once") {
+TEST_CASE(
+    "a ball whose centre has come into a plate is pushed out of it, and contacts tell its weight "
+    "once") {
   Slope floor(0);
   const double radius = 0.02;
   const auto id = floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({0, 0, -0.005}));
@@ -338,7 +380,9 @@ TEST_CASE("a ball whose centre has come into a plate is pushed out of it, and co
   CHECK(sum == doctest::Approx(g).epsilon(1e-4));
 }
 
-TEST_CASE("the fingerprint of a world tells all that makes it move otherwise, and nothing that does not") {
+TEST_CASE(
+    "the fingerprint of a world tells all that makes it move otherwise, and nothing that does "
+    "not") {
   const auto start = [] {
     Slope slope(0);
     slope.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
@@ -349,8 +393,10 @@ TEST_CASE("the fingerprint of a world tells all that makes it move otherwise, an
   world.edit_dynamics();
   run(world, 0);
   CHECK(world.hash() == hash);
-  for (const auto change : {+[](DynamicSettings& s) { s.step = 2e-3; }, +[](DynamicSettings& s) { s.engine = DynamicsEngine::ode; },
-                            +[](DynamicSettings& s) { s.cone = FrictionCone::pyramid; }, +[](DynamicSettings& s) { s.cone_edges = 10; }}) {
+  for (const auto change : {+[](DynamicSettings& s) { s.step = 2e-3; },
+                            +[](DynamicSettings& s) { s.engine = DynamicsEngine::ode; },
+                            +[](DynamicSettings& s) { s.cone = FrictionCone::pyramid; },
+                            +[](DynamicSettings& s) { s.cone_edges = 10; }}) {
     World other = start();
     DynamicSettings settings = other.dynamic_settings();
     change(settings);
@@ -361,15 +407,19 @@ TEST_CASE("the fingerprint of a world tells all that makes it move otherwise, an
   CHECK(world.hash() != hash);
 }
 
-TEST_CASE("a body that is put down with its faces touching, or a little above, sticks by static friction") {
+TEST_CASE(
+    "a body that is put down with its faces touching, or a little above, sticks by static "
+    "friction") {
   for (const double gap : {0.0, 1e-6, 1e-5, 2.5e-5, 9e-5, 1.1e-4, 5e-4}) {
     CAPTURE(gap);
     Slope slope(26 * degree);
     // tan 26 degrees is 0.488
     slope.world.set_friction("wood", "wood", {.statics = 0.5, .kinetic = 0.3});
-    const auto id = slope.put("box", box(0.06, 0.06, 0.04), 0.44, Pose::translation({0, 0, 0.02 + gap}));
+    const auto id =
+        slope.put("box", box(0.06, 0.06, 0.04), 0.44, Pose::translation({0, 0, 0.02 + gap}));
     run(slope.world, 0.3);
-    // what has fallen 0.4 mm arrives at 39 mm/s along the slope, of which kinetic friction takes 24: it slides on
+    // what has fallen 0.4 mm arrives at 39 mm/s along the slope, of which kinetic friction takes
+    // 24: it slides on
     if (gap == 5e-4)
       CHECK(slope.speed(id) > 0.3);
     else

@@ -14,11 +14,11 @@ struct FrictionKind {
   int max_bodies = 3;
   int max_contacts = 12;
   double max_mu = 2;
-  double mass_ratio = 1;    // of one body to another
-  bool rows = true;         // joint limits, motors, equations
-  bool duplicates = true;   // rows that are there twice, of either sign
-  bool consistent = true;   // velocities of rigid bodies: rest is possible
-  double compliance = 0;    // on W's diagonal
+  double mass_ratio = 1;   // of one body to another
+  bool rows = true;        // joint limits, motors, equations
+  bool duplicates = true;  // rows that are there twice, of either sign
+  bool consistent = true;  // velocities of rigid bodies: rest is possible
+  double compliance = 0;   // on W's diagonal
 };
 
 inline int below(Random& random, int count) { return static_cast<int>(random.uniform() * count); }
@@ -32,7 +32,8 @@ inline Eigen::VectorXd normals(Random& random, int count) {
 /// Free bodies that touch each other and the ground at points and along normals at random.
 inline FrictionProblem random_problem(Random& random, const FrictionKind& kind) {
   using Eigen::Vector3d, Eigen::VectorXd;
-  const int bodies = 1 + below(random, kind.max_bodies), contacts = 1 + below(random, kind.max_contacts);
+  const int bodies = 1 + below(random, kind.max_bodies),
+            contacts = 1 + below(random, kind.max_contacts);
   const int rows = kind.rows ? below(random, 6) : 0;
   VectorXd mass(6 * bodies);
   for (int b = 0; b < bodies; ++b) {
@@ -52,12 +53,14 @@ inline FrictionProblem random_problem(Random& random, const FrictionKind& kind) 
       for (int k = 0; k < other.size(); ++k) jacobian.push_back(VectorXd(jacobian[other.row + k]));
     } else {
       const int a = below(random, bodies), b = below(random, bodies + 1);
-      const Vector3d at_a = normals(random, 3), at_b = normals(random, 3), n = normals(random, 3).normalized();
+      const Vector3d at_a = normals(random, 3), at_b = normals(random, 3),
+                     n = normals(random, 3).normalized();
       const Vector3d directions[] = {n, n.unitOrthogonal(), n.cross(n.unitOrthogonal())};
       for (int k = 0; k < (block.tangents == 0 ? 1 : 3); ++k) {
         VectorXd row = VectorXd::Zero(6 * bodies);
         row.segment(6 * a, 6) << directions[k], at_a.cross(directions[k]);
-        if (b < bodies && b != a) row.segment(6 * b, 6) << -directions[k], -at_b.cross(directions[k]);
+        if (b < bodies && b != a)
+          row.segment(6 * b, 6) << -directions[k], -at_b.cross(directions[k]);
         jacobian.push_back(row);
       }
       if (block.tangents == 3) {
@@ -89,7 +92,8 @@ inline FrictionProblem random_problem(Random& random, const FrictionKind& kind) 
   return problem;
 }
 
-/// The nearest point of |t| <= mu n: itself, the apex, or on the one line of the boundary that may be nearest.
+/// The nearest point of |t| <= mu n: itself, the apex, or on the one line of the boundary that may
+/// be nearest.
 inline Eigen::VectorXd nearest_in_cone(const Eigen::VectorXd& p, double mu) {
   const Eigen::VectorXd t = p.tail(p.size() - 1);
   if (p[0] >= 0 && t.norm() <= mu * p[0]) return p;
@@ -105,7 +109,8 @@ inline Eigen::VectorXd faults(const FrictionProblem& problem, const Eigen::Vecto
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
     const auto& block = problem.blocks[i];
     const double d = problem.W.diagonal().segment(block.row, block.size()).mean();
-    Eigen::VectorXd here = r.segment(block.row, block.size()), v = u.segment(block.row, block.size());
+    Eigen::VectorXd here = r.segment(block.row, block.size()),
+                    v = u.segment(block.row, block.size());
     if (block.is_contact()) {
       v[0] += block.mu * v.tail(block.tangents).norm();
       all[i] = (d * here - nearest_in_cone(d * here - v, block.mu)).norm();
@@ -120,7 +125,9 @@ inline Eigen::VectorXd faults(const FrictionProblem& problem, const Eigen::Vecto
 }
 
 // by a solver that has solved nothing before
-inline FrictionSolution solve_friction(const FrictionProblem& problem, const Eigen::VectorXd& warm_start, const FrictionOptions& options = {}) {
+inline FrictionSolution solve_friction(const FrictionProblem& problem,
+                                       const Eigen::VectorXd& warm_start,
+                                       const FrictionOptions& options = {}) {
   FrictionSolver solver;
   return solver.solve(problem, warm_start, options);
 }

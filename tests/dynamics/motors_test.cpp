@@ -73,7 +73,9 @@ TEST_CASE("an effort limit holds, and a limit of the joint stops it without boun
   CHECK(std::abs(limited.v()) < 1e-9);
 }
 
-TEST_CASE("motors without gains come to their target in the time of their natural frequency, without overshoot") {
+TEST_CASE(
+    "motors without gains come to their target in the time of their natural frequency, without "
+    "overshoot") {
   Arm arm;
   arm.control().target = 0.3;
   double highest = 0;
@@ -86,7 +88,9 @@ TEST_CASE("motors without gains come to their target in the time of their natura
   CHECK(highest < 0.3 + 1e-6);
 }
 
-TEST_CASE("a trajectory is followed: it begins and ends at rest, and in its middle has 15/8 of the mean speed") {
+TEST_CASE(
+    "a trajectory is followed: it begins and ends at rest, and in its middle has 15/8 of the mean "
+    "speed") {
   Arm arm({.kp = 1e5, .kd = 1e3});
   send_dof(arm.world, arm.id, 0, 1.2, 2);
   const double duration = 15.0 / 8 * 1.2 / 2;
@@ -148,7 +152,9 @@ TEST_CASE("a joint's spring swings it at the root of stiffness over inertia, arm
   CHECK(std::abs(arm.v()) < 0.01);
 }
 
-TEST_CASE("gravity compensation holds an arm out, and without it its motor sags by its weight over its stiffness") {
+TEST_CASE(
+    "gravity compensation holds an arm out, and without it its motor sags by its weight over its "
+    "stiffness") {
   for (const bool compensated : {true, false}) {
     World world;
     RobotSpec spec = pendulum(1);
@@ -165,7 +171,8 @@ TEST_CASE("gravity compensation holds an arm out, and without it its motor sags 
       CHECK(std::abs(q - std::numbers::pi / 2) < 1e-12);
     } else {
       // torque about y of a rod at q from the hanging position
-      CHECK(200 * (std::numbers::pi / 2 - q) == doctest::Approx(g * 0.5 * std::sin(q)).epsilon(1e-6));
+      CHECK(200 * (std::numbers::pi / 2 - q) ==
+            doctest::Approx(g * 0.5 * std::sin(q)).epsilon(1e-6));
     }
   }
 }
@@ -177,18 +184,23 @@ TEST_CASE("joints that one DOF turns keep their ratio to rounding, whatever push
   close_by_motors(world, id, 1);
   Stepper stepper(world);
   for (int i = 0; i < 200; ++i) {
-    world.edit_dynamics().loads[robot.links[1].body.index].force = {0.5 * std::sin(0.1 * i), 0.3, 0.2};
+    world.edit_dynamics().loads[robot.links[1].body.index].force = {0.5 * std::sin(0.1 * i), 0.3,
+                                                                    0.2};
     stepper.run(0.001);
   }
   for (size_t j = 0; j < robot.joints.size(); ++j)
-    CHECK(world.joints(id)[static_cast<int>(j)] == robot.joints[j].ratio * world.dofs(id)[robot.joints[j].dof]);
+    CHECK(world.joints(id)[static_cast<int>(j)] ==
+          robot.joints[j].ratio * world.dofs(id)[robot.joints[j].dof]);
 }
 
-TEST_CASE("a breakaway finger leaves its stopped joint behind, closes on, and picks it up when it opens") {
+TEST_CASE(
+    "a breakaway finger leaves its stopped joint behind, closes on, and picks it up when it "
+    "opens") {
   World world;
   world.set_gravity({0, 0, 0});
   RobotSpec spec = two_finger(DofKind::breakaway, 0.5);
-  for (DofSpec& dof : spec.dofs) dof.breakaway_torque = 0.05, dof.max_effort = 0.5, dof.kp = 20, dof.kd = 0.5;
+  for (DofSpec& dof : spec.dofs)
+    dof.breakaway_torque = 0.05, dof.max_effort = 0.5, dof.kp = 20, dof.kd = 0.5;
   const auto id = world.add_robot(spec, {});
   DynamicSettings settings;
   settings.robots[id] = {.gains = {}, .breakaway = true};
@@ -196,8 +208,10 @@ TEST_CASE("a breakaway finger leaves its stopped joint behind, closes on, and pi
   // the other finger would meet it
   for (const int l : {2, 3}) world.set_collision(false, world.robot(id).links[l].body);
   // a wall before the first link of the right finger alone
-  const Eigen::Vector3d at = world.pose(world.robot(id).links[0].body) * Eigen::Vector3d(-0.025, 0, 0);
-  world.add_body(body_spec("wall", box(0.01, 0.01, 0.01)), BodyKind::obstacle, Pose::translation(at + Eigen::Vector3d(-0.02, 0, 0)), "wall");
+  const Eigen::Vector3d at =
+      world.pose(world.robot(id).links[0].body) * Eigen::Vector3d(-0.025, 0, 0);
+  world.add_body(body_spec("wall", box(0.01, 0.01, 0.01)), BodyKind::obstacle,
+                 Pose::translation(at + Eigen::Vector3d(-0.02, 0, 0)), "wall");
   close_by_motors(world, id, 1);
   run(world, 2.5);
   CHECK(!world.follows_dof(id, 0));
@@ -210,7 +224,9 @@ TEST_CASE("a breakaway finger leaves its stopped joint behind, closes on, and pi
   CHECK(world.joints(id)[0] == doctest::Approx(world.dofs(id)[0]));
 }
 
-TEST_CASE("the joints of a compliant DOF share their tendon's force by their springs and yield to what they touch") {
+TEST_CASE(
+    "the joints of a compliant DOF share their tendon's force by their springs and yield to what "
+    "they touch") {
   World world;
   world.set_gravity({0, 0, 0});
   RobotSpec spec = two_finger(DofKind::compliant, 0.5);
@@ -228,7 +244,8 @@ TEST_CASE("the joints of a compliant DOF share their tendon's force by their spr
 }
 
 TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it by its inertia") {
-  // the arm hangs along -z; its base is jerked along x: the rod's centre stays, but for what the hinge pulls
+  // the arm hangs along -z; its base is jerked along x: the rod's centre stays, but for what the
+  // hinge pulls
   World world;
   const auto id = add_free_robot(world, pendulum(1));
   world.set_gravity({0, 0, 0});
@@ -239,12 +256,15 @@ TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it b
   const double inertia = rod.inertia_per_mass(1, 1) + 0.25;
   // momentum about the hinge: I w = m l/2 v, in the sense that lets the centre behind
   CHECK(std::abs(world.dof_velocities(id)[0]) == doctest::Approx(0.5 / inertia).epsilon(1e-9));
-  CHECK(world.twist(world.robot(id).links[0].body).linear.x() == doctest::Approx(1 - 0.25 / inertia).epsilon(1e-9));
+  CHECK(world.twist(world.robot(id).links[0].body).linear.x() ==
+        doctest::Approx(1 - 0.25 / inertia).epsilon(1e-9));
   stepper.run(0.1);
   CHECK(world.pose(world.robot(id).base).position.x() == doctest::Approx(0.1).epsilon(1e-9));
 }
 
-TEST_CASE("what a motor is given and what its controller adds stay within its largest effort together, and are told") {
+TEST_CASE(
+    "what a motor is given and what its controller adds stay within its largest effort together, "
+    "and are told") {
   Arm arm({.max_effort = 2, .kp = 1e6, .kd = 1e3});
   arm.control() = {.target = 3, .effort = 1.5, .trajectory = {}};
   run(arm.world, 0.1);

@@ -29,13 +29,17 @@ struct Both {
     CHECK(ode.dynamics()->report.failures == 0);
     CHECK(ours.dynamics()->report.failures == 0);
   }
-  double apart(Id<Body> id) const { return (ours.pose(id).position - ode.pose(id).position).norm(); }
-  double turned(Id<Body> id) const { return ours.pose(id).rotation.angularDistance(ode.pose(id).rotation); }
+  double apart(Id<Body> id) const {
+    return (ours.pose(id).position - ode.pose(id).position).norm();
+  }
+  double turned(Id<Body> id) const {
+    return ours.pose(id).rotation.angularDistance(ode.pose(id).rotation);
+  }
   World ours, ode;
 };
 
-Id<Body> add_block(World& world, const std::string& name, const Vector3d& size, const Pose& X, double mass,
-                   BodyKind kind = BodyKind::object) {
+Id<Body> add_block(World& world, const std::string& name, const Vector3d& size, const Pose& X,
+                   double mass, BodyKind kind = BodyKind::object) {
   BodySpec spec = body_spec(name, box(size.x(), size.y(), size.z()));
   spec.mass = mass;
   return world.add_body(spec, kind, X);
@@ -46,23 +50,31 @@ Id<Body> add_slope(World& world, double angle, double mu) {
   world.set_friction("wood", "wood", {mu, mu});
   const Pose turn = Pose::turn(angle, Vector3d::UnitY());
   add_block(world, "slope", {4, 1, 0.1}, turn, 1, BodyKind::obstacle);
-  return add_block(world, "block", {0.06, 0.06, 0.04}, turn * Pose::translation({-1, 0, 0.07 + 0.25 * world.contact_threshold()}),
+  return add_block(world, "block", {0.06, 0.06, 0.04},
+                   turn * Pose::translation({-1, 0, 0.07 + 0.25 * world.contact_threshold()}),
                    0.44);
 }
 
-/// Links in a row that hang from a base, each with hinges about y (several a link: one along each of the axes given), or sliders.
-RobotSpec chain(int links, const std::vector<Vector3d>& axes, JointKind kind = JointKind::revolute) {
+/// Links in a row that hang from a base, each with hinges about y (several a link: one along each
+/// of the axes given), or sliders.
+RobotSpec chain(int links, const std::vector<Vector3d>& axes,
+                JointKind kind = JointKind::revolute) {
   RobotSpec robot;
   robot.name = "chain";
   robot.base = body_spec("chain_base", box(0.02, 0.02, 0.02));
   for (int l = 0; l < links; ++l) {
-    LinkSpec link{.body = body_spec("chain_link" + std::to_string(l), moved(box(0.02, 0.03, 0.1), {0, 0, -0.07}))};
+    LinkSpec link{.body = body_spec("chain_link" + std::to_string(l),
+                                    moved(box(0.02, 0.03, 0.1), {0, 0, -0.07}))};
     link.body.mass = 0.2 + 0.1 * l;
     link.parent = l - 1;
     for (size_t k = 0; k < axes.size(); ++k) {
       DofSpec dof;
       const double pi = std::numbers::pi;
-      JointSpec joint{.kind = kind, .axis = axes[k], .dof = static_cast<int>(robot.dofs.size()), .min = -pi, .max = pi};
+      JointSpec joint{.kind = kind,
+                      .axis = axes[k],
+                      .dof = static_cast<int>(robot.dofs.size()),
+                      .min = -pi,
+                      .max = pi};
       if (l > 0 && k == 0) joint.X_PJ = Pose::translation({0, 0, -0.14});
       robot.dofs.push_back(dof);
       link.joints.push_back(joint);
@@ -111,10 +123,12 @@ TEST_CASE("ODE: a load at a body and the velocity of an obstacle act as with our
   World world;
   world.set_friction("wood", "wood", {0.5, 0.5});
   const auto table = add_block(world, "table", {1, 1, 0.1}, {}, 1, BodyKind::obstacle);
-  const auto body = add_block(world, "block", {0.06, 0.06, 0.04}, Pose::translation({0, 0, 0.07 + 0.25e-4}), 0.44);
+  const auto body = add_block(world, "block", {0.06, 0.06, 0.04},
+                              Pose::translation({0, 0, 0.07 + 0.25e-4}), 0.44);
   world.set_twist(table, {{0.1, 0, 0}, {0, 0, 0}});
   Both both(world);
-  for (World* w : {&both.ours, &both.ode}) w->edit_dynamics().loads[body.index] = {{0, 0, -2}, {0, 0, 0.01}};
+  for (World* w : {&both.ours, &both.ode})
+    w->edit_dynamics().loads[body.index] = {{0, 0, -2}, {0, 0, 0.01}};
   both.run(0.3);
   CHECK(both.ode.twist(body).linear.x() == doctest::Approx(0.1).epsilon(1e-6));
   CHECK(both.apart(body) < 1e-4);
@@ -129,7 +143,9 @@ TEST_CASE("ODE: a load at a body and the velocity of an obstacle act as with our
   CHECK(both.apart(body) < 2e-4);
 }
 
-TEST_CASE("ODE: a block slides down a slope at the acceleration of the book, and sticks below the friction angle") {
+TEST_CASE(
+    "ODE: a block slides down a slope at the acceleration of the book, and sticks below the "
+    "friction angle") {
   const double angle = 30 * std::numbers::pi / 180, limit = std::tan(angle);
   {
     World world;
@@ -139,7 +155,8 @@ TEST_CASE("ODE: a block slides down a slope at the acceleration of the book, and
     const Vector3d ours = both.ours.twist(block).linear, ode = both.ode.twist(block).linear;
     both.run(0.3);
     const double book = 9.81 * (std::sin(angle) - 0.95 * limit * std::cos(angle));
-    CHECK((both.ours.twist(block).linear - ours).norm() / 0.3 == doctest::Approx(book).epsilon(1e-9));
+    CHECK((both.ours.twist(block).linear - ours).norm() / 0.3 ==
+          doctest::Approx(book).epsilon(1e-9));
     // ODE's contacts give way a little
     CHECK((both.ode.twist(block).linear - ode).norm() / 0.3 == doctest::Approx(book).epsilon(1e-5));
   }
@@ -225,13 +242,16 @@ TEST_CASE("ODE: motors hold, follow and give what they are told") {
   spec.dofs[0].max_effort = 0.5;
   spec.dofs[1].kp = 5, spec.dofs[1].kd = 0.1;
   const auto id = add_loose(world, spec);
-  world.edit_dynamics().controls[0] = {.mode = ControlMode::velocity, .velocity = 2, .trajectory = {}};
+  world.edit_dynamics().controls[0] = {
+      .mode = ControlMode::velocity, .velocity = 2, .trajectory = {}};
   send_dof(world, id, 1, -0.7, 1);
   Both both(world);
   check_dofs(both, id, 0.6, 1e-6);
-  for (World* w : {&both.ours, &both.ode}) w->edit_dynamics().controls[0] = {.mode = ControlMode::effort, .effort = 0.3, .trajectory = {}};
+  for (World* w : {&both.ours, &both.ode})
+    w->edit_dynamics().controls[0] = {.mode = ControlMode::effort, .effort = 0.3, .trajectory = {}};
   check_dofs(both, id, 0.2, 1e-6);
-  CHECK(both.ode.dynamics()->dof_efforts[1] == doctest::Approx(both.ours.dynamics()->dof_efforts[1]).epsilon(1e-3));
+  CHECK(both.ode.dynamics()->dof_efforts[1] ==
+        doctest::Approx(both.ours.dynamics()->dof_efforts[1]).epsilon(1e-3));
 }
 
 TEST_CASE("ODE: joints of one DOF keep their ratio, which no joint of ODE does") {
@@ -274,10 +294,15 @@ static RobotSpec jaws() {
     dof.default_velocity = 0.05;
     dof.max_effort = 4;
     robot.dofs.push_back(dof);
-    LinkSpec link{.body = body_spec("jaw" + std::to_string(side), moved(box(0.006, 0.03, 0.02), {0.033, 0, 0}))};
+    LinkSpec link{.body = body_spec("jaw" + std::to_string(side),
+                                    moved(box(0.006, 0.03, 0.02), {0.033, 0, 0}))};
     link.body.mass = 0.1;
     if (side == 1) link.X_JL = Pose::turn(std::numbers::pi, Vector3d::UnitY());
-    link.joints = {{.kind = JointKind::prismatic, .axis = {side == 0 ? -1.0 : 1.0, 0, 0}, .dof = side, .min = 0, .max = 0.028}};
+    link.joints = {{.kind = JointKind::prismatic,
+                    .axis = {side == 0 ? -1.0 : 1.0, 0, 0},
+                    .dof = side,
+                    .min = 0,
+                    .max = 0.028}};
     robot.links.push_back(link);
   }
   return robot;
@@ -318,7 +343,8 @@ TEST_CASE("ODE: two jaws squeeze and hold a block that falls when they open") {
 
 TEST_CASE("ODE: a Barrett hand, whose joints are coupled, closes on a block as with our solver") {
   World world;
-  const auto hand = add_robot(world, read_robot("models/hands/barrett/barrett.cfg", {.root = "."}), {});
+  const auto hand =
+      add_robot(world, read_robot("models/hands/barrett/barrett.cfg", {.root = "."}), {});
   BodySpec spec = body_spec("cylinder", box(0.06, 0.06, 0.12));
   spec.mass = 0.3;
   const auto object = world.add_body(spec, BodyKind::object, Pose::translation({0, 0, 0.14}));

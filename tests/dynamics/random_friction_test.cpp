@@ -25,7 +25,8 @@ double rounding(const FrictionProblem& problem, const VectorXd& r) {
 }
 
 void check_law(const FrictionProblem& problem, const FrictionSolution& solution) {
-  const double fault = test::faults(problem, solution.r).maxCoeff(), largest = problem.q.lpNorm<Eigen::Infinity>();
+  const double fault = test::faults(problem, solution.r).maxCoeff(),
+               largest = problem.q.lpNorm<Eigen::Infinity>();
   CHECK(fault <= 1.01e-12 * largest + std::min(4 * rounding(problem, solution.r), 2e-6 * largest));
   CHECK(std::abs(solution.residual - fault) <= 1e-13 * largest + 2 * rounding(problem, solution.r));
 }
@@ -49,17 +50,27 @@ void check_all_solved(uint64_t seed, const FrictionKind& kind, double allowed = 
 
 }  // namespace
 
-TEST_CASE("random contacts are all solved") { check_all_solved(1, {.rows = false, .duplicates = false}); }
+TEST_CASE("random contacts are all solved") {
+  check_all_solved(1, {.rows = false, .duplicates = false});
+}
 
-TEST_CASE("random contacts with limits, motors, equations, some of them twice, are all solved") { check_all_solved(2, {}); }
+TEST_CASE("random contacts with limits, motors, equations, some of them twice, are all solved") {
+  check_all_solved(2, {});
+}
 
-TEST_CASE("random contacts of masses from 1 to 1e6 are all solved") { check_all_solved(3, {.mass_ratio = 1e6}); }
+TEST_CASE("random contacts of masses from 1 to 1e6 are all solved") {
+  check_all_solved(3, {.mass_ratio = 1e6});
+}
 
-TEST_CASE("of masses from 1 to 1e10, whose impulses are beyond 16 digits, all but two in a thousand are") {
+TEST_CASE(
+    "of masses from 1 to 1e10, whose impulses are beyond 16 digits, all but two in a thousand "
+    "are") {
   check_all_solved(4, {.mass_ratio = 1e10}, 1.0 / 500);
 }
 
-TEST_CASE("demands that contradict each other: what is not solved is proved to be so, and has the least violation") {
+TEST_CASE(
+    "demands that contradict each other: what is not solved is proved to be so, and has the least "
+    "violation") {
   FrictionSolver solver;
   int unsolved = 0;
   for (int i = 0; i < problems(); ++i) {
@@ -83,18 +94,22 @@ TEST_CASE("demands that contradict each other: what is not solved is proved to b
   CHECK(unsolved < problems() / 4);
 }
 
-TEST_CASE("compliant contacts of moderate friction: the same impulses as by projecting them again and again") {
+TEST_CASE(
+    "compliant contacts of moderate friction: the same impulses as by projecting them again and "
+    "again") {
   FrictionSolver solver;
   for (int i = 0; i < test::cases(200); ++i) {
     Random random(6, i);
-    const FrictionProblem problem = random_problem(random, {.max_contacts = 6, .max_mu = 0.3, .compliance = 2});
+    const FrictionProblem problem =
+        random_problem(random, {.max_contacts = 6, .max_mu = 0.3, .compliance = 2});
     const FrictionSolution solution = solver.solve(problem, {});
     CHECK(solution.solved);
     VectorXd r = VectorXd::Zero(problem.q.size());
     for (int sweep = 0; sweep < 2000; ++sweep)
       for (const auto& block : problem.blocks) {
         const double d = problem.W.block(block.row, block.row, block.size(), block.size()).trace();
-        VectorXd v = problem.W.middleRows(block.row, block.size()) * r + problem.q.segment(block.row, block.size());
+        VectorXd v = problem.W.middleRows(block.row, block.size()) * r +
+                     problem.q.segment(block.row, block.size());
         if (block.is_contact()) v[0] += block.mu * v.tail(block.tangents).norm();
         const VectorXd moved = r.segment(block.row, block.size()) - v / d;
         if (block.is_contact())
@@ -106,7 +121,9 @@ TEST_CASE("compliant contacts of moderate friction: the same impulses as by proj
   }
 }
 
-TEST_CASE("redundant contacts share their load the same way wherever the solver starts, and the same bits come twice") {
+TEST_CASE(
+    "redundant contacts share their load the same way wherever the solver starts, and the same "
+    "bits come twice") {
   FrictionSolver solver;
   int apart = 0;
   for (int i = 0; i < test::cases(200); ++i) {
@@ -127,14 +144,18 @@ TEST_CASE("redundant contacts share their load the same way wherever the solver 
   CHECK(apart <= 6);
 }
 
-TEST_CASE("heaps of many contacts that something strikes are solved from the forces before, in a few iterations") {
+TEST_CASE(
+    "heaps of many contacts that something strikes are solved from the forces before, in a few "
+    "iterations") {
   FrictionSolver solver;
   int many = 0, iterations = 0;
   for (int i = 0; i < test::cases(100); ++i) {
     Random random(11, i);
-    FrictionProblem problem = random_problem(random, {.max_bodies = 20, .max_contacts = 80, .max_mu = 1});
+    FrictionProblem problem =
+        random_problem(random, {.max_bodies = 20, .max_contacts = 80, .max_mu = 1});
     const VectorXd before = solver.solve(problem, {}).r;
-    problem.q += 0.3 * problem.W * test::normals(random, static_cast<int>(problem.q.size())) / problem.W.diagonal().maxCoeff();
+    problem.q += 0.3 * problem.W * test::normals(random, static_cast<int>(problem.q.size())) /
+                 problem.W.diagonal().maxCoeff();
     const FrictionSolution solution = solver.solve(problem, before);
     REQUIRE(solution.solved);
     check_law(problem, solution);
@@ -146,14 +167,18 @@ TEST_CASE("heaps of many contacts that something strikes are solved from the for
   CHECK(iterations < 25 * test::cases(100));
 }
 
-TEST_CASE("steps of a motion, whose velocities change by a thousandth, need a few iterations each, redundant contacts or not") {
+TEST_CASE(
+    "steps of a motion, whose velocities change by a thousandth, need a few iterations each, "
+    "redundant contacts or not") {
   FrictionSolver solver;
   double iterations = 0;
   int steps = 0, many = 0;
   for (int i = 0; i < test::cases(100); ++i) {
     Random random(10, i);
     FrictionProblem problem = random_problem(random, {.max_mu = 1});
-    const VectorXd change = 1e-3 * problem.W * test::normals(random, static_cast<int>(problem.q.size())) / problem.W.diagonal().maxCoeff();
+    const VectorXd change = 1e-3 * problem.W *
+                            test::normals(random, static_cast<int>(problem.q.size())) /
+                            problem.W.diagonal().maxCoeff();
     VectorXd r = solver.solve(problem, {}).r;
     for (int step = 0; step < 20; ++step) {
       problem.q += change;
@@ -183,9 +208,11 @@ TEST_CASE("pyramids: random contacts are solved, and with many edges they are co
   CHECK(solved >= test::cases(150) * 97 / 100);
   for (int i = 0; i < test::cases(20); ++i) {
     Random random(9, i);
-    const FrictionProblem problem = random_problem(random, {.max_contacts = 3, .max_mu = 0.3, .compliance = 2});
+    const FrictionProblem problem =
+        random_problem(random, {.max_contacts = 3, .max_mu = 0.3, .compliance = 2});
     const FrictionSolution cone = solver.solve(problem, {});
-    const FrictionSolution pyramid = solver.solve(problem, {}, {.cone = FrictionCone::pyramid, .edges = 40});
+    const FrictionSolution pyramid =
+        solver.solve(problem, {}, {.cone = FrictionCone::pyramid, .edges = 40});
     bool torsion = false;
     for (const auto& block : problem.blocks) torsion |= block.tangents == 3;
     if (!torsion) CHECK((cone.r - pyramid.r).norm() < 0.02 * (cone.r.norm() + 1e-3));

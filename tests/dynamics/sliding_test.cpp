@@ -38,7 +38,8 @@ struct Pair {
 // how far a point of one is from the nearest of the other
 double apart(const ManifoldPoint& point, const Manifold& other, bool of_a) {
   double out = 1;
-  for (const ManifoldPoint& p : other.points) out = std::min(out, of_a ? (p.p_a - point.p_a).norm() : (p.p_b - point.p_b).norm());
+  for (const ManifoldPoint& p : other.points)
+    out = std::min(out, of_a ? (p.p_a - point.p_a).norm() : (p.p_b - point.p_b).norm());
   return out;
 }
 
@@ -54,8 +55,10 @@ TEST_CASE("corners that slide over a face touch where measuring anew finds them"
     Random random(7);
     for (int i = 0; i < 400; ++i) {
       const double turn = random.uniform(-0.3, 0.3), tilt = random.uniform(-1e-3, 1e-3);
-      const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * Eigen::AngleAxisd(tilt, Vector3d::UnitX())),
-                   {random.uniform(-0.1, 0.5), random.uniform(-0.3, 0.3), 0.07 + random.uniform(1e-5, 9e-5)}};
+      const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(tilt, Vector3d::UnitX())),
+                   {random.uniform(-0.1, 0.5), random.uniform(-0.3, 0.3),
+                    0.07 + random.uniform(1e-5, 9e-5)}};
       pair.world.set_pose(pair.mover, X);
       Manifold followed = pair.manifold;
       if (!follow_sliding(pair.world, followed)) continue;
@@ -84,12 +87,14 @@ TEST_CASE("what may touch elsewhere is measured anew, and stays as it was until 
   SUBCASE("soft") { pair.world.set_elastic_modulus(pair.mover, 1e6); }
   SUBCASE("on another triangle") { at({-0.3, 0.25, 0.07 + 3e-5}); }
   SUBCASE("one corner away, another come near") {
-    pair.world.set_pose(pair.mover, {Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Vector3d::UnitX())), {0.1, 0.05, 0.0703}});
+    pair.world.set_pose(pair.mover, {Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Vector3d::UnitX())),
+                                     {0.1, 0.05, 0.0703}});
   }
   const Manifold before = pair.manifold;
   CHECK_FALSE(follow_sliding(pair.world, pair.manifold));
   CHECK(pair.manifold.X_AB == before.X_AB);
-  for (size_t i = 0; i < before.points.size(); ++i) CHECK(pair.manifold.points[i].p_a == before.points[i].p_a);
+  for (size_t i = 0; i < before.points.size(); ++i)
+    CHECK(pair.manifold.points[i].p_a == before.points[i].p_a);
 }
 
 TEST_CASE("a foot that comes near the face beside those that touch is a contact of its own") {
@@ -97,7 +102,8 @@ TEST_CASE("a foot that comes near the face beside those that touch is a contact 
   Mesh stool;
   for (const double x : {-0.05, 0.05})
     for (const double y : {-0.05, 0.05})
-      stool = joined(stool, moved(box(0.01, 0.01, 0.1), Pose::translation({x, y, x > 0 && y > 0 ? 0.05015 : 0.05})));
+      stool = joined(stool, moved(box(0.01, 0.01, 0.1),
+                                  Pose::translation({x, y, x > 0 && y > 0 ? 0.05015 : 0.05})));
   Pair pair(true, stool, Pose::translation({0, 0.1, 0.05 + 3e-5}));
   const size_t three = pair.manifold.points.size();
   REQUIRE(three > 0);
@@ -105,14 +111,17 @@ TEST_CASE("a foot that comes near the face beside those that touch is a contact 
   Manifold followed = pair.manifold;
   CHECK(follow_sliding(pair.world, followed));
   CHECK(followed.points.size() == pair.fresh().points.size());
-  pair.world.set_pose(pair.mover, {Eigen::Quaterniond(Eigen::AngleAxisd(8e-4, Vector3d(-1, 1, 0).normalized())), {0, 0.1, 0.05 + 9e-5}});
+  pair.world.set_pose(pair.mover,
+                      {Eigen::Quaterniond(Eigen::AngleAxisd(8e-4, Vector3d(-1, 1, 0).normalized())),
+                       {0, 0.1, 0.05 + 9e-5}});
   followed = pair.manifold;
   CHECK_FALSE(follow_sliding(pair.world, followed));
 }
 
 TEST_CASE("only convex bodies lend their faces") {
   // a trough: the block may touch its walls
-  const Mesh trough = joined(box(1, 0.6, 0.1), moved(box(1, 0.1, 0.3), Pose::translation({0, 0.25, 0.2})));
+  const Mesh trough =
+      joined(box(1, 0.6, 0.1), moved(box(1, 0.1, 0.3), Pose::translation({0, 0.25, 0.2})));
   Pair pair(true, block, Pose::translation({0.1, -0.1, 0.07 + 3e-5}), trough);
   REQUIRE(pair.manifold.points.size() == 4);
   CHECK_FALSE(follow_sliding(pair.world, pair.manifold));

@@ -6,9 +6,9 @@
 using namespace clench;
 using clench::test::solve_friction;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using Eigen::Vector3d;
 using Eigen::Vector4d;
+using Eigen::VectorXd;
 
 static FrictionProblem one_contact(const MatrixXd& W, const VectorXd& q, double mu) {
   return {.W = W, .q = q, .blocks = {{.tangents = static_cast<int>(q.size()) - 1, .mu = mu}}};
@@ -26,10 +26,13 @@ static VectorXd impulses(const FrictionProblem& problem) {
 TEST_CASE("a body of 2 kg on the ground opens, sticks or slides against its velocity") {
   const MatrixXd W = MatrixXd::Identity(3, 3) / 2;
   CHECK(impulses(one_contact(W, Vector3d(0.1, 3, 4), 0.5)).norm() == 0);
-  CHECK((impulses(one_contact(W, Vector3d(-1, 0.3, -0.3), 0.5)) - Vector3d(2, -0.6, 0.6)).norm() < 1e-15);
-  CHECK((impulses(one_contact(W, Vector3d(-1, 3, 4), 0.5)) - Vector3d(2, -0.6, -0.8)).norm() < 1e-15);
+  CHECK((impulses(one_contact(W, Vector3d(-1, 0.3, -0.3), 0.5)) - Vector3d(2, -0.6, 0.6)).norm() <
+        1e-15);
+  CHECK((impulses(one_contact(W, Vector3d(-1, 3, 4), 0.5)) - Vector3d(2, -0.6, -0.8)).norm() <
+        1e-15);
   CHECK((impulses(one_contact(W, Vector3d(-1, 3, 4), 0)) - Vector3d(2, 0, 0)).norm() < 1e-15);
-  CHECK(impulses(one_contact(W.topLeftCorner(1, 1), VectorXd::Constant(1, -1), 0))[0] == doctest::Approx(2));
+  CHECK(impulses(one_contact(W.topLeftCorner(1, 1), VectorXd::Constant(1, -1), 0))[0] ==
+        doctest::Approx(2));
 }
 
 TEST_CASE("torsion shares the cone with sliding") {
@@ -48,7 +51,8 @@ TEST_CASE("a contact whose sliding presses it on, or lifts it") {
     W(0, 1) = W(1, 0) = coupling;
     for (const double mu : {0.1, 1.0, 3.0})
       for (const double slip : {-20.0, -1.0, 0.0, 1.0, 20.0}) {
-        const VectorXd r = impulses(one_contact(W, Vector3d(-1, slip, 0.1), mu)), u = W * r + Vector3d(-1, slip, 0.1);
+        const VectorXd r = impulses(one_contact(W, Vector3d(-1, slip, 0.1), mu)),
+                       u = W * r + Vector3d(-1, slip, 0.1);
         CHECK(r[0] > 0);
         CHECK(std::abs(u[0]) < 1e-11);
         const double friction = r.tail(2).norm(), speed = u.tail(2).norm();
@@ -86,7 +90,8 @@ TEST_CASE("the four corners of a box bear a quarter each, wherever the solver st
     const FrictionSolution solution = solve_friction(problem, warm);
     CHECK(solution.solved);
     CHECK(solution.residual < 1e-16);
-    for (int i = 0; i < 4; ++i) CHECK((solution.r.segment(3 * i, 3) - Vector3d(0.0025, 0, 0)).norm() < 1e-10);
+    for (int i = 0; i < 4; ++i)
+      CHECK((solution.r.segment(3 * i, 3) - Vector3d(0.0025, 0, 0)).norm() < 1e-10);
   }
 }
 
@@ -106,9 +111,11 @@ TEST_CASE("a box slides as a point does, and tips where its friction is higher t
 }
 
 TEST_CASE("limits, motors and equations") {
-  FrictionProblem problem{.W = MatrixXd::Identity(4, 4), .q = Vector4d(-3, 3, 5, -0.5), .blocks = {}};
+  FrictionProblem problem{
+      .W = MatrixXd::Identity(4, 4), .q = Vector4d(-3, 3, 5, -0.5), .blocks = {}};
   const double infinity = std::numeric_limits<double>::infinity();
-  problem.blocks = {{.row = 0}, {.row = 1}, {.row = 2, .low = -2, .high = 2}, {.row = 3, .low = -infinity}};
+  problem.blocks = {
+      {.row = 0}, {.row = 1}, {.row = 2, .low = -2, .high = 2}, {.row = 3, .low = -infinity}};
   const FrictionSolution solution = solve_friction(problem, {});
   CHECK(solution.solved);
   CHECK((solution.r - Vector4d(3, 0, -2, 0.5)).norm() < 1e-15);
@@ -130,8 +137,10 @@ TEST_CASE("opposite limits that ask for the impossible: half of it each, without
   MatrixXd W(2, 2);
   W << 1, -1, -1, 1;
   for (const auto& blocks : {std::vector<FrictionProblem::Block>{{.row = 0}, {.row = 1}},
-                             std::vector<FrictionProblem::Block>{{.row = 0, .tangents = 0}, {.row = 1, .tangents = 0}}}) {
-    const FrictionSolution solution = solve_friction({.W = W, .q = Eigen::Vector2d(-1, -0.5), .blocks = blocks}, {});
+                             std::vector<FrictionProblem::Block>{{.row = 0, .tangents = 0},
+                                                                 {.row = 1, .tangents = 0}}}) {
+    const FrictionSolution solution =
+        solve_friction({.W = W, .q = Eigen::Vector2d(-1, -0.5), .blocks = blocks}, {});
     CHECK_FALSE(solution.solved);
     CHECK(solution.fell_back);
     CHECK(solution.u[0] == doctest::Approx(-0.75));
@@ -152,10 +161,12 @@ TEST_CASE("a contact that no impulse moves is left alone, and says so when it si
 }
 
 TEST_CASE("nothing to solve, and what is no number") {
-  const FrictionSolution none = solve_friction({.W = MatrixXd(0, 0), .q = VectorXd(0), .blocks = {}}, {});
+  const FrictionSolution none =
+      solve_friction({.W = MatrixXd(0, 0), .q = VectorXd(0), .blocks = {}}, {});
   CHECK(none.solved);
   CHECK(none.r.size() == 0);
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   const auto refused = [&](const FrictionProblem& problem) {
     const FrictionSolution solution = solve_friction(problem, {});
     CHECK_FALSE(solution.solved);
@@ -183,7 +194,8 @@ TEST_CASE("a feather between boulders") {
   MatrixXd W(2, 2);
   W << 1e3, -1e3, -1e3, 1e3 + 1e-5;
   const Eigen::Vector2d q(-0.01, 0);
-  const std::vector<FrictionProblem::Block> blocks = {{.row = 0, .tangents = 0}, {.row = 1, .tangents = 0}};
+  const std::vector<FrictionProblem::Block> blocks = {{.row = 0, .tangents = 0},
+                                                      {.row = 1, .tangents = 0}};
   const FrictionSolution solution = solve_friction({.W = W, .q = q, .blocks = blocks}, {});
   CHECK(solution.solved);
   CHECK(solution.r[0] == doctest::Approx(0.01 * (1e5 + 1e-3)));
@@ -192,10 +204,11 @@ TEST_CASE("a feather between boulders") {
 
 TEST_CASE("a pyramid's friction is on a polygon, and least square to its edges") {
   const MatrixXd W = MatrixXd::Identity(3, 3) / 2;
-  const FrictionSolution along = solve_friction(one_contact(W, Vector3d(-1, 3, 0.1), 0.5), {}, {.cone = FrictionCone::pyramid, .edges = 4});
+  const FrictionSolution along = solve_friction(one_contact(W, Vector3d(-1, 3, 0.1), 0.5), {},
+                                                {.cone = FrictionCone::pyramid, .edges = 4});
   CHECK(along.solved);
   CHECK((along.r - Vector3d(2, -1, 0)).norm() < 1e-10);
-  const FrictionSolution sticks =
-      solve_friction(one_contact(W, Vector3d(-1, 0.3, -0.2), 0.5), {}, {.cone = FrictionCone::pyramid});
+  const FrictionSolution sticks = solve_friction(one_contact(W, Vector3d(-1, 0.3, -0.2), 0.5), {},
+                                                 {.cone = FrictionCone::pyramid});
   CHECK((sticks.r - Vector3d(2, -0.6, 0.4)).norm() < 1e-10);
 }

@@ -6,9 +6,11 @@ using namespace clench::test;
 
 static World stack() {
   World world;
-  world.add_body(body_spec("table", box(1, 1, 0.1)), BodyKind::obstacle, Pose::translation({0, 0, -0.05}));
+  world.add_body(body_spec("table", box(1, 1, 0.1)), BodyKind::obstacle,
+                 Pose::translation({0, 0, -0.05}));
   for (int i = 0; i < 4; ++i)
-    world.add_body(body_spec("box", box(0.06, 0.06, 0.04)), BodyKind::object, Pose::translation({0, 0, 0.021 + i * 0.041}));
+    world.add_body(body_spec("box", box(0.06, 0.06, 0.04)), BodyKind::object,
+                   Pose::translation({0, 0, 0.021 + i * 0.041}));
   return world;
 }
 

@@ -11,7 +11,6 @@ using namespace clench::test;
 
 namespace {
 
-
 double total(const World& world) {
   const MechanicalEnergy e = mechanical_energy(world);
   return e.kinetic + e.potential;
@@ -44,10 +43,12 @@ TEST_CASE("mass matrix: the sum of what each body's Jacobian makes of its mass")
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, 3);
     for (const Link& link : world.robot(id).links) {
       const Body& body = world.body(link.body);
-      const Eigen::MatrixXd J = dof_jacobian(world, id, link.body, world.pose(link.body) * body.com);
+      const Eigen::MatrixXd J =
+          dof_jacobian(world, id, link.body, world.pose(link.body) * body.com);
       const Eigen::Matrix3d R = world.pose(link.body).matrix();
       sum += body.mass * J.topRows(3).transpose() * J.topRows(3) +
-             J.bottomRows(3).transpose() * R * (body.mass * body.inertia_per_mass) * R.transpose() * J.bottomRows(3);
+             J.bottomRows(3).transpose() * R * (body.mass * body.inertia_per_mass) * R.transpose() *
+                 J.bottomRows(3);
     }
     // entries of some ten, sums of some hundred terms
     CHECK((dynamics.mass_matrix() - sum).cwiseAbs().maxCoeff() < 1e-11);
@@ -78,7 +79,9 @@ TEST_CASE("bias: Lagrange's equation by finite differences of the energies") {
     Eigen::VectorXd expected = (mass_matrix(q + e * v) - mass_matrix(q - e * v)) / (2 * e) * v;
     for (int i = 0; i < 3; ++i) {
       const Eigen::VectorXd d = e * Eigen::VectorXd::Unit(3, i);
-      expected[i] += ((potential(q + d) - potential(q - d)) - 0.5 * (v.dot(mass_matrix(q + d) * v) - v.dot(mass_matrix(q - d) * v))) / (2 * e);
+      expected[i] += ((potential(q + d) - potential(q - d)) -
+                      0.5 * (v.dot(mass_matrix(q + d) * v) - v.dot(mass_matrix(q - d) * v))) /
+                     (2 * e);
     }
     world.set_dofs(id, q);
     const System system = find_system(world);
@@ -91,16 +94,20 @@ TEST_CASE("bias: Lagrange's equation by finite differences of the energies") {
     // and the way back: what it takes to accelerate so
     Eigen::VectorXd change(3);
     for (double& x : change) x = random.uniform(-3, 3);
-    const auto& efforts = dynamics.inverse_dynamics(v, change, Vector6d::Zero(), world.gravity(), {});
+    const auto& efforts =
+        dynamics.inverse_dynamics(v, change, Vector6d::Zero(), world.gravity(), {});
     Eigen::VectorXd together = Eigen::VectorXd::Zero(3);
     for (size_t j = 0; j < system.trees[0].joints.size(); ++j)
-      together[system.trees[0].joints[j].coordinate] += system.trees[0].joints[j].ratio * efforts[j];
+      together[system.trees[0].joints[j].coordinate] +=
+          system.trees[0].joints[j].ratio * efforts[j];
     CHECK((together - bias - dynamics.mass_matrix() * change).cwiseAbs().maxCoeff() < 1e-10);
   }
 }
 
-TEST_CASE("a pendulum swings as its elliptic integral says, nearer with shorter steps in proportion") {
-  // a rod about its end: w^2 = 3 g / 2 l; from 60 degrees the period is longer by the arithmetic-geometric mean
+TEST_CASE(
+    "a pendulum swings as its elliptic integral says, nearer with shorter steps in proportion") {
+  // a rod about its end: w^2 = 3 g / 2 l; from 60 degrees the period is longer by the
+  // arithmetic-geometric mean
   const double amplitude = std::numbers::pi / 3;
   double a = 1, b = std::cos(amplitude / 2);
   for (int i = 0; i < 6; ++i) std::tie(a, b) = std::pair((a + b) / 2, std::sqrt(a * b));
@@ -160,7 +167,9 @@ TEST_CASE("a robot that floats keeps its momentum, whatever its joints do") {
   CHECK((last.angular - first.angular).norm() < 0.02 * first.angular.norm());
 }
 
-TEST_CASE("a free body that turns keeps its angular momentum to rounding, and its energy to the fourth order") {
+TEST_CASE(
+    "a free body that turns keeps its angular momentum to rounding, and its energy to the fourth "
+    "order") {
   World world;
   world.set_gravity({0, 0, 0});
   BodySpec spec = body_spec("brick", box(0.02, 0.06, 0.1));
@@ -174,12 +183,16 @@ TEST_CASE("a free body that turns keeps its angular momentum to rounding, and it
 }
 
 TEST_CASE("slender and flat bodies that spin fast keep energy and angular momentum") {
-  for (const Eigen::Vector3d& size : {Eigen::Vector3d(0.4, 0.004, 0.004), Eigen::Vector3d(0.15, 0.008, 0.008), Eigen::Vector3d(0.2, 0.2, 0.002)})
-    for (const Eigen::Vector3d& w : {Eigen::Vector3d(3, 0, 100), Eigen::Vector3d(0, 0, 500), Eigen::Vector3d(60, 1, 2)}) {
+  for (const Eigen::Vector3d& size :
+       {Eigen::Vector3d(0.4, 0.004, 0.004), Eigen::Vector3d(0.15, 0.008, 0.008),
+        Eigen::Vector3d(0.2, 0.2, 0.002)})
+    for (const Eigen::Vector3d& w :
+         {Eigen::Vector3d(3, 0, 100), Eigen::Vector3d(0, 0, 500), Eigen::Vector3d(60, 1, 2)}) {
       World world;
       world.set_gravity({0, 0, 0});
-      const auto id = world.add_body(body_spec("rod", box(size.x(), size.y(), size.z())), BodyKind::object,
-                                     Pose::turn(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
+      const auto id =
+          world.add_body(body_spec("rod", box(size.x(), size.y(), size.z())), BodyKind::object,
+                         Pose::turn(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
       world.set_twist(id, {{0, 0, 0}, w});
       const Momentum first = momentum(world);
       const double energy = total(world);

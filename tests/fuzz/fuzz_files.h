@@ -1,4 +1,5 @@
-// What the programs that fuzz readers share: a folder of files to name, and what they ask of an Error.
+// What the programs that fuzz readers share: a folder of files to name, and what they ask of an
+// Error.
 #pragma once
 #include <unistd.h>
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double beyond_all = std::numeric_limits<double>::infinity();
 
-// every query on a pair against all pairs of triangles, moved by the same arithmetic: equal to the bit
+// every query on a pair against all pairs of triangles, moved by the same arithmetic: equal to the
+// bit
 void check_all_queries(const Shape& a, const Shape& b, const Pose& X, double threshold) {
   const Eigen::Matrix3d R = X.rotation.normalized().toRotationMatrix();
   double least = beyond_all;

@@ -1,4 +1,5 @@
-// A bound of a distance lies below it, and by no more than was allowed, whatever pair is looked at first.
+// A bound of a distance lies below it, and by no more than was allowed, whatever pair is looked at
+// first.
 #include <doctest/doctest.h>
 
 #include "clench/base/random.h"
@@ -22,7 +23,8 @@ TEST_CASE(
     const double part = n % 5 ? random.uniform(0.05, 1) : 1;
     const double limit =
         n % 2 ? std::numeric_limits<double>::infinity() : random.uniform(0, 3) * size;
-    // the walk allows 64 roundings of single precision of what it adds up, twice where it stops and twice in its answer
+    // the walk allows 64 roundings of single precision of what it adds up, twice where it stops and
+    // twice in its answer
     const double extent = X_AB.position.norm() + 2 * (a->radius() + b->radius()) +
                           a->centre().norm() + b->centre().norm();
     const double rounding = 4 * 64 * 0x1p-24 * 2 * extent;

@@ -123,7 +123,8 @@ TEST_CASE("the gaps of boxes are never more than their distance, and tell all ap
             distance(*shape_of(one_box<double>(boxes, lane)), *other, Pose()).distance;
         for (const float gap : {faces[lane], axes[lane], edges[lane]}) CHECK(gap <= exact + slack);
         CHECK(axes[lane] <= faces[lane] + slack);
-        // by the separating axes of two boxes; a gap along edges shrinks with the angle between them
+        // by the separating axes of two boxes; a gap along edges shrinks with the angle between
+        // them
         apart += exact > 0.05;
         found += exact > 0.05 && std::max(axes[lane], edges[lane]) > 0;
       }

@@ -52,7 +52,8 @@ static void check_forces(const Held& h, const ForceOptions& options, const Force
   CHECK((sum - r.unbalanced).norm() <= 1e-12 * largest);
 }
 
-// a proof holds against all forces that it speaks of: their work along the twist cannot make up for the load's
+// a proof holds against all forces that it speaks of: their work along the twist cannot make up for
+// the load's
 static void check_certificate(const Held& h, const ForceOptions& options, const ForceResult& r) {
   REQUIRE(r.status == ForceStatus::infeasible);
   REQUIRE(r.certificate.has_value());
@@ -264,7 +265,8 @@ TEST_CASE("each objective is best at its own") {
   }
 }
 
-// the least sum of normal forces with pyramids of `edges` edges, inside the cones or (grown) around them
+// the least sum of normal forces with pyramids of `edges` edges, inside the cones or (grown) around
+// them
 static double by_pyramids(const Held& h, const Vector6d& load, int edges, double grown,
                           double cap) {
   ClpSimplex clp;

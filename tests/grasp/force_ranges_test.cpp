@@ -1,5 +1,6 @@
-// Every number that contact forces are asked with, over 25 orders of magnitude: what is called optimal, infeasible or
-// stable is, by plain sums and closed formulas, and between 1e-6 and 1e6 there is an answer.
+// Every number that contact forces are asked with, over 25 orders of magnitude: what is called
+// optimal, infeasible or stable is, by plain sums and closed formulas, and between 1e-6 and 1e6
+// there is an answer.
 #include "clench/base/error.h"
 #include "clench/grasp/force/equilibrium.h"
 #include "clench/grasp/force/resistance.h"
@@ -12,7 +13,8 @@ using test::held, test::Held, test::jaws, test::Jaws, test::wrench;
 
 namespace {
 
-// what is promised is 1e-9 of the largest numbers, here added up over some contacts and in other units
+// what is promised is 1e-9 of the largest numbers, here added up over some contacts and in other
+// units
 constexpr double relative_error = 1e-7;
 
 constexpr ForceObjective all_objectives[] = {ForceObjective::min_sum, ForceObjective::min_norm,
@@ -32,8 +34,8 @@ void each_power(Visit visit) {
 
 using Sum = Eigen::Matrix<long double, 3, 1>;
 
-// Balance, cones and caps by sums in more digits than the solver has. What is left counts against the load and, as
-// a torque, against the load at the longest arm.
+// Balance, cones and caps by sums in more digits than the solver has. What is left counts against
+// the load and, as a torque, against the load at the longest arm.
 void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r) {
   Sum force = options.load.head<3>().cast<long double>(),
       torque = options.load.tail<3>().cast<long double>();
@@ -147,7 +149,8 @@ TEST_CASE("a cap that does not bind changes nothing") {
       check_hold(h, {.load = some_load, .objective = by, .max_total_force = x}, true,
                  x * max_total > 1, best(total));
       if (by != ForceObjective::min_norm || x < 10) return;
-      // the only ones of which the forces themselves are certain, to the root of what their objective is
+      // the only ones of which the forces themselves are certain, to the root of what their
+      // objective is
       const ForceResult r = hold(h, {.load = some_load, .objective = by, .max_force = x});
       for (size_t i = 0; i < r.forces.size(); ++i)
         CHECK((r.forces[i].force_W - free.forces[i].force_W).norm() < 1e-5);
@@ -281,7 +284,8 @@ TEST_CASE("equilibrium is stable where the motors, springs and caps say so, what
   });
 }
 
-// jaws of this mass above and below the block: what they weigh, the motor of the upper one gives less
+// jaws of this mass above and below the block: what they weigh, the motor of the upper one gives
+// less
 static Jaws upright_jaws(double mass, double max_effort) {
   Jaws j = jaws(DofKind::rigid, 0.5, max_effort);
   const Pose up = Pose::turn(-std::numbers::pi / 2, Vector3d::UnitY());  // x to z

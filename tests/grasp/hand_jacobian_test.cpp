@@ -91,8 +91,9 @@ VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
 
 TEST_CASE("the hand Jacobian is what the contacts do when a DOF moves") {
   Random random(1);
-  for (const char* hand : {"barrett/barrett.cfg", "dlr/dlr.cfg", "parallel_jaw/parallel_jaw.cfg",
-                           "adaptive_gripper/adaptive_gripper.cfg", "tendon_gripper/tendon_gripper.cfg"})
+  for (const char* hand :
+       {"barrett/barrett.cfg", "dlr/dlr.cfg", "parallel_jaw/parallel_jaw.cfg",
+        "adaptive_gripper/adaptive_gripper.cfg", "tendon_gripper/tendon_gripper.cfg"})
     for (const bool on_arm : {false, true}) {
       CAPTURE(hand);
       CAPTURE(on_arm);

@@ -4,7 +4,8 @@
 
 namespace clench::test {
 
-/// Two jaws that slide along x towards each other, a block of 40 mm between them; a palm below that may touch it.
+/// Two jaws that slide along x towards each other, a block of 40 mm between them; a palm below that
+/// may touch it.
 struct Jaws {
   World world;
   Grasp grasp;

@@ -1,5 +1,5 @@
-// Least contact forces as a semidefinite program, solved by DSDP: another formulation, another method (dual scaling),
-// another's code.
+// Least contact forces as a semidefinite program, solved by DSDP: another formulation, another
+// method (dual scaling), another's code.
 #include <doctest/doctest.h>
 #include <dsdp/dsdp5.h>
 
@@ -25,7 +25,8 @@ class SemidefiniteProgram {
   }
   ~SemidefiniteProgram() { DSDPDestroy(solver_); }
 
-  // t(y) >= |v(y)|, each affine, a row (slope, constant): the arrow with t on its diagonal and v beside it
+  // t(y) >= |v(y)|, each affine, a row (slope, constant): the arrow with t on its diagonal and v
+  // beside it
   void arrow(const Eigen::RowVectorXd& t, const MatrixXd& v) {
     const int size = static_cast<int>(v.rows()) + 1;
     SDPConeSetBlockSize(cone_, block_, size);

@@ -1,5 +1,6 @@
-// Wrench sets of all kinds that are hard on hulls, for tests and benchmarks: symmetric, coplanar, repeated,
-// nearly repeated, flat, thin, marginal, of many sizes. Each is told by its kind and a number.
+// Wrench sets of all kinds that are hard on hulls, for tests and benchmarks: symmetric, coplanar,
+// repeated, nearly repeated, flat, thin, marginal, of many sizes. Each is told by its kind and a
+// number.
 #pragma once
 #include <Eigen/Geometry>
 #include <cmath>

@@ -39,9 +39,11 @@ TEST_CASE("a format that is not read is refused with the list of those that are"
   CHECK_THROWS_WITH_AS(
       read_robot("tests/CMakeLists.txt"),
       "CMakeLists.txt: expected a robot from .cfg, .xml, .urdf or .mjcf, got '.txt'", Error);
-  CHECK_THROWS_WITH_AS(read_world("tests/CMakeLists.txt"),
-                       "CMakeLists.txt: expected a model, a world, or a file that goes with one, got "
-                       "'.txt'", Error);
+  CHECK_THROWS_WITH_AS(
+      read_world("tests/CMakeLists.txt"),
+      "CMakeLists.txt: expected a model, a world, or a file that goes with one, got "
+      "'.txt'",
+      Error);
 }
 
 TEST_CASE("a scale that is no length is refused") {

@@ -98,5 +98,6 @@ TEST_CASE("links that lead in a circle, or to nothing, are called what they are"
   const fs::path world = folder.path() / "w.wld";
   CHECK_THROWS_WITH_AS(find_file("a.iv", world, {}),
                        "a.iv: the file cannot be read: Too many levels of symbolic links", Error);
-  CHECK_THROWS_WITH_AS(find_file("c.iv", world, {}), "no such file: c.iv, a link that leads to nothing", Error);
+  CHECK_THROWS_WITH_AS(find_file("c.iv", world, {}),
+                       "no such file: c.iv, a link that leads to nothing", Error);
 }

@@ -186,11 +186,13 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
        "a.csv:1: dof a b [deg]: expected the unit rad or m, got 'deg'"},
       {"a.csv", "dof a [m]," + csv_head, "a.csv:1: DOF: 'a' stands there twice"},
       {"a.npz",
-       npz_bytes({{"poses", {.shape = {0, 7}}}, {"dofs", {.shape = {0, 1}}},
+       npz_bytes({{"poses", {.shape = {0, 7}}},
+                  {"dofs", {.shape = {0, 1}}},
                   {"dof_units", {.shape = {1}, .texts = {"deg"}, .is_text = true}}}),
        "a.npz: dof_units: expected the unit rad or m, got 'deg'"},
       {"a.npz",
-       npz_bytes({{"poses", {.shape = {0, 7}}}, {"dofs", {.shape = {0, 2}}},
+       npz_bytes({{"poses", {.shape = {0, 7}}},
+                  {"dofs", {.shape = {0, 2}}},
                   {"dof_names", {.shape = {2}, .texts = {"a", "a"}, .is_text = true}}}),
        "a.npz: dof_names: 'a' stands there twice"},
       {"a.json", R"({"gripper":"g","object_id":"o","pose":[],"dof_names":["a","a"]})",
@@ -216,8 +218,7 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
        "grasps.g.orientation.xyz: expected 3 numbers, got a list of 2"},
       {"a.yaml", isaac + "    orientation: {w: x, xyz: [0, 0, 0]}\n",
        "grasps.g.orientation.w: expected a number, got 'x'"},
-      {"a.yaml", isaac + "   orientation: 1\n",
-       "a.yaml:6: end of map not found"},
+      {"a.yaml", isaac + "   orientation: 1\n", "a.yaml:6: end of map not found"},
       {"a.yaml", "a: [1, 2\n", "a.yaml:1: end of sequence flow not found"},
       {"a.yaml", "a: [1, 2}\n", "a.yaml:1: illegal flow end"},
       {"a.yaml", "a: \"b", "a.yaml:1: a quote that is not closed"},
@@ -227,7 +228,8 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
       {"a.yaml", "[\"a\", 'it''s\n", "a.yaml:1: a quote that is not closed"},
       {"a.yaml", "a: &b 1\n", "a.yaml:1: anchors are not read"},
       {"a.yaml", "a: 1\nb: *a\n", "a.yaml:2: "},
-      {"a.yaml", "a: 1\n---\nb: 1\n", "a.yaml:3: expected the end of the file, got another document"},
+      {"a.yaml", "a: 1\n---\nb: 1\n",
+       "a.yaml:3: expected the end of the file, got another document"},
       {"a.yaml", "? [1]\n: 2\n", "a.yaml:1: expected a key, got a list of 1"},
       {"a.yaml", "a: 1\na: 2\n", "a.yaml:2: key 'a' stands there twice"},
       {"a.yaml", "a: " + std::string(100000, '['),
@@ -257,7 +259,9 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
   };
   auto list = some_grasps();
   refuse(list, "a.json", "", "a.json: .json may be several formats");
-  refuse(list, "a.foo", "", "expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got 'a.foo'");
+  refuse(
+      list, "a.foo", "",
+      "expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got 'a.foo'");
   refuse(list, "a.json", "graspgem", "unknown format 'graspgem'");
   list[1].object_name = "other";
   refuse(list, "a.yaml", "",
@@ -281,7 +285,8 @@ TEST_CASE("broken archives and texts end in a sentence, never in a crash") {
   for (int i = 0; i < 20000; ++i) {
     std::string bytes = i % 2 ? npz : yaml;
     for (int k = 0; k < 3; ++k)
-      bytes[size_t(random.uniform() * double(bytes.size()))] = static_cast<char>(random.bits() & 0xff);
+      bytes[size_t(random.uniform() * double(bytes.size()))] =
+          static_cast<char>(random.bits() & 0xff);
     if (i % 5 == 0) bytes.resize(size_t(random.uniform() * double(bytes.size())));
     try {
       if (i % 2)

@@ -146,14 +146,16 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
        "edges: expected a whole number from 3 to 1000, or \"exact\" or 0 for round cones, got 2"},
       {head + "\n" + with("\"edges\":8", "\"edges\":3.5"), "edges: expected a whole number from 3"},
       {head + "\n" + with("\"edges\":8", "\"edges\":\"exactly\""),
-       "edges: expected a whole number from 3 to 1000, or \"exact\" or 0 for round cones, got \"exactly\""},
+       "edges: expected a whole number from 3 to 1000, or \"exact\" or 0 for round cones, got "
+       "\"exactly\""},
       {R"({"format":"clench grasps","version":1,"units":"mm, kg, s, deg, N"})",
        R"(g.jsonl:1: units: expected "m, kg, s, rad, N", got "mm, kg, s, deg, N")"},
       {head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_units":["rad","deg"])"),
        "g.jsonl:2: dof_units: expected the unit rad or m, got 'deg'"},
       {head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_names":["a","a"])"),
        "g.jsonl:2: dof_names: 'a' stands there twice"},
-      {head + "\n" + with(R"("joints":[])", R"("joints":1)"), "joints: expected a list of numbers, got 1"},
+      {head + "\n" + with(R"("joints":[])", R"("joints":1)"),
+       "joints: expected a list of numbers, got 1"},
       {head + "\n" + with("true", "1"), "soft: expected true or false, got 1"},
       {head + "\n" + with("series", "serial"),
        "modulus: expected 'series' or 'larger', got \"serial\""},
@@ -176,10 +178,14 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
   CHECK(read_grasps(folder.write("g.jsonl", head + "\r\n{" + whole + "}")).size() == 1);
 }
 
-TEST_CASE("a grasp that is written by hand may leave out joints and names the edges as a script does") {
+TEST_CASE(
+    "a grasp that is written by hand may leave out joints and names the edges as a script does") {
   const TemporaryFolder folder;
-  const auto only = [&](const std::string& line) { return read_grasps(folder.write("g.jsonl", head + "\n" + line)).at(0); };
-  const GraspSpec plain = only(with(R"("dofs":[],"joints":[],)", R"("dofs":[0.5],"dof_units":["rad"],)"));
+  const auto only = [&](const std::string& line) {
+    return read_grasps(folder.write("g.jsonl", head + "\n" + line)).at(0);
+  };
+  const GraspSpec plain =
+      only(with(R"("dofs":[],"joints":[],)", R"("dofs":[0.5],"dof_units":["rad"],)"));
   CHECK(plain.dofs == std::vector{0.5});
   CHECK(plain.joints.empty());
   CHECK(only(with("\"edges\":8", "\"edges\":\"exact\"")).options.edges == round_edges);

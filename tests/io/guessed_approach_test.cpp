@@ -1,4 +1,5 @@
-// What is guessed of how hands approach, where their files say it, and how fast they close, where they do not.
+// What is guessed of how hands approach, where their files say it, and how fast they close, where
+// they do not.
 #include <map>
 
 #include "clench/io/read.h"
@@ -39,8 +40,9 @@ TEST_CASE("the approach of our hands is guessed as their files say it") {
     const char* file;
     double beside;  // of the guessed line of approach [m]
   };
-  // Of 60 random approaches of a cube, a ball and a can along the file's line and along the guessed one, in force closure
-  // end 57 and 57 of the DLR hand, 6 and 8 to 34 of Robonaut's, within 10 mm: their lines lie on wide plateaus.
+  // Of 60 random approaches of a cube, a ball and a can along the file's line and along the guessed
+  // one, in force closure end 57 and 57 of the DLR hand, 6 and 8 to 34 of Robonaut's, within 10 mm:
+  // their lines lie on wide plateaus.
   for (const Hand& hand : {Hand{"barrett/barrett.cfg", 0.015},
                            {"dlr/dlr.cfg", 0.05},
                            {"human/human16.cfg", 0.015},
@@ -85,17 +87,27 @@ TEST_CASE("a DOF of several joints is slowed when all of them stand behind other
   CHECK(paces({{-1, {0}}, {0, {1}}, {1, {0}}}, {1, 1}) == std::vector<double>{1, 0.5});
 }
 
-TEST_CASE("a hand whose file says nothing closes from the roots of its fingers, whichever way it is told to") {
-  std::string links = "<link name='palm'><collision><geometry><box size='0.1 0.1 0.02'/></geometry></collision></link>",
+TEST_CASE(
+    "a hand whose file says nothing closes from the roots of its fingers, whichever way it is told "
+    "to") {
+  std::string links =
+                  "<link name='palm'><collision><geometry><box size='0.1 0.1 "
+                  "0.02'/></geometry></collision></link>",
               joints;
   for (const std::string side : {"a", "b"})
     for (const std::string part : {"1", "2"}) {
       const bool root = part == "1";
       links += "<link name='" + side + part +
-               "'><collision><origin xyz='0 0 0.02'/><geometry><box size='0.01 0.01 0.04'/></geometry></collision></link>";
-      joints += "<joint name='j" + side + part + "' type='revolute'><parent link='" + (root ? "palm" : side + "1") +
-                "'/><child link='" + side + part + "'/><origin xyz='" + (!root ? "0 0" : side == "a" ? "0.04 0" : "-0.04 0") +
-                " 0.04'/><axis xyz='0 1 0'/><limit lower='-1.2' upper='1.2' effort='1' velocity='1'/></joint>";
+               "'><collision><origin xyz='0 0 0.02'/><geometry><box size='0.01 0.01 "
+               "0.04'/></geometry></collision></link>";
+      joints += "<joint name='j" + side + part + "' type='revolute'><parent link='" +
+                (root ? "palm" : side + "1") + "'/><child link='" + side + part +
+                "'/><origin xyz='" +
+                (!root         ? "0 0"
+                 : side == "a" ? "0.04 0"
+                               : "-0.04 0") +
+                " 0.04'/><axis xyz='0 1 0'/><limit lower='-1.2' upper='1.2' effort='1' "
+                "velocity='1'/></joint>";
     }
   TemporaryFolder folder;
   const auto file = folder.write("claw.urdf", "<robot name='claw'>" + links + joints + "</robot>");

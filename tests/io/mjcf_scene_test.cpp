@@ -2,8 +2,8 @@
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "support/meshes.h"
-#include "told_robot.h"
 #include "temporary.h"
+#include "told_robot.h"
 
 using namespace clench;
 using namespace clench::test;
@@ -19,10 +19,10 @@ struct ToldWorld {
                      ReadOptions options = {}) {
     options.warn = [this](const std::string& s) { warnings.push_back(s); };
     options.note = [this](const std::string& s) { notes.push_back(s); };
-    world = read_world(folder.write("scene.xml", "<mujoco model='m'><compiler angle='radian'/>" +
-                                                     beside + "<worldbody>" + in_world +
-                                                     "</worldbody></mujoco>"),
-                       options);
+    world = read_world(
+        folder.write("scene.xml", "<mujoco model='m'><compiler angle='radian'/>" + beside +
+                                      "<worldbody>" + in_world + "</worldbody></mujoco>"),
+        options);
   }
   bool warned(const std::string& part) const { return ToldRobot::has(warnings, part); }
   bool noted(const std::string& part) const { return ToldRobot::has(notes, part); }
@@ -84,16 +84,18 @@ TEST_CASE("of a scene trees of joints are robots, free bodies objects, what is f
 }
 
 TEST_CASE("one robot is called as the model is, and a free tree stands where its body does") {
-  const ToldWorld told("<body name='hand' pos='0 0 2'><freejoint/><geom size='0.1'/><body>"
-                       "<joint name='a' range='0 1'/><geom size='0.1' pos='0 0 0.5'/></body></body>");
+  const ToldWorld told(
+      "<body name='hand' pos='0 0 2'><freejoint/><geom size='0.1'/><body>"
+      "<joint name='a' range='0 1'/><geom size='0.1' pos='0 0 0.5'/></body></body>");
   REQUIRE(told.world.robots.size() == 1);
   CHECK(told.world.robots[0].robot.name == "m");
   CHECK(told.world.robots[0].X_WB.position.z() == 2);
 }
 
 TEST_CASE("what is fixed to a free body is part of it") {
-  const ToldWorld told("<body name='mug'><freejoint/><geom type='box' size='1 1 1' mass='3'/>"
-                       "<body pos='4 0 0'><geom type='box' size='1 1 1' mass='1'/></body></body>");
+  const ToldWorld told(
+      "<body name='mug'><freejoint/><geom type='box' size='1 1 1' mass='3'/>"
+      "<body pos='4 0 0'><geom type='box' size='1 1 1' mass='1'/></body></body>");
   REQUIRE(told.world.bodies.size() == 1);
   const BodySpec& body = told.world.bodies[0].body;
   CHECK(body.mass == 4);
@@ -109,7 +111,8 @@ TEST_CASE("a plane is a large plate below it") {
   CHECK(floor.X_WB.position.z() == 1);
   CHECK(floor.body.shape->bounds().high.isApprox(Eigen::Vector3d(5, 7, 0)));
   CHECK(floor.body.shape->bounds().low.z() == doctest::Approx(-0.1));
-  CHECK(told.noted("scene.xml:1: geom: a plane has no end; a plate of 10 x 14 x 0.1 m stands for it"));
+  CHECK(told.noted(
+      "scene.xml:1: geom: a plane has no end; a plate of 10 x 14 x 0.1 m stands for it"));
 }
 
 TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
@@ -128,11 +131,13 @@ TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
   CHECK(told.friction(material("d"), material("d")) == 0);
   CHECK(told.friction(material("d"), material("b")) == 0.7);
   CHECK(told.world.larger_friction.size() == 5);
-  const ToldWorld mixed("<body name='x'><geom size='1' friction='0.2'/><geom size='1' friction='2'/>"
-                        "</body>");
+  const ToldWorld mixed(
+      "<body name='x'><geom size='1' friction='0.2'/><geom size='1' friction='2'/>"
+      "</body>");
   CHECK(mixed.world.bodies[0].body.material == "friction 2");
-  CHECK(mixed.warned("scene.xml: bodies whose geoms differ in friction, of which that of the "
-                     "highest priority, then the largest counts for all: 'x'"));
+  CHECK(
+      mixed.warned("scene.xml: bodies whose geoms differ in friction, of which that of the "
+                   "highest priority, then the largest counts for all: 'x'"));
   CHECK(failure("<geom size='1' friction='2e6'/>") ==
         "scene.xml:1: geom: friction: expected a number from 0 to 1e+06, got 2000000");
 }
@@ -141,15 +146,17 @@ TEST_CASE("gravity is that of the file, else that of MuJoCo") {
   CHECK(ToldWorld(mug).world.gravity->z() == -9.81);
   CHECK(ToldWorld(mug, "<option gravity='1 2 3'/>").world.gravity->y() == 2);
   CHECK(ToldWorld(mug, "<option><flag gravity='disable'/></option>").world.gravity->isZero(0));
-  CHECK(failure(mug, "<option gravity='0 0 2e6'/>") ==
-        "scene.xml:1: option: gravity: expected a number from -1e+06 to 1e+06 [m/s^2], got 2000000");
+  CHECK(
+      failure(mug, "<option gravity='0 0 2e6'/>") ==
+      "scene.xml:1: option: gravity: expected a number from -1e+06 to 1e+06 [m/s^2], got 2000000");
 }
 
 TEST_CASE("damping, friction and armature of joints and actuators are kept") {
-  const ToldWorld told(arm, "<actuator><position name='p' joint='a' kp='5' kv='0.5' gear='2' "
-                            "ctrlrange='-1 1'/><velocity joint='a' kv='3' forcerange='-7 7'/>"
-                            "<general joint='a' gainprm='9' biastype='affine' biasprm='1 -2 -3'/>"
-                            "<motor joint='a'/><damper joint='a'/><damper joint='a'/></actuator>");
+  const ToldWorld told(arm,
+                       "<actuator><position name='p' joint='a' kp='5' kv='0.5' gear='2' "
+                       "ctrlrange='-1 1'/><velocity joint='a' kv='3' forcerange='-7 7'/>"
+                       "<general joint='a' gainprm='9' biastype='affine' biasprm='1 -2 -3'/>"
+                       "<motor joint='a'/><damper joint='a'/><damper joint='a'/></actuator>");
   const RobotSpec& robot = told.world.robots[0].robot;
   const JointSpec& joint = robot.links[0].joints[0];
   CHECK(joint.viscous == 2);
@@ -181,8 +188,9 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
 }
 
 TEST_CASE("couplings and actuators belong to the robot whose joints they name") {
-  const std::string finger = "<body name='f'><joint name='p' range='0 1'/><geom size='0.1'/><body>"
-                             "<joint name='q' range='0 1'/><geom size='0.1'/></body></body>";
+  const std::string finger =
+      "<body name='f'><joint name='p' range='0 1'/><geom size='0.1'/><body>"
+      "<joint name='q' range='0 1'/><geom size='0.1'/></body></body>";
   const ToldWorld told(arm + finger,
                        "<equality><joint joint1='q' joint2='p'/><joint joint1='a' joint2='p'/>"
                        "</equality><actuator><motor joint='p'/></actuator>");
@@ -194,7 +202,8 @@ TEST_CASE("couplings and actuators belong to the robot whose joints they name") 
   const ToldWorld shared(arm + finger,
                          "<tendon><fixed name='t'><joint joint='a' coef='1'/><joint joint='p' "
                          "coef='1'/></fixed></tendon><actuator><motor tendon='t'/></actuator>");
-  CHECK(shared.warned("motor: drives a tendon that joins two robots; of each it moves its own joints"));
+  CHECK(shared.warned(
+      "motor: drives a tendon that joins two robots; of each it moves its own joints"));
 }
 
 TEST_CASE("keyframes become named states") {
@@ -219,11 +228,12 @@ TEST_CASE("keyframes become named states") {
 }
 
 TEST_CASE("in keyframes balls are three turns and followers follow") {
-  const ToldWorld told("<body name='a'><body name='b'><joint name='ball' type='ball'/><geom size='1'/>"
-                       "</body><body name='c'><joint name='p' range='0 1'/><geom size='1'/>"
-                       "<body name='d'><joint name='q' range='0 2'/><geom size='1'/></body></body></body>",
-                       "<equality><joint joint1='q' joint2='p' polycoef='0 2'/></equality>"
-                       "<keyframe><key qpos='2 2 0 0 0.5 0.3'/></keyframe>");
+  const ToldWorld told(
+      "<body name='a'><body name='b'><joint name='ball' type='ball'/><geom size='1'/>"
+      "</body><body name='c'><joint name='p' range='0 1'/><geom size='1'/>"
+      "<body name='d'><joint name='q' range='0 2'/><geom size='1'/></body></body></body>",
+      "<equality><joint joint1='q' joint2='p' polycoef='0 2'/></equality>"
+      "<keyframe><key qpos='2 2 0 0 0.5 0.3'/></keyframe>");
   const auto& dofs = told.world.keyframes.at(0).robots.at(0).dofs;
   REQUIRE(dofs.size() == 4);
   CHECK(dofs[0] == doctest::Approx(1.5707963267948966));
@@ -232,7 +242,8 @@ TEST_CASE("in keyframes balls are three turns and followers follow") {
   CHECK(told.warned("joint 'q' follows 'p', and is at 0.3 rather than at 1; it follows"));
 }
 
-/// The rotation of a body that hangs on the base by one ball, at the keyframe's values of its three hinges.
+/// The rotation of a body that hangs on the base by one ball, at the keyframe's values of its three
+/// hinges.
 static Eigen::Matrix3d ball_rotation(const KeyframeSpec& key, const RobotSpec& robot) {
   const LinkSpec& link = robot.links.at(0);
   REQUIRE(link.joints.size() == 3);
@@ -261,28 +272,39 @@ TEST_CASE("a ball in a keyframe turns its body as its quaternion says, at gimbal
   std::vector<Eigen::Quaterniond> turns = cube_rotations();
   REQUIRE(turns.size() == 24);
   // w x y z; as a person types them, some far from unit length and near to gimbal lock
-  for (const auto& q : {std::array{0.5, 0.5, 0.5, 0.5}, {0.5, -0.5, 0.5, -0.5}, {0.5, 0.5, -0.5, -0.5},
-                        {0.65328, 0.2706, 0.65328, 0.2706}, {1.0, 1e-9, 1.0, 0.0}, {-3.0, 0.0, 3.0, 1e-6}})
+  for (const auto& q : {std::array{0.5, 0.5, 0.5, 0.5},
+                        {0.5, -0.5, 0.5, -0.5},
+                        {0.5, 0.5, -0.5, -0.5},
+                        {0.65328, 0.2706, 0.65328, 0.2706},
+                        {1.0, 1e-9, 1.0, 0.0},
+                        {-3.0, 0.0, 3.0, 1e-6}})
     turns.emplace_back(q[0], q[1], q[2], q[3]);
   Random random(31);
   for (int i = 0; i < 500; ++i) turns.push_back(random_turn(random));
   // nearly a right angle about y
   for (int i = 0; i < 200; ++i) {
-    const Pose lean = Pose::turn(std::pow(10, -15 * random.uniform()), random_turn(random) * Eigen::Vector3d::UnitX());
+    const Pose lean = Pose::turn(std::pow(10, -15 * random.uniform()),
+                                 random_turn(random) * Eigen::Vector3d::UnitX());
     turns.push_back((lean * Pose::turn(random.uniform(-3, 3), Eigen::Vector3d::UnitX()) *
-                     Pose::turn(random.uniform() < 0.5 ? 1.5707963267948966 : -1.5707963267948966, Eigen::Vector3d::UnitY()))
+                     Pose::turn(random.uniform() < 0.5 ? 1.5707963267948966 : -1.5707963267948966,
+                                Eigen::Vector3d::UnitY()))
                         .rotation);
   }
   std::string keys;
-  for (const auto& q : turns) keys += fmt::format("<key qpos='{} {} {} {}'/>", q.w(), q.x(), q.y(), q.z());
+  for (const auto& q : turns)
+    keys += fmt::format("<key qpos='{} {} {} {}'/>", q.w(), q.x(), q.y(), q.z());
   const std::string ball = "<body name='b'><joint type='ball'/><geom size='1'/></body>";
   // a frame turns the body on it, and no joint in the body
-  for (const std::string& body : {ball, std::string("<body name='b'><frame euler='1 2 3'><joint type='ball'/></frame><geom size='1'/></body>")}) {
-    const ToldWorld told("<body name='a'><geom size='0.1'/>" + body + "</body>", "<keyframe>" + keys + "</keyframe>");
+  for (const std::string& body :
+       {ball, std::string("<body name='b'><frame euler='1 2 3'><joint type='ball'/></frame><geom "
+                          "size='1'/></body>")}) {
+    const ToldWorld told("<body name='a'><geom size='0.1'/>" + body + "</body>",
+                         "<keyframe>" + keys + "</keyframe>");
     REQUIRE(told.world.keyframes.size() == turns.size());
     for (size_t i = 0; i < turns.size(); ++i) {
       const Eigen::Matrix3d off =
-          ball_rotation(told.world.keyframes[i], told.world.robots[0].robot) - turns[i].normalized().toRotationMatrix();
+          ball_rotation(told.world.keyframes[i], told.world.robots[0].robot) -
+          turns[i].normalized().toRotationMatrix();
       CAPTURE(turns[i]);
       CHECK(off.cwiseAbs().maxCoeff() < 1e-9);
     }
@@ -300,20 +322,25 @@ TEST_CASE("an equality of one joint holds it where it says") {
   CHECK(told.noted("scene.xml:1: joint 'a' may only stand at 0.3 rad, as the equality says"));
   CHECK(!told.warned("ctrlrange"));
   // it counts from where the model stands at first
-  const ToldWorld from("<body name='s'><geom size='1'/><body><joint name='a' type='slide' ref='2' range='0 9'/>"
-                       "<geom size='1'/></body></body>", held);
+  const ToldWorld from(
+      "<body name='s'><geom size='1'/><body><joint name='a' type='slide' ref='2' range='0 9'/>"
+      "<geom size='1'/></body></body>",
+      held);
   CHECK(from.world.robots[0].robot.dofs[0].default_value == 2.3);
   CHECK(from.noted("joint 'a' may only stand at 2.3 m, as the equality says"));
 }
 
 TEST_CASE("of negative gains the magnitude is used, with a warning") {
-  const ToldWorld told(arm, "<actuator><position joint='a' kp='-10' kv='-1'/><velocity joint='a' kv='-2'/></actuator>");
+  const ToldWorld told(
+      arm,
+      "<actuator><position joint='a' kp='-10' kv='-1'/><velocity joint='a' kv='-2'/></actuator>");
   CHECK(told.warned("position: kp: -10 is negative; 10 is used"));
   const RobotSpec& robot = told.world.robots[0].robot;
   CHECK(robot.actuators[0].gain == 10);
   CHECK(robot.dofs[0].kp == 10);
   CHECK(robot.dofs[0].kd == 1 + 2);
-  CHECK(ToldWorld(arm, "<actuator><velocity joint='a' kv='-2'/></actuator>").warned("velocity: kv: -2 is negative; 2 is used"));
+  CHECK(ToldWorld(arm, "<actuator><velocity joint='a' kv='-2'/></actuator>")
+            .warned("velocity: kv: -2 is negative; 2 is used"));
 }
 
 TEST_CASE("keyframes that do not fit are refused, or told where bodies are missing") {
@@ -321,22 +348,26 @@ TEST_CASE("keyframes that do not fit are refused, or told where bodies are missi
         "scene.xml:1: key: qpos: expected 1 numbers, got 2");
   CHECK(failure(mug, "<keyframe><key qpos='0 0 0 0 0 0 0'/></keyframe>") ==
         "scene.xml:1: key: qpos: expected a quaternion, got zeros");
-  const ToldWorld lossy(arm + "<replicate count='2'><body><freejoint/><geom size='1'/></body></replicate>",
-                        "<keyframe><key name='k' qpos='1 2'/></keyframe>");
+  const ToldWorld lossy(
+      arm + "<replicate count='2'><body><freejoint/><geom size='1'/></body></replicate>",
+      "<keyframe><key name='k' qpos='1 2'/></keyframe>");
   CHECK(lossy.world.keyframes.empty());
   CHECK(lossy.warned("<replicate> is not used: the world lacks all that it repeats"));
-  CHECK(lossy.warned("key: qpos: keyframe 'k' has 2 numbers, and the bodies that are read take 1; it "
-                     "is not used"));
-  const ToldWorld twice(arm, "<keyframe><key name='k' qpos='1'/><key name='k' qpos='0'/></keyframe>");
+  CHECK(
+      lossy.warned("key: qpos: keyframe 'k' has 2 numbers, and the bodies that are read take 1; it "
+                   "is not used"));
+  const ToldWorld twice(arm,
+                        "<keyframe><key name='k' qpos='1'/><key name='k' qpos='0'/></keyframe>");
   CHECK(twice.world.keyframes.size() == 1);
   CHECK(twice.warned("key: there is another one of the name 'k'; the first one counts"));
 }
 
 TEST_CASE("what a scene's bits and excludes keep apart never meets, nor what is fixed") {
-  const ToldWorld told("<geom size='1'/>" + arm + mug +
-                           "<body name='ghost'><freejoint/><geom size='1' contype='2' conaffinity='2'/></body>",
-                       "<contact><exclude body1='mug' body2='upper'/><exclude body1='mug' body2='no'/>"
-                       "<pair geom1='x' geom2='y'/></contact>");
+  const ToldWorld told(
+      "<geom size='1'/>" + arm + mug +
+          "<body name='ghost'><freejoint/><geom size='1' contype='2' conaffinity='2'/></body>",
+      "<contact><exclude body1='mug' body2='upper'/><exclude body1='mug' body2='no'/>"
+      "<pair geom1='x' geom2='y'/></contact>");
   const auto count = [&](WorldEntry::Kind a, WorldEntry::Kind b) {
     return std::ranges::count_if(told.world.never_meet, [&](const auto& pair) {
       return (pair[0].kind == a && pair[1].kind == b) || (pair[0].kind == b && pair[1].kind == a);
@@ -361,12 +392,15 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
   CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
-  CHECK(failure("<light/>").ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
+  CHECK(failure("<light/>")
+            .ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
   // what stands there is named
   CHECK(failure("<geom type='hfield' hfield='h'/>") ==
-        "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of type hfield");
+        "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of "
+        "type hfield");
   CHECK(failure("<geom type='sdf'/><body><geom type='hfield'/></body>") ==
-        "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of type hfield, sdf");
+        "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of "
+        "type hfield, sdf");
 }
 
 TEST_CASE("a scene's time step is the world's") {
@@ -377,12 +411,17 @@ TEST_CASE("a scene's time step is the world's") {
 }
 
 TEST_CASE("an actuator on a tendon gives its gains to the DOF that the tendon's joints share") {
-  const std::string fingers = "<body name='palm'><geom size='1'/>"
+  const std::string fingers =
+      "<body name='palm'><geom size='1'/>"
       "<body name='left'><joint name='l' axis='1 0 0' range='0 1'/><geom size='1' mass='1'/></body>"
-      "<body name='right'><joint name='r' axis='1 0 0' range='0 1'/><geom size='1' mass='1'/></body></body>";
-  const ToldWorld told(fingers, "<tendon><fixed name='split'><joint joint='l' coef='0.5'/><joint joint='r' coef='0.5'/></fixed></tendon>"
-                                "<actuator><general tendon='split' gainprm='0.3' biastype='affine' biasprm='0 -100 -10' gear='2' "
-                                "forcerange='-5 5'/></actuator>");
+      "<body name='right'><joint name='r' axis='1 0 0' range='0 1'/><geom size='1' "
+      "mass='1'/></body></body>";
+  const ToldWorld told(fingers,
+                       "<tendon><fixed name='split'><joint joint='l' coef='0.5'/><joint joint='r' "
+                       "coef='0.5'/></fixed></tendon>"
+                       "<actuator><general tendon='split' gainprm='0.3' biastype='affine' "
+                       "biasprm='0 -100 -10' gear='2' "
+                       "forcerange='-5 5'/></actuator>");
   const RobotSpec& robot = told.world.robots[0].robot;
   REQUIRE(robot.dofs.size() == 1);
   // the actuator gains 2 (0.5 + 0.5) for a unit of both joints
@@ -401,23 +440,27 @@ TEST_CASE("names that are none are repaired") {
 
 TEST_CASE("options of one robot are for files of one robot") {
   CHECK(failure(arm + door, "", {.root = {}, .closing = {{"a", 1}}}) ==
-        "scene.xml: close: expected a file of one robot, got 2; world:add_robot with the option 'body' "
+        "scene.xml: close: expected a file of one robot, got 2; world:add_robot with the option "
+        "'body' "
         "takes one of them");
-  CHECK(ToldWorld(arm + mug, "", {.root = {}, .closing = {{"a", -1}}}).world.robots[0].robot.dofs[0].default_velocity ==
-        -1);
+  CHECK(ToldWorld(arm + mug, "", {.root = {}, .closing = {{"a", -1}}})
+            .world.robots[0]
+            .robot.dofs[0]
+            .default_velocity == -1);
 }
 
 TEST_CASE("one robot of a scene is read by its body") {
   TemporaryFolder folder;
-  const auto path = folder.write("scene.xml", "<mujoco model='m'><worldbody>" + arm + door + mug +
-                                                  "</worldbody></mujoco>");
+  const auto path = folder.write(
+      "scene.xml", "<mujoco model='m'><worldbody>" + arm + door + mug + "</worldbody></mujoco>");
   const RobotSpec robot = read_robot(path, {.root = {}, .body = "door"});
   CHECK(robot.name == "door");
   CHECK(robot.dofs.size() == 1);
-  CHECK_THROWS_WITH_AS(read_robot(path, {.root = {}, .body = "mug"}),
-                       "scene.xml: body: expected one that a tree of joints begins with, got 'mug', "
-                       "expected one of arm, door",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_robot(path, {.root = {}, .body = "mug"}),
+      "scene.xml: body: expected one that a tree of joints begins with, got 'mug', "
+      "expected one of arm, door",
+      Error);
   CHECK_THROWS_WITH_AS(read_robot("tests/data/two_finger/claw.cfg", {.root = {}, .body = "x"}),
                        "claw.cfg: body: expected a scene of MJCF, got another file", Error);
 }

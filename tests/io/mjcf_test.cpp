@@ -216,7 +216,9 @@ TEST_CASE("what would close a loop is told and left open") {
       model("<joint name='j' range='0 1'/>",
             "<equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>");
   CHECK(told.warned("equality: <connect> would close a loop of bodies; it is left open"));
-  CHECK(told.noted("read as a robot, its links count as plastic; as a scene, by clench.load, they have the friction of their geoms"));
+  CHECK(
+      told.noted("read as a robot, its links count as plastic; as a scene, by clench.load, they "
+                 "have the friction of their geoms"));
 }
 
 TEST_CASE("meshes are looked for in the folder that the compiler names") {
@@ -321,8 +323,10 @@ TEST_CASE("a joint that is tied by nothing stands still, and is suspicious") {
 
 TEST_CASE("of a robot alone keyframes are not used, and what uses them is named") {
   const std::string sentence =
-      "m.xml:1: <keyframe> is not used for a robot alone; clench.load takes it with the option 'keyframe'";
-  CHECK(model("<joint name='p' range='-9 9'/>", "<keyframe><key qpos='1'/></keyframe>").warned(sentence));
+      "m.xml:1: <keyframe> is not used for a robot alone; clench.load takes it with the option "
+      "'keyframe'";
+  CHECK(model("<joint name='p' range='-9 9'/>", "<keyframe><key qpos='1'/></keyframe>")
+            .warned(sentence));
   CHECK(!model("<joint name='p' range='-9 9'/>", "<keyframe/>").warned("<keyframe>"));
 }
 

@@ -151,11 +151,13 @@ TEST_CASE("a centre of mass or an inertia that contradicts the surface is suspic
   const std::string fits = "<mass value='1'/><inertia ixx='0.002' iyy='0.002' izz='0.002'/>";
   CHECK(robot(fits).warnings.empty());
   CHECK(robot("<origin xyz='0 0 20'/>" + fits)
-            .warned("a.urdf: parts whose centre of mass is far from their surface: 'a_b': is its unit "
-                    "right?"));
-  CHECK(robot("<mass value='1'/><inertia ixx='2000' iyy='2000' izz='2000'/>")
-            .warned("a.urdf: parts with the inertia of a much larger body: 'a_b': is its unit right, "
-                    "and its mass?"));
+            .warned(
+                "a.urdf: parts whose centre of mass is far from their surface: 'a_b': is its unit "
+                "right?"));
+  CHECK(
+      robot("<mass value='1'/><inertia ixx='2000' iyy='2000' izz='2000'/>")
+          .warned("a.urdf: parts with the inertia of a much larger body: 'a_b': is its unit right, "
+                  "and its mass?"));
   BodySpec body;
   body.shape = Shape::make(test::box(0.1, 0.1, 0.1));
   body.com = Eigen::Vector3d(0, 0, 5);
@@ -175,9 +177,11 @@ TEST_CASE("default values outside the limits are suspicious") {
   robot.dofs[0].default_value = dof_range(robot, 0)[1] + 1;
   robot.dofs[0].name = "d";
   Sentences told;
-  check_plausible(robot, "claw.cfg", {{}, {}, {}, [&](const std::string& s) { told.push_back(s); }});
-  CHECK(told == Sentences{"claw.cfg: DOFs whose default value lies outside their limits, to which it is "
-                          "moved: 'd': are limits or value exchanged?"});
+  check_plausible(robot, "claw.cfg",
+                  {{}, {}, {}, [&](const std::string& s) { told.push_back(s); }});
+  CHECK(told ==
+        Sentences{"claw.cfg: DOFs whose default value lies outside their limits, to which it is "
+                  "moved: 'd': are limits or value exchanged?"});
 }
 
 TEST_CASE("a negative eigenvalue is suspicious, in text and in XML") {

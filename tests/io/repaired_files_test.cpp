@@ -1,5 +1,5 @@
-// Every file of tests/data/repaired/ is read, and tells the sentences that stand beside it, each line
-// one; strictly read it is refused with the first.
+// Every file of tests/data/repaired/ is read, and tells the sentences that stand beside it, each
+// line one; strictly read it is refused with the first.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -23,7 +23,8 @@ struct Cfg {
 
   RobotSpec read(const ReadOptions& options = {}) const {
     const TemporaryFolder folder;
-    folder.write("iv/box.iv", "#Inventor V2.1 ascii\n#mass 20\nCube { width 20 height 20 depth 20 }\n");
+    folder.write("iv/box.iv",
+                 "#Inventor V2.1 ascii\n#mass 20\nCube { width 20 height 20 depth 20 }\n");
     folder.write("eigen/a.egr", "DIMENSIONS 1\nEG\n1\n1\n");
     return read_robot(
         folder.write("hand.cfg", "#class\n" + class_line + "box.iv\n" + dofs + "1\n" + joints +
@@ -247,8 +248,9 @@ TEST_CASE(
   options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
   const RobotSpec r = cfg.read(options);
   REQUIRE(notes.size() == 4);
-  CHECK(notes[2] == "hand.cfg: no inertia is given; that of a solid of one density is assumed: "
-                    "'hand_base', 'hand_chain0_link0'");
+  CHECK(notes[2] ==
+        "hand.cfg: no inertia is given; that of a solid of one density is assumed: "
+        "'hand_base', 'hand_chain0_link0'");
   CHECK(notes[3] ==
         "hand.cfg: no approach direction is given; it is the z axis of its base, from its origin");
   CHECK(notes[0] == "hand.cfg:19: FlockOfBirds: no bird number, 0 is used");

@@ -1,4 +1,5 @@
-// The XML models of the original's last generation, where they are at hand, against its text models.
+// The XML models of the original's last generation, where they are at hand, against its text
+// models.
 #include <algorithm>
 
 #include "clench/base/error.h"

@@ -1,5 +1,6 @@
 // The small files around hands and planners: bad ones are refused with the sentence that stands
-// beside them; cut short anywhere or changed at random they are values or Errors that name the file.
+// beside them; cut short anywhere or changed at random they are values or Errors that name the
+// file.
 #include <algorithm>
 
 #include "clench/base/error.h"
@@ -45,7 +46,8 @@ const Format formats[] = {
      "</friction_edges><location>1 2 3</location><rotation>1 0 0 0</rotation><translation>1 2 3"
      "</translation><normal>0 0 1</normal><sCof>0.5</sCof></virtual_contact></virtual_contacts>"},
     {"object_contacts", "con", [](const fs::path& path) { read_object_contacts(path); },
-     "2\n" + edge_lines + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n" + edge_lines + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n"},
+     "2\n" + edge_lines + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n" + edge_lines +
+         "1 0 0 0\n1 2 3\n0 0 1\n0.5\n"},
     {"primitives", "iv", [](const fs::path& path) { read_primitives(path); },
      "#Inventor V2.1 ascii\nSeparator { Transform { translation 1 2 3 } Cube { width 20 } }\nCone "
      "{ "

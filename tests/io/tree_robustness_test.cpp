@@ -88,7 +88,8 @@ void cut_tree_everywhere(const std::string& name, const std::string& text) {
   for (size_t n = 0; n + 20 < text.size(); n += 41) CHECK(bench.refused(name, text.substr(0, n)));
 }
 
-/// A word or number within quotes, an element's name, a line: taken from elsewhere in the text, or odd.
+/// A word or number within quotes, an element's name, a line: taken from elsewhere in the text, or
+/// odd.
 std::string changed(std::string s, Random& random) {
   static const char* const odd[] = {"",      "nan",   "-1",   "0",    "1e15",       "1e-300",
                                     "a b c", "0 0 0", "1e99", "palm", "2147483648", "-0"};

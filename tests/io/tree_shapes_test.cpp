@@ -54,7 +54,8 @@ TEST_CASE("points of a capsule lie at its radius from its segment") {
 TEST_CASE("the closed formulas are those that meshes come near from within") {
   const auto near = [](const MassProperties& exact, const Mesh& mesh) {
     const MassProperties from = solid_mass(mesh);
-    // a circle of 32 edges has 0.64 % less area than its own, a ball of 32 by 16 about 2 % less volume
+    // a circle of 32 edges has 0.64 % less area than its own, a ball of 32 by 16 about 2 % less
+    // volume
     CHECK(from.volume < exact.volume);
     CHECK(from.volume == doctest::Approx(exact.volume).epsilon(0.03));
     for (int i = 0; i < 3; ++i)

@@ -1,7 +1,7 @@
 // The element <clench> of a URDF: what is wrong in it is told by file and line.
 #include "clench/base/error.h"
-#include "told_robot.h"
 #include "temporary.h"
+#include "told_robot.h"
 
 using namespace clench;
 using namespace clench::test;
@@ -12,9 +12,10 @@ ToldRobot with(const std::string& element) {
   TemporaryFolder folder;
   folder.write("set.egr", "");
   return ToldRobot(folder.write(
-      "h.urdf", "<robot name='h'><link name='palm'/><link name='tip'/><joint name='j' type='revolute'>"
-                "<parent link='palm'/><child link='tip'/><limit lower='0' upper='1'/></joint>\n" +
-                    element + "</robot>"));
+      "h.urdf",
+      "<robot name='h'><link name='palm'/><link name='tip'/><joint name='j' type='revolute'>"
+      "<parent link='palm'/><child link='tip'/><limit lower='0' upper='1'/></joint>\n" +
+          element + "</robot>"));
 }
 
 void check_refused(const std::string& inside, const std::string& sentence) {
@@ -26,10 +27,11 @@ void check_refused(const std::string& inside, const std::string& sentence) {
 }  // namespace
 
 TEST_CASE("what <clench> says counts, and nothing is guessed beside it") {
-  const ToldRobot told(with("<clench><approach xyz='1 2 3' quat='0 1 0 0'/><dof joint='j' velocity='-2' "
-                            "kind='breakaway' breakaway='3'/><link name='palm' material='rubber'/>"
-                            "<collision><never link='tip'/><never_pair link1='palm' link2='tip'/>"
-                            "</collision></clench>"));
+  const ToldRobot told(
+      with("<clench><approach xyz='1 2 3' quat='0 1 0 0'/><dof joint='j' velocity='-2' "
+           "kind='breakaway' breakaway='3'/><link name='palm' material='rubber'/>"
+           "<collision><never link='tip'/><never_pair link1='palm' link2='tip'/>"
+           "</collision></clench>"));
   CHECK(told.warnings.empty());
   CHECK(told.robot.dofs[0].default_velocity == -2);
   CHECK(told.robot.dofs[0].kind == DofKind::breakaway);
@@ -43,20 +45,24 @@ TEST_CASE("what <clench> says counts, and nothing is guessed beside it") {
 TEST_CASE("how a hand closes is guessed where <clench> has no word of it") {
   const auto jaws = [](const std::string& element) {
     const auto link = [](const std::string& name, const std::string& size, const std::string& at) {
-      const std::string shape = "<origin xyz='" + at + "'/><geometry><box size='" + size + "'/></geometry>";
+      const std::string shape =
+          "<origin xyz='" + at + "'/><geometry><box size='" + size + "'/></geometry>";
       return "<link name='" + name + "'><collision>" + shape + "</collision></link>";
     };
     const auto joint = [](const std::string& finger, const std::string& axis) {
-      return "<joint name='" + finger + "_joint' type='prismatic'><parent link='palm'/><child link='" + finger + "'/><axis xyz='" + axis +
-             "'/><limit lower='0' upper='0.04'/></joint>";
+      return "<joint name='" + finger +
+             "_joint' type='prismatic'><parent link='palm'/><child link='" + finger +
+             "'/><axis xyz='" + axis + "'/><limit lower='0' upper='0.04'/></joint>";
     };
     TemporaryFolder folder;
-    return ToldRobot(folder.write("j.urdf", "<robot name='j'>" + link("palm", "0.1 0.04 0.04", "0 0 -0.02") +
-                                                link("left", "0.01 0.02 0.06", "0.005 0 0.03") +
-                                                link("right", "0.01 0.02 0.06", "-0.005 0 0.03") + joint("left", "1 0 0") +
-                                                joint("right", "-1 0 0") + element + "</robot>"));
+    return ToldRobot(folder.write(
+        "j.urdf", "<robot name='j'>" + link("palm", "0.1 0.04 0.04", "0 0 -0.02") +
+                      link("left", "0.01 0.02 0.06", "0.005 0 0.03") +
+                      link("right", "0.01 0.02 0.06", "-0.005 0 0.03") + joint("left", "1 0 0") +
+                      joint("right", "-1 0 0") + element + "</robot>"));
   };
-  const ToldRobot plain(jaws("")), dressed(jaws("<clench><link name='left' material='rubber'/></clench>"));
+  const ToldRobot plain(jaws("")),
+      dressed(jaws("<clench><link name='left' material='rubber'/></clench>"));
   CHECK(plain.robot.dofs[0].default_velocity != 0);
   CHECK(dressed.robot.dofs[0].default_velocity == plain.robot.dofs[0].default_velocity);
   REQUIRE(plain.robot.X_BA);
@@ -68,9 +74,10 @@ TEST_CASE("how a hand closes is guessed where <clench> has no word of it") {
 TEST_CASE("the caller's choice comes before that of <clench>") {
   TemporaryFolder folder;
   const auto file = folder.write(
-      "h.urdf", "<robot name='h'><link name='palm'/><link name='tip'/><joint name='j' type='revolute'>"
-                "<parent link='palm'/><child link='tip'/><limit lower='0' upper='1'/></joint>"
-                "<clench><dof joint='j' velocity='2'/></clench></robot>");
+      "h.urdf",
+      "<robot name='h'><link name='palm'/><link name='tip'/><joint name='j' type='revolute'>"
+      "<parent link='palm'/><child link='tip'/><limit lower='0' upper='1'/></joint>"
+      "<clench><dof joint='j' velocity='2'/></clench></robot>");
   ReadOptions options;
   options.closing = {{"j", -1}};
   CHECK(read_robot(file, options).dofs[0].default_velocity == -2);
@@ -81,7 +88,8 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   check_refused("<dofs/>", "clench: unknown element <dofs>; did you mean 'dof'?");
   check_refused("<dof joint='k'/>", "dof: joint: no joint 'k' that leads a DOF");
   check_refused("<dof joint='j' spede='1'/>",
-                "dof: unknown attribute 'spede', expected one of joint, kind, velocity, kp, kd, damping_ratio, "
+                "dof: unknown attribute 'spede', expected one of joint, kind, velocity, kp, kd, "
+                "damping_ratio, "
                 "breakaway, handle, start, driven");
   check_refused("<dof joint='j' driven='no'/>", "dof: driven: expected true or false, got 'no'");
   check_refused("<dof joint='j' kind='soft'/>",
@@ -95,22 +103,24 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   check_refused("<joint name='j' spring='-1'/>",
                 "joint: spring: expected a number from 0 to 1e+30, got -1");
   check_refused("<link name='plam'/>", "link: name: no link 'plam'; did you mean 'palm'?");
-  check_refused("<link name='palm' material='rubbr'/>",
-                "link: material: unknown material 'rubbr', expected one of frictionless, glass, metal, "
-                "plastic, wood, rubber, stone; did you mean 'rubber'?");
+  check_refused(
+      "<link name='palm' material='rubbr'/>",
+      "link: material: unknown material 'rubbr', expected one of frictionless, glass, metal, "
+      "plastic, wood, rubber, stone; did you mean 'rubber'?");
   check_refused("<approach xyz='0 0 0' quat='1 1 0 0'/>",
                 "approach: quat: expected a unit quaternion, w x y z, got (1, 1, 0, 0)");
   check_refused("<approach quat='1 0 0 0'/><approach quat='1 0 0 0'/>",
                 "approach: expected one, got another");
   check_refused("<approach quat='1 0 0 0' xyz='0 0 2e9'/>",
                 "approach: xyz: expected a position within 1e+09 m of the origin");
-  check_refused("<collision><a/></collision>", "collision: expected <never> or <never_pair>, got <a>");
+  check_refused("<collision><a/></collision>",
+                "collision: expected <never> or <never_pair>, got <a>");
   check_refused("<collision><never_pair link1='tip' link2='tip'/></collision>",
                 "never_pair: link2: expected another link than link1");
   check_refused("<actuator kind='motor' gain='1' bias='1'/>",
                 "actuator: bias: expected 3 numbers, got 1");
   check_refused("<actuator kind='motor' force_range='2 1'/>", "actuator: force_range: 2 exceeds 1");
-  CHECK_THROWS_WITH_AS(with("<clench/><clench/>"), "h.urdf:2: robot: expected one <clench>, got another",
-                       Error);
+  CHECK_THROWS_WITH_AS(with("<clench/><clench/>"),
+                       "h.urdf:2: robot: expected one <clench>, got another", Error);
   CHECK(with("<clench><eigengrasps file='no.egr'/></clench>").warned("h.urdf:2: eigengrasps: "));
 }

@@ -186,7 +186,8 @@ TEST_CASE("planners try joints without limits a full turn or a metre either way,
   TemporaryFolder folder;
   const ToldRobot turns(folder.write("a.urdf", two_links("", "type='continuous'")));
   CHECK(turns.joint("j").max == doctest::Approx(2 * pi));
-  CHECK(turns.noted("joint 'j' turns without end; planners try values up to 6.283 rad from where it is"));
+  CHECK(turns.noted(
+      "joint 'j' turns without end; planners try values up to 6.283 rad from where it is"));
   const ToldRobot slides(folder.write("a.urdf", two_links("", "type='prismatic'")));
   CHECK(slides.joint("j").min == -1);
   CHECK(slides.noted("joint 'j' has no limits; planners try values up to 1 m from where it is"));
@@ -391,11 +392,14 @@ TEST_CASE("a follower of a joint that stands still does not keep the robot from 
 TEST_CASE("of a joint without limits and one that follows it only limits that files give count") {
   const auto pair = [](const char* leads, const char* follows, const char* ratio) {
     TemporaryFolder folder;
-    return ToldRobot(folder.write("a.urdf", fmt::format(R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+    return ToldRobot(folder.write(
+        "a.urdf", fmt::format(R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
 <joint name="k" {}<parent link="a"/><child link="b"/></joint>
-<joint name="m" {}<parent link="a"/><child link="c"/><mimic joint="k" multiplier="{}"/></joint></robot>)", leads, follows, ratio)));
+<joint name="m" {}<parent link="a"/><child link="c"/><mimic joint="k" multiplier="{}"/></joint></robot>)",
+                              leads, follows, ratio)));
   };
-  const char *endless = "type='continuous'>", *none = "type='revolute'><limit lower='-1e15' upper='1e15'/>",
+  const char *endless = "type='continuous'>",
+             *none = "type='revolute'><limit lower='-1e15' upper='1e15'/>",
              *limited = "type='revolute'><limit lower='-5' upper='5'/>";
   for (const char* leads : {endless, none}) {
     const ToldRobot both = pair(leads, endless, "100");
@@ -407,7 +411,9 @@ TEST_CASE("of a joint without limits and one that follows it only limits that fi
     CHECK(dof_range(follower.robot, 0)[1] == 5);
     // what would all but stop the other is taken for a slip
     const ToldRobot slip = pair(leads, limited, "100");
-    CHECK(slip.warned("joint 'm' follows 'k' from -628.319 to 628.319, and its own limits [-5, 5] would stop that; they are not used"));
+    CHECK(
+        slip.warned("joint 'm' follows 'k' from -628.319 to 628.319, and its own limits [-5, 5] "
+                    "would stop that; they are not used"));
     CHECK(dof_is_endless(slip.robot, 0));
   }
   const ToldRobot leader = pair(limited, endless, "100");

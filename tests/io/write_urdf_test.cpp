@@ -84,7 +84,9 @@ std::string contents(const fs::path& path) { return read_bytes(path); }
 TEST_CASE("motors without limits do not stand still in other readers, and come back without") {
   const TemporaryFolder folder;
   const auto urdf = written(one_link("free", "wheel"), folder.path() / "free.urdf");
-  CHECK(contents(folder.path() / "free.urdf").find("effort=\"1000000000\" velocity=\"1000000000\"") != std::string::npos);
+  CHECK(
+      contents(folder.path() / "free.urdf").find("effort=\"1000000000\" velocity=\"1000000000\"") !=
+      std::string::npos);
   CHECK(urdf.robot.dofs[0].max_effort == 0);
   CHECK(urdf.robot.dofs[0].max_velocity == 0);
 }

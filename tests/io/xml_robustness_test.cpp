@@ -1,5 +1,5 @@
-// XML files cut short anywhere and with words exchanged at random: a spec or an Error that names the
-// file, never a crash or a hang.
+// XML files cut short anywhere and with words exchanged at random: a spec or an Error that names
+// the file, never a crash or a hang.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/io/read.h"

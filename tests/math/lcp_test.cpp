@@ -45,7 +45,8 @@ TEST_CASE("a positive definite matrix gives the one solution that enumeration fi
   for (int i = 0; i < test::cases(400); ++i) {
     const int n = 1 + i % 7;
     const MatrixXd half = any_matrix(random, n, n), turned = any_matrix(random, n, n);
-    const MatrixXd M = half * half.transpose() + 0.01 * MatrixXd::Identity(n, n) + turned - turned.transpose();
+    const MatrixXd M =
+        half * half.transpose() + 0.01 * MatrixXd::Identity(n, n) + turned - turned.transpose();
     const VectorXd q = any_matrix(random, n, 1);
     const auto all = enumerate(M, q);
     REQUIRE(all.size() == 1);
@@ -56,7 +57,9 @@ TEST_CASE("a positive definite matrix gives the one solution that enumeration fi
   }
 }
 
-TEST_CASE("any matrix at all: what is found is a solution, and of semidefinite ones a ray proves that there is none") {
+TEST_CASE(
+    "any matrix at all: what is found is a solution, and of semidefinite ones a ray proves that "
+    "there is none") {
   Random random(2);
   int solved = 0, rays = 0, empty = 0;
   for (int i = 0; i < test::cases(400); ++i) {

@@ -78,7 +78,8 @@ TEST_CASE("the hash of a pose changes with every number") {
   CHECK(hash(Pose()) == hash(still));
 }
 
-TEST_CASE("roll, pitch and yaw give back the rotation, at and near a pitch of a quarter turn, too") {
+TEST_CASE(
+    "roll, pitch and yaw give back the rotation, at and near a pitch of a quarter turn, too") {
   Random random(8);
   const double pi = 3.14159265358979323846;
   const auto turned = [](const Eigen::Vector3d& rpy) {

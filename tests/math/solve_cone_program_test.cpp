@@ -10,7 +10,8 @@
 using namespace clench;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// what the header promises of an optimum; the checks below measure with norms of their own, hence the factor
+// what the header promises of an optimum; the checks below measure with norms of their own, hence
+// the factor
 static constexpr double promised = 1e-9, close_to_it = 1e-8;
 
 static MatrixXd normal_matrix(Random& random, int rows, int columns) {
@@ -31,7 +32,8 @@ static VectorXd times(const MatrixXd& m, const VectorXd& v, Eigen::Index rows) {
   return m.size() == 0 ? VectorXd(VectorXd::Zero(rows)) : VectorXd(m * v);
 }
 
-// the equations of an optimum, with sums in plain order and each residual over the largest of its terms
+// the equations of an optimum, with sums in plain order and each residual over the largest of its
+// terms
 static void check_optimum(const ConeProgram& p, const ConeSolution& r) {
   REQUIRE(r.status == ConeStatus::optimal);
   const auto n = p.c.size();
@@ -383,7 +385,8 @@ TEST_CASE("any program gets an answer in finite numbers") {
   int counts[4] = {};
   for (int i = 0; i < 600; ++i) {
     CAPTURE(i);
-    // what is small is rounded to 0 or to ties: rows and columns vanish, repeat and oppose each other
+    // what is small is rounded to 0 or to ties: rows and columns vanish, repeat and oppose each
+    // other
     ConeProgram p = made_program(random, i % 2 == 0).program;
     const double coarse = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 0.5;
     const auto round_off = [&](MatrixXd& m) {

@@ -171,9 +171,9 @@ TEST_CASE("wrong numbers are refused") {
   CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector3d(0, 0, 0)),
                        "driving 'gripper': expected 2 DOF values, got 3", Error);
   CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector2d(0, 9)),
-                       "driving 'gripper': DOF 2 must lie in [0, 1.571] rad, got 9; degrees? clench.rad(9) is 0.1571",
+                       "driving 'gripper': DOF 2 must lie in [0, 1.571] rad, got 9; degrees? "
+                       "clench.rad(9) is 0.1571",
                        Error);
   CHECK_THROWS_WITH_AS(drive_to(bench.world, bench.hand, Eigen::Vector2d(0, NAN)),
-                       "driving 'gripper': DOF 2 must be finite, got nan",
-                       Error);
+                       "driving 'gripper': DOF 2 must be finite, got nan", Error);
 }

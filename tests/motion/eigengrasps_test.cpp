@@ -44,8 +44,8 @@ Case random_case(Random& random, bool with_norm = true) {
   return c;
 }
 
-// sums of some twenty products of numbers below ten, and a solve of their kind: random sets of as many
-// vectors as DOFs are ill conditioned, by a few thousand at times
+// sums of some twenty products of numbers below ten, and a solve of their kind: random sets of as
+// many vectors as DOFs are ill conditioned, by a few thousand at times
 constexpr double rounding = 1e-10;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Robots from URDF and MJCF in a world: every link stands where the file's own tree puts it, and hands
-// close.
+// Robots from URDF and MJCF in a world: every link stands where the file's own tree puts it, and
+// hands close.
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -342,7 +342,8 @@ TEST_CASE("pads that turn back as their levers turn in open after they have clos
   const DriveResult closed = autograsp(world, id);
   CHECK(closed.stops == std::vector<DofStop>{DofStop::contact});
   CHECK(colliding_pairs(world).empty());
-  // the pads met where the levers, 8 cm long, have brought each 4.7 cm inward, and then some of their thickness
+  // the pads met where the levers, 8 cm long, have brought each 4.7 cm inward, and then some of
+  // their thickness
   const double meeting = std::asin((0.05 - 0.003) / 0.08);
   CHECK(world.dofs(id)[0] == doctest::Approx(meeting).epsilon(2e-3));  // the contact threshold
   const DriveResult opened = open_hand(world, id);

@@ -15,7 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-// two fingers whose joints are held by springs alone, and something between them that may be without friction
+// two fingers whose joints are held by springs alone, and something between them that may be
+// without friction
 struct SpringBench {
   World world;
   Id<Robot> hand;
@@ -94,7 +95,8 @@ TEST_CASE("without friction a finger comes to rest where its springs hold least"
     for (const int c : {0, 1}) {
       const double q = bench.dofs()[c];
       const double here = energy(bench.robot(), c, q, bench.q(c, 0), bench.q(c, 1));
-      // torques of up to 8 N m on levers of 30 mm and more press with at most 260 N through a gap of 0.1 mm
+      // torques of up to 8 N m on levers of 30 mm and more press with at most 260 N through a gap
+      // of 0.1 mm
       CHECK(here <= min_energy_nearby(bench, c, q, 0.02) + 0.026);
     }
   }
@@ -129,8 +131,8 @@ TEST_CASE("a finger that is opened again follows its tendon back") {
 }
 
 TEST_CASE("the weaker of two joints gives way more") {
-  // a tip that meets a wall without friction: the joints' torques are as their levers, so deviations as levers over
-  // stiffness
+  // a tip that meets a wall without friction: the joints' torques are as their levers, so
+  // deviations as levers over stiffness
   const auto deviations = [](double first, double second) {
     SpringBench bench({first, second}, "frictionless", {0.005, 0.09, 0}, box(0.03, 0.01, 0.05));
     const auto result = autograsp(bench.world, bench.hand);

@@ -127,7 +127,8 @@ TEST_CASE("a hand closes the same wherever its links' frames are") {
         if (child.parent == &link - moved.links.data())
           child.joints[0].X_PJ = X_LN.inverse() * child.joints[0].X_PJ;
     }
-    // the same geometry by other products: rounding may end an advance at another place in the threshold
+    // the same geometry by other products: rounding may end an advance at another place in the
+    // threshold
     CHECK((close(two_finger(kind)) - close(moved)).cwiseAbs().maxCoeff() < 1e-3);
   }
 }

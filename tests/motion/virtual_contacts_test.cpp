@@ -47,8 +47,9 @@ TEST_CASE(
 }
 
 TEST_CASE("a place is the centre of what its link sweeps") {
-  // A face that turns about an axis sweeps in proportion to the distance r from it. Of the two ends,
-  // half of height h goes forward, in proportion to the height. Per width, over r from `near` to `far`:
+  // A face that turns about an axis sweeps in proportion to the distance r from it. Of the two
+  // ends, half of height h goes forward, in proportion to the height. Per width, over r from `near`
+  // to `far`:
   const Stage s = stage();
   const auto sites = find_virtual_contacts(s.world, s.hand);
   const double near = 0.003, far = 0.047, h = 0.005;

@@ -24,15 +24,16 @@ struct TestChain {
   std::unique_ptr<Annealing> search;
 };
 
-TestChain chain(const HandScene& scene, uint64_t seed, bool bounded = true, AnnealingOptions options = {}) {
+TestChain chain(const HandScene& scene, uint64_t seed, bool bounded = true,
+                AnnealingOptions options = {}) {
   TestChain out{std::make_unique<World>(scene.world), nullptr};
   const HandAndObject who{scene.hand, scene.object};
   EnergyPtr energy = std::make_unique<ContactEnergy>(*out.world, who, ContactEnergy::Options{});
   if (!bounded) energy = std::make_unique<Unbounded>(std::move(energy));
   options.seed = seed;
   options.best.radius = scene.world.body(scene.object).max_radius();
-  out.search = std::make_unique<Annealing>(*out.world, who, SearchSpace(scene.robot(), scene.state()),
-                                           std::move(energy), options);
+  out.search = std::make_unique<Annealing>(
+      *out.world, who, SearchSpace(scene.robot(), scene.state()), std::move(energy), options);
   return out;
 }
 
@@ -65,7 +66,9 @@ TEST_CASE("a chain does not depend on how its steps are cut, on bounds, or on th
   for (const Share& share : shares) CHECK(share.taken == 600);
 }
 
-TEST_CASE("steps that are counted were legal, and every state that is kept is free of collision and within the ranges") {
+TEST_CASE(
+    "steps that are counted were legal, and every state that is kept is free of collision and "
+    "within the ranges") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   TestChain c = chain(scene, 1);
   CHECK(c.search->run(2000) == 2000);
@@ -124,7 +127,8 @@ TEST_CASE("what is avoided is not come near to") {
   c.search->run(500);
   CHECK(c.search->counts().avoided > 0);
   for (const FoundState& found : c.search->best().states())
-    CHECK(c.search->space().distance(found.state, best.state, c.search->best().options().radius, true) >= 0.2);
+    CHECK(c.search->space().distance(found.state, best.state, c.search->best().options().radius,
+                                     true) >= 0.2);
 }
 
 TEST_CASE("a chain that cannot move says how many steps it took") {
@@ -136,7 +140,8 @@ TEST_CASE("a chain that cannot move says how many steps it took") {
     Variable& v = space.variables()[find_variable(space.variables(), name)];
     v.min = v.value = 0, v.max = 1e-6;
   }
-  Annealing search(world, {scene.hand, scene.object}, space, std::make_unique<EnergyFunction>([] { return 1.0; }), {.max_tries = 1});
+  Annealing search(world, {scene.hand, scene.object}, space,
+                   std::make_unique<EnergyFunction>([] { return 1.0; }), {.max_tries = 1});
   CHECK(search.run(10) == 0);
   CHECK(search.energy() == infinite);
   CHECK(search.counts().in_collision > 0);
@@ -146,31 +151,42 @@ TEST_CASE("a chain that cannot move says how many steps it took") {
 TEST_CASE("the five schedules are the original's, and their temperatures fall") {
   const AnnealingSchedule usual = annealing_schedule("default");
   // planners.md, section 5: T0 exp(-YC k^(1/YD)) with 1e6, 7, 8 at 30000
-  CHECK(usual.neighbour_temperature(30000) == doctest::Approx(1e6 * std::exp(-7 * std::pow(30000, 0.125))));
+  CHECK(usual.neighbour_temperature(30000) ==
+        doctest::Approx(1e6 * std::exp(-7 * std::pow(30000, 0.125))));
   for (const char* name : {"default", "loop", "modified", "strict", "online"}) {
     const AnnealingSchedule s = annealing_schedule(name);
     CHECK(s.error_temperature(s.first_step + 1000) < s.error_temperature(s.first_step + 1));
   }
   CHECK(annealing_schedule("strict").t0 == 10);
-  CHECK_THROWS_WITH_AS(annealing_schedule("strickt"), "annealing: no schedule 'strickt', expected one of default, loop, modified, strict, online; did you mean 'strict'?", Error);
+  CHECK_THROWS_WITH_AS(annealing_schedule("strickt"),
+                       "annealing: no schedule 'strickt', expected one of default, loop, modified, "
+                       "strict, online; did you mean 'strict'?",
+                       Error);
 }
 
 TEST_CASE("options that make no search are refused") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const auto with = [&](AnnealingOptions options) { chain(scene, 1, true, options); };
   CHECK_THROWS_WITH_AS(with({.schedule = {.t0 = 0}}), "annealing: t0 must be > 0, got 0", Error);
-  CHECK_THROWS_WITH_AS(with({.schedule = {.first_step = -1}}), "annealing: first_step must be >= 0, got -1", Error);
+  CHECK_THROWS_WITH_AS(with({.schedule = {.first_step = -1}}),
+                       "annealing: first_step must be >= 0, got -1", Error);
   CHECK_THROWS_WITH_AS(with({.max_tries = 0}), "annealing: max_tries must be >= 1, got 0", Error);
-  CHECK_THROWS_WITH_AS(with({.best = {.size = 0}}), "best list: size: expected 1 to 1000000, got 0", Error);
-  CHECK_THROWS_WITH_AS(with({.best = {.distance = -1}}), "best list: distance must be >= 0, got -1", Error);
+  CHECK_THROWS_WITH_AS(with({.best = {.size = 0}}), "best list: size: expected 1 to 1000000, got 0",
+                       Error);
+  CHECK_THROWS_WITH_AS(with({.best = {.distance = -1}}), "best list: distance must be >= 0, got -1",
+                       Error);
   World world = scene.world;
-  SearchSpace space(scene.robot(), scene.state(), {.position = PositionKind::fixed, .posture = PostureKind::fixed});
-  CHECK_THROWS_WITH_AS(Annealing(world, {scene.hand, scene.object}, space, std::make_unique<EnergyFunction>([] { return 1.0; })),
+  SearchSpace space(scene.robot(), scene.state(),
+                    {.position = PositionKind::fixed, .posture = PostureKind::fixed});
+  CHECK_THROWS_WITH_AS(Annealing(world, {scene.hand, scene.object}, space,
+                                 std::make_unique<EnergyFunction>([] { return 1.0; })),
                        "annealing: every variable is fixed", Error);
   TestChain a = chain(scene, 1);
   std::vector<Share> twice{{a.search.get(), 1}, {a.search.get(), 1}};
-  CHECK_THROWS_WITH_AS(run_together(twice, 1), "searches that run together need a world each", Error);
-  CHECK_THROWS_WITH_AS(run_together(std::span(twice).first(1), 0), "threads: expected 1 to 1024, got 0", Error);
+  CHECK_THROWS_WITH_AS(run_together(twice, 1), "searches that run together need a world each",
+                       Error);
+  CHECK_THROWS_WITH_AS(run_together(std::span(twice).first(1), 0),
+                       "threads: expected 1 to 1024, got 0", Error);
 }
 
 TEST_CASE("the best list keeps the best, no two alike") {

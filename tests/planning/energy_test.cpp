@@ -127,7 +127,8 @@ TEST_CASE("energies move with the world and remember nothing that counts") {
   }
 }
 
-TEST_CASE("a closing energy is minus the measures of the closed grasp, and leaves the world as it was") {
+TEST_CASE(
+    "a closing energy is minus the measures of the closed grasp, and leaves the world as it was") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const HandAndObject who{scene.hand, scene.object};
   Random random(5);
@@ -140,37 +141,49 @@ TEST_CASE("a closing energy is minus the measures of the closed grasp, and leave
     World closed = scene.world;
     autograsp(closed, scene.hand);
     const Grasp grasp = measure_grasp(closed, scene.hand, scene.object);
-    const double worth = grasp.contacts.empty() ? 0 : 100 * space_of(grasp)->epsilon() + 30 * space_of(grasp)->volume();
+    const double worth = grasp.contacts.empty()
+                             ? 0
+                             : 100 * space_of(grasp)->epsilon() + 30 * space_of(grasp)->volume();
     CHECK(got == (worth == 0 ? 0 : -worth));
   }
-  CHECK_THROWS_WITH_AS(ClosingEnergy(who, {.volume_weight = -1}), "energy: volume_weight must be >= 0, got -1", Error);
-  CHECK_THROWS_WITH_AS(ClosingEnergy(who, {.approach = infinite}), "energy: approach must be >= 0, got inf", Error);
+  CHECK_THROWS_WITH_AS(ClosingEnergy(who, {.volume_weight = -1}),
+                       "energy: volume_weight must be >= 0, got -1", Error);
+  CHECK_THROWS_WITH_AS(ClosingEnergy(who, {.approach = infinite}),
+                       "energy: approach must be >= 0, got inf", Error);
 }
 
 TEST_CASE("constraints are 0 where they hold and grow with how far they do not") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   scene.world.set_pose(scene.hand, Pose::translation({0, 0, 0.5}));
-  const Vector3d z = (scene.world.pose(scene.robot().base) * scene.robot().X_BA).rotation * Vector3d::UnitZ();
+  const Vector3d z =
+      (scene.world.pose(scene.robot().base) * scene.robot().X_BA).rotation * Vector3d::UnitZ();
   CHECK(ApproachCone(scene.hand, z, 0.1).value(scene.world) == 0);
-  CHECK(ApproachCone(scene.hand, -z, 0.1).value(scene.world) == doctest::Approx(std::numbers::pi - 0.1));
+  CHECK(ApproachCone(scene.hand, -z, 0.1).value(scene.world) ==
+        doctest::Approx(std::numbers::pi - 0.1));
   CHECK(ReachEnergy(scene.hand, {0, 0, 0.5}, 10).value(scene.world) == 0);
   const Vector3d at = (scene.world.pose(scene.robot().base) * scene.robot().X_BA).position;
-  CHECK(ReachEnergy(scene.hand, at + Vector3d(0, 0.3, 0), 0.1).value(scene.world) == doctest::Approx(200));
+  CHECK(ReachEnergy(scene.hand, at + Vector3d(0, 0.3, 0), 0.1).value(scene.world) ==
+        doctest::Approx(200));
   CHECK(KeepOutBox(scene.hand, {}, {5, 5, 5}, {6, 6, 6}).value(scene.world) == 0);
   // a half space that the whole hand is in
   CHECK(KeepOutBox(scene.hand, {}, {-5, -5, -5}, {5, 5, 0.6}).value(scene.world) > 100);
   CHECK(PenetrationEnergy(scene.world, scene.hand).value(scene.world) == 0);
-  CHECK_THROWS_WITH_AS(ApproachCone(scene.hand, {0, 0, 0}, 0.1), "energy: axis: expected a direction", Error);
-  CHECK_THROWS_WITH_AS(ApproachCone(scene.hand, z, 4), "energy: angle must lie in [0, pi] rad, got 4", Error);
-  CHECK_THROWS_WITH_AS(ReachEnergy(scene.hand, z, -1), "energy: radius must be >= 0 [m], got -1", Error);
+  CHECK_THROWS_WITH_AS(ApproachCone(scene.hand, {0, 0, 0}, 0.1),
+                       "energy: axis: expected a direction", Error);
+  CHECK_THROWS_WITH_AS(ApproachCone(scene.hand, z, 4),
+                       "energy: angle must lie in [0, pi] rad, got 4", Error);
+  CHECK_THROWS_WITH_AS(ReachEnergy(scene.hand, z, -1), "energy: radius must be >= 0 [m], got -1",
+                       Error);
   CHECK_THROWS_AS(KeepOutBox(scene.hand, {}, {1, 0, 0}, {0, 1, 1}), Error);
-  CHECK_THROWS_WITH_AS(PenetrationEnergy(scene.world, scene.hand, 0), "energy: points: expected 1 to 10000, got 0", Error);
+  CHECK_THROWS_WITH_AS(PenetrationEnergy(scene.world, scene.hand, 0),
+                       "energy: points: expected 1 to 10000, got 0", Error);
 }
 
 TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   World world;
   HandScene scene = hand_scene("parallel_jaw/parallel_jaw.cfg", "cube.iv");
-  const auto floor = scene.world.add_body(read_body("models/obstacles/floor.iv", {}), BodyKind::obstacle, Pose::translation({0, 0, -1}));
+  const auto floor = scene.world.add_body(read_body("models/obstacles/floor.iv", {}),
+                                          BodyKind::obstacle, Pose::translation({0, 0, -1}));
   const HandAndObject who{scene.hand, scene.object};
   scene.world.set_pose(scene.hand, Pose::translation({0, 0, 0.6}));
   const auto parts = scene.world.bodies_of(scene.hand);
@@ -178,7 +191,8 @@ TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   REQUIRE(gap > 0.1);
   CHECK(ClearanceEnergy(who, gap - 0.01).value(scene.world) == 0);
   CHECK(ClearanceEnergy(who, gap + 0.01).value(scene.world) == doctest::Approx(10));
-  CHECK_THROWS_WITH_AS(ClearanceEnergy(who, -1), "energy: distance must be >= 0 [m], got -1", Error);
+  CHECK_THROWS_WITH_AS(ClearanceEnergy(who, -1), "energy: distance must be >= 0 [m], got -1",
+                       Error);
   // sunk into the floor's top by 5 mm
   PenetrationEnergy penetration(scene.world, scene.hand, 2000);
   const Pose X = scene.world.pose(scene.robot().base);
@@ -201,16 +215,21 @@ TEST_CASE("energies of 600 states of Barrett and mug are the original's") {
   for (const auto& state : data["states"]) {
     const auto &t = state["hand_tran"]["t"], &q = state["hand_tran"]["q_wxyz"];
     const std::vector<double> dofs = state["dof"];
-    world.set_posture(hand, {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), 1e-3 * Vector3d(t[0], t[1], t[2])},
+    world.set_posture(hand,
+                      {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(),
+                       1e-3 * Vector3d(t[0], t[1], t[2])},
                       Eigen::Map<const Eigen::VectorXd>(dofs.data(), std::ssize(dofs)));
     CHECK(collides(world) != state["legal"].get<bool>());
     if (!state["legal"].get<bool>()) continue;
     ++legal;
     // it keeps six digits of a vertex
-    CHECK(contact.value(world) == doctest::Approx(state["energy"]["CONTACT_ENERGY"].get<double>()).epsilon(1e-5));
+    CHECK(contact.value(world) ==
+          doctest::Approx(state["energy"]["CONTACT_ENERGY"].get<double>()).epsilon(1e-5));
     if (!state["energy"].contains("GUIDED_AUTO_GRASP_QUALITY_ENERGY")) continue;
     ++closed;
-    CHECK(guided.value(world) == doctest::Approx(state["energy"]["GUIDED_AUTO_GRASP_QUALITY_ENERGY"].get<double>()).epsilon(1e-5));
+    CHECK(guided.value(world) ==
+          doctest::Approx(state["energy"]["GUIDED_AUTO_GRASP_QUALITY_ENERGY"].get<double>())
+              .epsilon(1e-5));
   }
   CHECK(legal == 382);
   CHECK(closed == 30);
@@ -219,10 +238,12 @@ TEST_CASE("energies of 600 states of Barrett and mug are the original's") {
 TEST_CASE("an energy that has nothing to measure is refused") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   CHECK_THROWS_WITH_AS(ContactEnergy(scene.world, {scene.hand, scene.robot().base}, {}),
-                       "energy of 'barrett' and 'barrett_base': the object is a part of a robot", Error);
+                       "energy of 'barrett' and 'barrett_base': the object is a part of a robot",
+                       Error);
   scene.world.set_virtual_contacts(scene.hand, std::make_shared<std::vector<VirtualContactSpec>>());
   CHECK_THROWS_WITH_AS(ContactEnergy(scene.world, {scene.hand, scene.object}, {}),
                        "energy of 'barrett' and 'mug': the hand has no virtual contacts", Error);
-  CHECK_THROWS_WITH_AS(ContactEnergy(scene.world, {scene.hand, scene.object}, {.normal_weight = -1}),
-                       "energy of 'barrett' and 'mug': the hand has no virtual contacts", Error);
+  CHECK_THROWS_WITH_AS(
+      ContactEnergy(scene.world, {scene.hand, scene.object}, {.normal_weight = -1}),
+      "energy of 'barrett' and 'mug': the hand has no virtual contacts", Error);
 }

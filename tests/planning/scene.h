@@ -21,8 +21,8 @@ struct HandScene {
 inline HandScene hand_scene(const std::string& hand_file, const std::string& object_file) {
   HandScene out;
   out.hand = add_robot(out.world, read_robot("models/hands/" + hand_file, {}), {});
-  out.object = out.world.add_body(read_body("models/objects/" + object_file, {}),
-                                  BodyKind::object, {});
+  out.object =
+      out.world.add_body(read_body("models/objects/" + object_file, {}), BodyKind::object, {});
   return out;
 }
 

@@ -23,7 +23,8 @@ Values random_values(const SearchSpace& space, Random& random) {
 
 double gap(const HandState& a, const HandState& b) {
   const Pose between = a.X_RH.inverse() * b.X_RH;
-  return std::max({between.position.norm(), between.angle(), (a.dofs - b.dofs).lpNorm<Eigen::Infinity>()});
+  return std::max(
+      {between.position.norm(), between.angle(), (a.dofs - b.dofs).lpNorm<Eigen::Infinity>()});
 }
 
 }  // namespace
@@ -38,7 +39,9 @@ TEST_CASE("values of a state give that state again, in every space") {
       for (int i = 0; i < 50; ++i) {
         const HandState state = space.state(random_values(space, random));
         // postures that were cut at the limits are no sum of eigengrasps any more
-        if (posture == PostureKind::eigengrasps) space = SearchSpace(scene.robot(), state, {.position = position, .posture = PostureKind::fixed});
+        if (posture == PostureKind::eigengrasps)
+          space = SearchSpace(scene.robot(), state,
+                              {.position = position, .posture = PostureKind::fixed});
         const HandState again = space.state(space.values(state));
         // a few roundings of lengths of a metre; angles near pi lose half the digits
         CHECK(gap(state, again) < 1e-7);
@@ -47,7 +50,8 @@ TEST_CASE("values of a state give that state again, in every space") {
     }
 }
 
-TEST_CASE("an axis-angle pose is a translation and a turn about an axis, behind the approach frame") {
+TEST_CASE(
+    "an axis-angle pose is a translation and a turn about an axis, behind the approach frame") {
   const HandScene scene = hand_scene("human/human16.cfg", "flask.iv");
   SearchSpace space(scene.robot(), scene.state(), {.posture = PostureKind::fixed});
   Values v(6);
@@ -71,10 +75,14 @@ TEST_CASE("a turn about z has no pole: theta is 0 or pi there") {
   }
 }
 
-TEST_CASE("on the ellipsoid the approach direction is the inward normal, and dist is how far off the surface it is") {
+TEST_CASE(
+    "on the ellipsoid the approach direction is the inward normal, and dist is how far off the "
+    "surface it is") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const Vector3d semi(0.08, 0.05, 0.16);
-  SearchSpace space(scene.robot(), scene.state(), {.position = PositionKind::ellipsoid, .posture = PostureKind::fixed, .semi_axes = semi});
+  SearchSpace space(
+      scene.robot(), scene.state(),
+      {.position = PositionKind::ellipsoid, .posture = PostureKind::fixed, .semi_axes = semi});
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     Values v = random_values(space, random);
@@ -87,9 +95,11 @@ TEST_CASE("on the ellipsoid the approach direction is the inward normal, and dis
   }
 }
 
-TEST_CASE("an approach of a distance goes straight along the approach direction from where the hand is") {
+TEST_CASE(
+    "an approach of a distance goes straight along the approach direction from where the hand is") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
-  SearchSpace space(scene.robot(), scene.state(), {.position = PositionKind::approach, .posture = PostureKind::fixed});
+  SearchSpace space(scene.robot(), scene.state(),
+                    {.position = PositionKind::approach, .posture = PostureKind::fixed});
   Values v = Values::Zero(3);
   v[0] = 0.07;
   const Pose moved = scene.state().X_RH.inverse() * space.state(v).X_RH;
@@ -106,7 +116,8 @@ TEST_CASE("states are as far apart as their position, rotation or posture, which
   b.X_RH.position.x() += 0.03;
   CHECK(space.distance(a, b, 0.1, true) == doctest::Approx(0.3));
   b = a;
-  b.X_RH = a.X_RH * scene.robot().X_BA * Pose::turn(pi / 2, Vector3d::UnitX()) * scene.robot().X_BA.inverse();
+  b.X_RH = a.X_RH * scene.robot().X_BA * Pose::turn(pi / 2, Vector3d::UnitX()) *
+           scene.robot().X_BA.inverse();
   CHECK(space.distance(a, b, 0.1, true) == doctest::Approx(0.25));
   b = a;
   b.dofs[1] += 0.5 * (scene.robot().limits[1][1] - scene.robot().limits[1][0]);
@@ -123,17 +134,18 @@ TEST_CASE("what variables cannot be is refused by name") {
                        "search variable 'Tx': the jump must be > 0, got 0", Error);
   CHECK_THROWS_WITH_AS(check_variable({.name = "Tx", .confidence = 1}),
                        "search variable 'Tx': the confidence must lie in [0, 1), got 1", Error);
-  CHECK_THROWS_WITH_AS(check_variable({.name = "Tx", .min = 0, .max = std::numeric_limits<double>::infinity()}),
-                       "search variable 'Tx': expected a finite range, got 0 to inf", Error);
-  CHECK_THROWS_AS(check_variable({.name = "Tx", .target = std::numeric_limits<double>::infinity()}), Error);
+  CHECK_THROWS_WITH_AS(
+      check_variable({.name = "Tx", .min = 0, .max = std::numeric_limits<double>::infinity()}),
+      "search variable 'Tx': expected a finite range, got 0 to inf", Error);
+  CHECK_THROWS_AS(check_variable({.name = "Tx", .target = std::numeric_limits<double>::infinity()}),
+                  Error);
   CHECK_THROWS_WITH_AS(check_variable({}), "a search variable: expected a name", Error);
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   SearchSpace space(scene.robot(), scene.state(), {});
   CHECK_THROWS_WITH_AS(space.add_variable({.name = "Tx"}),
                        "search variable 'Tx': the name comes twice", Error);
-  CHECK_THROWS_WITH_AS(
-      SearchSpace(scene.robot(), scene.state(), {.semi_axes = {0.1, 0, 0.1}}),
-      "search space: semi-axes: expected lengths > 0 [m], got 0", Error);
+  CHECK_THROWS_WITH_AS(SearchSpace(scene.robot(), scene.state(), {.semi_axes = {0.1, 0, 0.1}}),
+                       "search space: semi-axes: expected lengths > 0 [m], got 0", Error);
 }
 
 TEST_CASE("circular variables come round, others stop") {

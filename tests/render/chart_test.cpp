@@ -106,8 +106,7 @@ TEST_CASE("a chart is as high as its panels need, and the same bytes every time"
 
 TEST_CASE("the higher column has more ink, the best is the darkest") {
   const auto ink = [](std::vector<double> values) {
-    return ink_of(
-        painted({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}));
+    return ink_of(painted({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}));
   };
   CHECK(ink({1, 1}) > ink({1, 0.5}));
   CHECK(ink({1, 0.5}) > ink({1, 0}));
@@ -161,8 +160,7 @@ TEST_CASE("labels that only their middles tell apart stay apart when they are to
   }
   // all alike, one alone, and one that is the beginning of another
   CHECK(drawn("3", "3", 3).size() == drawn("1", "2", 3).size());
-  CHECK(painted({.labels = {front + back}, .series = {{"x", {1}}}}, {.width = 200}).width ==
-        200);
+  CHECK(painted({.labels = {front + back}, .series = {{"x", {1}}}}, {.width = 200}).width == 200);
   CHECK(painted({.labels = {front, front + front}, .series = {{"x", {1, 2}}}}).width == 960);
 }
 
@@ -206,8 +204,7 @@ TEST_CASE("numbers of any size make a chart") {
                              {2e307, 5e-324},
                              {1e-300, -1e-300}})
     for (const int size : {64, 300}) {
-      const Picture picture =
-          painted({.series = {{"x", values}}}, {.width = size, .height = size});
+      const Picture picture = painted({.series = {{"x", values}}}, {.width = size, .height = size});
       CHECK(ink_of(picture) > 0);
     }
   const ChartAxis axis = chart_axis({largest, -largest});

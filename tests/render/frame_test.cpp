@@ -10,7 +10,8 @@ using namespace clench::test;
 
 namespace {
 
-// widest part of the frame that the vertices reach, 1 being its edge; not finite when one lies behind the eye
+// widest part of the frame that the vertices reach, 1 being its edge; not finite when one lies
+// behind the eye
 double reach(const Scene& scene, const Eye& eye, double aspect) {
   const Eigen::Matrix4d to_clip = view_projection(eye, aspect, 1e-3, 1e3);
   double most = 0;

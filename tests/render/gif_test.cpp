@@ -18,7 +18,8 @@ Picture squares(int columns, int rows, int turn) {
   Picture picture{90, 60, {}};
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 90; ++x)
-      for (const int value : {x * columns / 90, y * rows / 60, 4 * turn}) picture.pixels.push_back(static_cast<uint8_t>(8 * value));
+      for (const int value : {x * columns / 90, y * rows / 60, 4 * turn})
+        picture.pixels.push_back(static_cast<uint8_t>(8 * value));
   return picture;
 }
 
@@ -36,7 +37,8 @@ TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their
   constexpr std::array delays = {3, 4, 700};
   // 240 colours in all, and 2,700, for which 256 stand
   for (const auto& [columns, rows] : {std::pair{10, 8}, std::pair{30, 30}}) {
-    const std::array frames = {squares(columns, rows, 0), squares(columns, rows, 1), squares(columns, rows, 2)};
+    const std::array frames = {squares(columns, rows, 0), squares(columns, rows, 1),
+                               squares(columns, rows, 2)};
     const std::string bytes = gif_bytes(frames, delays);
     std::string_view rest = bytes;
     int error = 0;
@@ -57,7 +59,8 @@ TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their
         const std::array rgb = {color.Red, color.Green, color.Blue};
         for (size_t c = 0; c < 3; ++c) sum += std::abs(rgb[c] - frames[i].pixels[3 * p + c]);
       }
-      // 85 colours a frame, by halving: 8 x 8 or more, squares of 30, whose points lie a quarter of that from the middle
+      // 85 colours a frame, by halving: 8 x 8 or more, squares of 30, whose points lie a quarter of
+      // that from the middle
       CHECK(sum / (3 * 90 * 60) <= (columns == 10 ? 0 : 30 / 4.0));
     }
     CHECK(DGifCloseFile(file, &error) == GIF_OK);
@@ -66,9 +69,13 @@ TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their
 }
 
 TEST_CASE("pictures that make no animated GIF are told") {
-  const std::array frames = {Picture{9, 6, std::vector<uint8_t>(9 * 6 * 3)}, Picture{9, 7, std::vector<uint8_t>(9 * 7 * 3)}};
-  CHECK_THROWS_WITH_AS(gif_bytes({}, {}), "an animated GIF: expected at least one picture, got none", Error);
+  const std::array frames = {Picture{9, 6, std::vector<uint8_t>(9 * 6 * 3)},
+                             Picture{9, 7, std::vector<uint8_t>(9 * 7 * 3)}};
+  CHECK_THROWS_WITH_AS(gif_bytes({}, {}),
+                       "an animated GIF: expected at least one picture, got none", Error);
   CHECK_THROWS_WITH_AS(gif_bytes(frames, std::array{1, 1}),
-                       "an animated GIF: picture 2: expected 9 x 6 pixels as the first, got 9 x 7", Error);
-  CHECK_THROWS_WITH_AS(gif_bytes(std::span(frames).first(1), {}), "an animated GIF: expected 1 delays, got 0", Error);
+                       "an animated GIF: picture 2: expected 9 x 6 pixels as the first, got 9 x 7",
+                       Error);
+  CHECK_THROWS_WITH_AS(gif_bytes(std::span(frames).first(1), {}),
+                       "an animated GIF: expected 1 delays, got 0", Error);
 }

@@ -175,7 +175,8 @@ TEST_CASE("threads that draw at the same time draw the same") {
   const Picture expected = paint(draw_chart(chart), Font());
   std::vector<Picture> drawn(4);
   std::vector<std::jthread> threads;
-  for (Picture& picture : drawn) threads.emplace_back([&] { picture = paint(draw_chart(chart), Font()); });
+  for (Picture& picture : drawn)
+    threads.emplace_back([&] { picture = paint(draw_chart(chart), Font()); });
   threads.clear();
   for (const Picture& picture : drawn) CHECK(picture.pixels == expected.pixels);
 }

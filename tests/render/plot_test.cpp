@@ -56,7 +56,8 @@ TEST_CASE("points stand where the numbers at the axes say") {
   CHECK((first + last - 2 * middle).norm() < 1e-3f);
   CHECK(first.x() < last.x());
   CHECK(first.y() > last.y());
-  // the upright lines of the axis, at 0, 2, 4 ...: the first and the last point stand on two of them
+  // the upright lines of the axis, at 0, 2, 4 ...: the first and the last point stand on two of
+  // them
   std::vector<float> upright;
   for (const auto& line : items_of<Drawing::Line>(drawing))
     if (line.points.size() == 2 && line.points[0].x() == line.points[1].x())
@@ -125,7 +126,8 @@ TEST_CASE("bars stand on 0 between their edges, and their axis holds 0") {
         doctest::Approx(2 * (bars[0].high.x() - bars[0].low.x() + 1)).epsilon(1e-3));
 }
 
-TEST_CASE("on a logarithmic axis equal ratios are equal distances, and what is not > 0 is left out") {
+TEST_CASE(
+    "on a logarithmic axis equal ratios are equal distances, and what is not > 0 is left out") {
   Plot plot;
   plot.series = {{.kind = PlotKind::points, .x = {1, 10, 100, 0, -3}, .y = {1, 1, 1, 1, 1}}};
   plot.x.logarithmic = true;
@@ -138,7 +140,9 @@ TEST_CASE("on a logarithmic axis equal ratios are equal distances, and what is n
   CHECK(xs[1] - xs[0] == doctest::Approx(xs[2] - xs[1]));
 }
 
-TEST_CASE("lines of a logarithmic axis are at powers of ten, and at 2 and 5 times them where these are few") {
+TEST_CASE(
+    "lines of a logarithmic axis are at powers of ten, and at 2 and 5 times them where these are "
+    "few") {
   const auto numbers = [](double low, double high) {
     Plot plot;
     plot.series = {{.x = {1, 2}, .y = {low, high}}};
@@ -152,7 +156,8 @@ TEST_CASE("lines of a logarithmic axis are at powers of ten, and at 2 and 5 time
     return out;
   };
   const auto holds = [](const std::vector<std::string>& all, const std::vector<std::string>& some) {
-    return std::ranges::all_of(some, [&](const std::string& s) { return std::ranges::count(all, s) > 0; });
+    return std::ranges::all_of(
+        some, [&](const std::string& s) { return std::ranges::count(all, s) > 0; });
   };
   CHECK(holds(numbers(1, 100), {"5", "10", "20", "50", "100"}));
   CHECK(holds(numbers(0.001, 1000), {"0.001", "0.1", "1", "10", "1000"}));
@@ -165,14 +170,16 @@ TEST_CASE("a logarithmic axis refuses what it cannot show") {
   plot.series = {{.x = {1, 2}, .y = {1, 2}}};
   plot.y = {.range = {{0, 1}}, .logarithmic = true};
   CHECK_THROWS_WITH_AS(draw_plot(plot, font),
-                       "plot: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1", Error);
+                       "plot: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1",
+                       Error);
   plot.y.range.reset();
   plot.series = {{.kind = PlotKind::bars, .x = {0, 1}, .y = {2}}};
   CHECK_THROWS_WITH_AS(draw_plot(plot, font),
                        "plot: y_scale: bars stand on 0, which a logarithmic axis has not", Error);
   plot.y.logarithmic = false, plot.x.logarithmic = true;
   CHECK_THROWS_WITH_AS(draw_plot(plot, font),
-                       "plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got 0", Error);
+                       "plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got 0",
+                       Error);
 }
 
 TEST_CASE("any finite numbers make a figure") {

@@ -117,7 +117,8 @@ TEST_CASE("a camera that is given is used: a known point lies where it projects 
   const double x = (0.5 + 0.5 * clip.x() / clip.w()) * 96,
                y = (0.5 - 0.5 * clip.y() / clip.w()) * 72;
   const Picture picture = render(scene, small);
-  // a ball of 0.03 m at 2.3 m is about two pixels in radius: it covers its middle, not what is five away
+  // a ball of 0.03 m at 2.3 m is about two pixels in radius: it covers its middle, not what is five
+  // away
   CHECK(is_red(pixel(picture, static_cast<int>(x), static_cast<int>(y))));
   CHECK(!is_red(pixel(picture, static_cast<int>(x) + 5, static_cast<int>(y))));
   CHECK(!is_red(pixel(picture, static_cast<int>(x), static_cast<int>(y) - 5)));
@@ -129,7 +130,8 @@ TEST_CASE("z is up and x is to the right for a camera that looks along y") {
   scene.meshes.push_back(solid(box(0.3, 0.3, 0.3), {0.9f, 0, 0}, Pose::translation({0.6, 0, 0.4})));
   scene.eye = looking_along_y(4);
   const Picture picture = render(scene, small);
-  // 72 pixels cover 2 * 4 * tan(0.4) = 3.38 m: the box's middle lies 12.8 right and 8.5 up of the centre
+  // 72 pixels cover 2 * 4 * tan(0.4) = 3.38 m: the box's middle lies 12.8 right and 8.5 up of the
+  // centre
   CHECK(is_red(pixel(picture, 48 + 12, 36 - 8)));
   CHECK(!is_red(pixel(picture, 48 - 12, 36 - 8)));
   CHECK(!is_red(pixel(picture, 48 + 12, 36 + 8)));
@@ -217,7 +219,8 @@ TEST_CASE("a mesh whose triangles run the wrong way round looks the same") {
   one.meshes.push_back(solid(ball(0.5)));
   other.meshes.push_back(solid(turned));
   one.ground = other.ground = -0.5;
-  // the diagonals of split quads differ with the order of corners: light differs a little where it is interpolated
+  // the diagonals of split quads differ with the order of corners: light differs a little where it
+  // is interpolated
   CHECK(greatest_difference(render(one, small), render(other, small)) <= 8);
 }
 

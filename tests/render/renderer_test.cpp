@@ -13,17 +13,24 @@ namespace {
 const Font own_font;
 
 RenderOptions of(Quality quality, Backdrop backdrop = Backdrop::studio, double outline = 0) {
-  return {.width = 160, .height = 120, .samples = 3, .quality = quality, .backdrop = backdrop,
+  return {.width = 160,
+          .height = 120,
+          .samples = 3,
+          .quality = quality,
+          .backdrop = backdrop,
           .outline = outline};
 }
 
 // solid, seen through, a cone, a floor
 Scene some_things(double shift = 0) {
   Scene scene;
-  scene.meshes.push_back(solid(box(1, 1, 1), {0.85f, 0.05f, 0.05f}, Pose::translation({shift, 0, 0})));
+  scene.meshes.push_back(
+      solid(box(1, 1, 1), {0.85f, 0.05f, 0.05f}, Pose::translation({shift, 0, 0})));
   scene.meshes.push_back(solid(ball(0.5), {0.2f, 0.5f, 0.9f}, Pose::translation({1.2, 0.3, 0})));
   scene.meshes.back().opacity = 0.4f;
-  scene.cones.push_back({.apex = {1.2, 0.3, 0.5}, .axis = -Eigen::Vector3d::UnitZ(), .half_angle = 0.5,
+  scene.cones.push_back({.apex = {1.2, 0.3, 0.5},
+                         .axis = -Eigen::Vector3d::UnitZ(),
+                         .half_angle = 0.5,
                          .height = 0.3});
   scene.ground = -0.5;
   return scene;
@@ -44,7 +51,9 @@ class Stopping : public Watcher {
 
 }  // namespace
 
-TEST_CASE("a picture is the same from a renderer that is fresh and from one that has drawn other things") {
+TEST_CASE(
+    "a picture is the same from a renderer that is fresh and from one that has drawn other "
+    "things") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities)
     for (const Backdrop backdrop : {Backdrop::studio, Backdrop::white, Backdrop::transparent})
@@ -107,7 +116,8 @@ TEST_CASE("what a renderer keeps does not grow with the pictures of one scene, a
   CHECK(renderer.bytes() == 0);
 }
 
-TEST_CASE("nothing but bodies and their shadow is on a transparent background, and white is white") {
+TEST_CASE(
+    "nothing but bodies and their shadow is on a transparent background, and white is white") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     const Picture clear = render(some_things(), of(quality, Backdrop::transparent));
@@ -128,7 +138,8 @@ TEST_CASE("in an orthographic view a body is as large far away as near") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     Scene scene;
-    scene.meshes.push_back(solid(box(0.4, 0.4, 0.4), {0.9f, 0, 0}, Pose::translation({-0.5, 0, 0})));
+    scene.meshes.push_back(
+        solid(box(0.4, 0.4, 0.4), {0.9f, 0, 0}, Pose::translation({-0.5, 0, 0})));
     scene.meshes.push_back(solid(box(0.4, 0.4, 0.4), {0.9f, 0, 0}, Pose::translation({0.5, 3, 0})));
     scene.eye = Eye{.eye = {0, -4, 0}, .ortho_height = 1.2};
     const Picture picture = render(scene, of(quality, Backdrop::white));
@@ -186,5 +197,6 @@ TEST_CASE("numbers of a picture out of range are refused by name") {
   Eye eye;
   eye.ortho_height = -1;
   CHECK_THROWS_WITH_AS(view_axes(eye),
-                       "picture: the height of an orthographic view must be >= 0 [m], got -1", Error);
+                       "picture: the height of an orthographic view must be >= 0 [m], got -1",
+                       Error);
 }

@@ -10,7 +10,8 @@ namespace {
 Picture slant(double slope) {
   Picture out{80, 60, {}};
   for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 80; ++x) out.pixels.insert(out.pixels.end(), 3, y + 0.5 > 20 + slope * (x + 0.5) ? 0 : 255);
+    for (int x = 0; x < 80; ++x)
+      out.pixels.insert(out.pixels.end(), 3, y + 0.5 > 20 + slope * (x + 0.5) ? 0 : 255);
   return out;
 }
 
@@ -18,7 +19,8 @@ Picture slant(double slope) {
 double covered(double slope, int x, int y) {
   double sum = 0;
   for (int i = 0; i < 16; ++i)
-    for (int j = 0; j < 16; ++j) sum += y + (j + 0.5) / 16 > 20 + slope * (x + (i + 0.5) / 16) ? 0 : 255;
+    for (int j = 0; j < 16; ++j)
+      sum += y + (j + 0.5) / 16 > 20 + slope * (x + (i + 0.5) / 16) ? 0 : 255;
   return sum / 256;
 }
 

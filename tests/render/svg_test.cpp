@@ -113,7 +113,7 @@ TEST_CASE("what a picture shows at an area of the drawing is the area's colour")
       // near a lower corner, where no text or line lies over it
       const Vector2f at(area.low.x() + 3, area.low.y() + 3);
       const auto* pixel = &picture.pixels[3 * (static_cast<size_t>(at.y()) * picture.width +
-                                              static_cast<size_t>(at.x()))];
+                                               static_cast<size_t>(at.x()))];
       for (int k = 0; k < 3; ++k) compared += std::abs(pixel[k] - 255 * area.color[k]) < 1.5f;
     }
     CHECK(compared >= 6);
@@ -123,7 +123,8 @@ TEST_CASE("what a picture shows at an area of the drawing is the area's colour")
 TEST_CASE("bars of a category stand beside one another around its name, as high as their values") {
   Plot plot;
   plot.categories = {"one", "two", "three"};
-  plot.series = {{.kind = PlotKind::bars, .y = {1, 2, 4}}, {.kind = PlotKind::bars, .y = {2, NAN, -1}}};
+  plot.series = {{.kind = PlotKind::bars, .y = {1, 2, 4}},
+                 {.kind = PlotKind::bars, .y = {2, NAN, -1}}};
   plot.y.range = {-2, 5};
   const Drawing drawing = draw_plot(plot, letters);
   const auto bars = bars_of(drawing);
@@ -140,10 +141,12 @@ TEST_CASE("bars of a category stand beside one another around its name, as high 
   const float middle = (bars[0].high.x() + bars[3].low.x()) / 2;
   CHECK(bars[3].low.x() - bars[0].high.x() == doctest::Approx(1).epsilon(1e-2));
   const auto& name = text_in(drawing, "one");
-  CHECK(name.at.x() + letters.width("one", name.height) / 2 == doctest::Approx(middle).epsilon(1e-3));
+  CHECK(name.at.x() + letters.width("one", name.height) / 2 ==
+        doctest::Approx(middle).epsilon(1e-3));
   CHECK(!name.upright);
   // categories are evenly spaced
-  CHECK(bars[1].low.x() - bars[0].low.x() == doctest::Approx(bars[2].low.x() - bars[1].low.x()).epsilon(1e-3));
+  CHECK(bars[1].low.x() - bars[0].low.x() ==
+        doctest::Approx(bars[2].low.x() - bars[1].low.x()).epsilon(1e-3));
 }
 
 TEST_CASE("names of narrow categories are upright and stay within the figure") {

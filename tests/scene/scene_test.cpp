@@ -123,7 +123,8 @@ TEST_CASE("cones are of one size, or in proportion to friction or to force, as a
     return out;
   };
   for (const ConeSizes sizes : {ConeSizes::equal, ConeSizes::friction})
-    for (const double height : heights({.cone_sizes = sizes})) CHECK(height == doctest::Approx(usual));
+    for (const double height : heights({.cone_sizes = sizes}))
+      CHECK(height == doctest::Approx(usual));
   for (const double height : heights({.cone_sizes = ConeSizes::equal, .cone_height = 0.02}))
     CHECK(height == 0.02);
 
@@ -140,7 +141,8 @@ TEST_CASE("cones are of one size, or in proportion to friction or to force, as a
   CHECK_THROWS_WITH_AS(make_scene(world, options), "picture: forces must be finite numbers", Error);
 }
 
-TEST_CASE("a view holds the objects that robots touch and the links that hold them, or everything") {
+TEST_CASE(
+    "a view holds the objects that robots touch and the links that hold them, or everything") {
   World world;
   world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   world.add_body(body("far", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({3, 0, 0}));

@@ -131,7 +131,8 @@ TEST_CASE("a pose that is none is refused with what was expected") {
   CHECK(lua.text("clench.pose{xyz = {0, 0 / 0, 0}}").find("xyz[2]: expected a finite number") !=
         std::string::npos);
   CHECK(lua.text("clench.pose{xzy = {1, 2, 3}}") ==
-        "test:1: clench.pose: unknown key 'xzy', expected one of axis, angle, x_axis, y_axis, z_axis, rpy, quat, "
+        "test:1: clench.pose: unknown key 'xzy', expected one of axis, angle, x_axis, y_axis, "
+        "z_axis, rpy, quat, "
         "matrix, xyz; did you mean 'xyz'?");
   CHECK(lua.text("clench.pose{}:interpolate(clench.pose{}, 2)") ==
         "test:1: pose:interpolate: t: expected a number from 0 to 1, got 2");

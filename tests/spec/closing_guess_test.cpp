@@ -10,7 +10,8 @@ using namespace clench;
 
 namespace {
 
-/// Robots in a few lines: a palm, number 0, and fingers of box-shaped links. Each joint is a DOF of its own.
+/// Robots in a few lines: a palm, number 0, and fingers of box-shaped links. Each joint is a DOF of
+/// its own.
 struct Sketch {
   RobotSpec robot;
 
@@ -169,8 +170,8 @@ TEST_CASE(
       hand.phalanx(hand.phalanx(first, up40), up40);
     }
     // a bone in the palm's side swings what it carries to the front of the others, to one side only
-    const int bone = hand.add("bone", 0, Pose::translation({0.03, 0, -0.02}),
-                              {0.014, 0.014, 0.05}, {0, 0, 0.025});
+    const int bone = hand.add("bone", 0, Pose::translation({0.03, 0, -0.02}), {0.014, 0.014, 0.05},
+                              {0, 0, 0.025});
     const int swing = hand.joint(bone, Eigen::Vector3d(0, -1, 1).normalized(), 0, 0.8);
     // the thumb closes to -x, towards the others
     const Pose X{Eigen::Quaterniond(Eigen::AngleAxisd(is_thumb ? -std::numbers::pi / 2 : 0.0,

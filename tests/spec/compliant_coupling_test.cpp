@@ -42,7 +42,8 @@ std::vector<double> ratios(const RobotSpec& robot, int chain = 0) {
   return out;
 }
 
-// Link by link: what the tendon brings to link i, less its own spring, plus the next link's spring, is nothing.
+// Link by link: what the tendon brings to link i, less its own spring, plus the next link's spring,
+// is nothing.
 Eigen::VectorXd turns_by_links(const std::vector<double>& pulls,
                                const std::vector<double>& springs) {
   const int n = static_cast<int>(pulls.size());
@@ -57,8 +58,8 @@ Eigen::VectorXd turns_by_links(const std::vector<double>& pulls,
 }  // namespace
 
 TEST_CASE("the original's compliant hand moves as its file's ratios say") {
-  // its notes: proximal joints 1600 N mm/rad, distal ones 1000, tendon 1 to 0.6, free motion 1 to 0.6; so it has
-  // (k1 / k2) t1 t2 / (t1 + t2) = 0.6
+  // its notes: proximal joints 1600 N mm/rad, distal ones 1000, tendon 1 to 0.6, free motion 1 to
+  // 0.6; so it has (k1 / k2) t1 t2 / (t1 + t2) = 0.6
   RobotSpec robot = hand_of({Finger{{1, 0.6}, {1.6, 1.0}}});
   couple_by_springs(robot);
   CHECK(ratios(robot)[0] == 1);

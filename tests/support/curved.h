@@ -1,4 +1,5 @@
-// Meshes of curved surfaces, as fine as asked, with vertices on them, and a floor: for tests of curvature.
+// Meshes of curved surfaces, as fine as asked, with vertices on them, and a floor: for tests of
+// curvature.
 #pragma once
 #include <functional>
 #include <map>

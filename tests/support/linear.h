@@ -10,7 +10,8 @@ namespace clench::test {
 /// An orthonormal matrix of d rows, at random.
 Eigen::MatrixXd random_turn(int d, Random& random);
 
-/// The unit vector that all rows of m are normal to; empty unless there is exactly one, up to its sign.
+/// The unit vector that all rows of m are normal to; empty unless there is exactly one, up to its
+/// sign.
 std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m);
 
 }  // namespace clench::test

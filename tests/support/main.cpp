@@ -1,5 +1,5 @@
-// The main function of all test programs. A test case that executes no assertion fails, unless it says that it was
-// skipped.
+// The main function of all test programs. A test case that executes no assertion fails, unless it
+// says that it was skipped.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 

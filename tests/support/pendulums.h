@@ -5,8 +5,8 @@
 
 namespace clench::test {
 
-/// A chain of rods of length 1 m and 1 kg that hang along -z, each turning about y of its upper end (or an axis given), one DOF
-/// each, without motors' gains or limits to speak of.
+/// A chain of rods of length 1 m and 1 kg that hang along -z, each turning about y of its upper end
+/// (or an axis given), one DOF each, without motors' gains or limits to speak of.
 inline RobotSpec pendulum(int rods, const std::vector<Eigen::Vector3d>& axes = {}) {
   RobotSpec robot;
   robot.name = "pendulum";
@@ -15,12 +15,14 @@ inline RobotSpec pendulum(int rods, const std::vector<Eigen::Vector3d>& axes = {
   for (int i = 0; i < rods; ++i) {
     DofSpec dof;
     robot.dofs.push_back(dof);
-    LinkSpec link{.body = body_spec("rod" + std::to_string(i), moved(box(0.02, 0.03, 1), {0, 0, -0.5}))};
+    LinkSpec link{
+        .body = body_spec("rod" + std::to_string(i), moved(box(0.02, 0.03, 1), {0, 0, -0.5}))};
     link.body.mass = 1;
     link.parent = i - 1;
     JointSpec joint;
     joint.X_PJ = Pose::translation({0, 0, i == 0 ? 0.0 : -1.0});
-    joint.axis = i < static_cast<int>(axes.size()) ? axes[i].normalized() : Eigen::Vector3d::UnitY();
+    joint.axis =
+        i < static_cast<int>(axes.size()) ? axes[i].normalized() : Eigen::Vector3d::UnitY();
     joint.dof = i;
     joint.min = -100;
     joint.max = 100;
@@ -51,7 +53,8 @@ inline void set_step(World& world, double step) {
 
 inline void run(World& world, double seconds) { Stepper(world).run(seconds); }
 
-/// A box or other mesh on a large plate whose upper side is z = 0 of a plane that is tilted about y by an angle.
+/// A box or other mesh on a large plate whose upper side is z = 0 of a plane that is tilted about y
+/// by an angle.
 struct Slope {
   World world;
   Id<Body> ground;
@@ -69,7 +72,9 @@ struct Slope {
     return world.add_body(spec, BodyKind::object, X_WS * X_SB, name);
   }
   /// velocity along the slope's x, downhill for angle > 0
-  double speed(Id<Body> id) const { return (X_WS.rotation.conjugate() * world.twist(id).linear).x(); }
+  double speed(Id<Body> id) const {
+    return (X_WS.rotation.conjugate() * world.twist(id).linear).x();
+  }
 };
 
 }  // namespace clench::test

@@ -20,8 +20,8 @@ inline Mesh moved(Mesh mesh, const Eigen::Vector3d& by) {
   return mesh;
 }
 
-/// A finger of two links, 50 mm each, along -x of their frames; it turns about z of the frame that it begins at, one
-/// joint a link.
+/// A finger of two links, 50 mm each, along -x of their frames; it turns about z of the frame that
+/// it begins at, one joint a link.
 inline void add_finger(RobotSpec& robot, const Pose& X_BC, int dof, double ratio_of_second,
                        const std::string& prefix) {
   const double pi = std::numbers::pi;

@@ -7,7 +7,8 @@
 
 namespace clench::test {
 
-/// The folder with data/ and reference/: CLENCH_SHARED, or ../shared from the project's root. Empty when absent.
+/// The folder with data/ and reference/: CLENCH_SHARED, or ../shared from the project's root. Empty
+/// when absent.
 inline std::filesystem::path shared() {
   const char* given = std::getenv("CLENCH_SHARED");
   const std::filesystem::path folder = given ? given : "../shared";

@@ -1,4 +1,5 @@
-// Test cases that check nothing, for tests/scripts/watched_test.sh: what the main function makes of them.
+// Test cases that check nothing, for tests/scripts/watched_test.sh: what the main function makes of
+// them.
 #include <doctest/doctest.h>
 
 #include "support/skip.h"

@@ -34,14 +34,16 @@ bool has_ball(const World& world, const Manifold& m) {
 
 double ball_distance(const World& world, const Manifold& manifold, double limit) {
   const Meeting m = meeting_of(world, manifold);
-  if (m.other) return std::min(limit, (m.centre - m.other->centre).norm() - m.other->radius - m.ball->radius);
+  if (m.other)
+    return std::min(limit, (m.centre - m.other->centre).norm() - m.other->radius - m.ball->radius);
   const double far = (m.centre - m.surface->centre()).norm() - m.surface->radius() - m.ball->radius;
   if (far >= limit) return limit;
   const double distance = closest_point(*m.surface, m.centre).distance;
   return std::min(limit, (contains(*m.surface, m.centre) ? -distance : distance) - m.ball->radius);
 }
 
-std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manifold, double threshold) {
+std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manifold,
+                                       double threshold) {
   const Meeting m = meeting_of(world, manifold);
   const double radius = m.ball->radius;
   struct Near {
@@ -60,7 +62,8 @@ std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manif
       const Closest closest = point_triangle(m.centre, m.surface->mesh().corners(triangle));
       near.push_back({closest.q, closest.distance, triangle});
     }
-    // the nearest first; of what lies beside a nearer one, on the way round an edge or within a face, nothing counts
+    // the nearest first; of what lies beside a nearer one, on the way round an edge or within a
+    // face, nothing counts
     std::ranges::stable_sort(near, {}, &Near::distance);
   }
   // one whose centre has got into the other body is pushed back to where it came in
@@ -73,7 +76,8 @@ std::vector<ManifoldPoint> ball_points(const World& world, const Manifold& manif
     // A face that meets the kept one at a point of its rim is hidden by that one's tangent plane.
     const bool hidden = std::ranges::any_of(kept, [&](const Near& k) {
       const Eigen::Vector3d normal = (m.centre - k.point) / k.distance;
-      return direction.dot(normal) > 1 - 1e-9 || normal.dot(candidate.point - k.point) <= 1e-9 * radius;
+      return direction.dot(normal) > 1 - 1e-9 ||
+             normal.dot(candidate.point - k.point) <= 1e-9 * radius;
     });
     if (!hidden) kept.push_back(candidate);
   }

@@ -38,7 +38,8 @@ void update_torsion(ManifoldPoint& point) {
   point.torsion_force = force;
 }
 
-// the one on the same features, else the nearest that no other has taken, within the radius in which contacts are one
+// the one on the same features, else the nearest that no other has taken, within the radius in
+// which contacts are one
 static void inherit(std::vector<ManifoldPoint>& points, const std::vector<ManifoldPoint>& before) {
   constexpr double same = 1e-3;
   std::vector<bool> taken(before.size());
@@ -52,7 +53,8 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
   };
   for (size_t i = 0; i < points.size(); ++i)
     for (size_t k = 0; k < before.size() && !found[i]; ++k)
-      if (!taken[k] && points[i].feature_a == before[k].feature_a && points[i].feature_b == before[k].feature_b)
+      if (!taken[k] && points[i].feature_a == before[k].feature_a &&
+          points[i].feature_b == before[k].feature_b)
         take(i, k);
   for (size_t i = 0; i < points.size(); ++i) {
     if (found[i]) continue;
@@ -66,17 +68,23 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
   }
 }
 
-// Points that press and stick, and whose two sides still lie opposite each other, are taken out of those of before and stay points:
-// of a facet that rocks from one corner to the next both count, though among fresh points the nearest stands for all within 1 mm.
+// Points that press and stick, and whose two sides still lie opposite each other, are taken out of
+// those of before and stay points: of a facet that rocks from one corner to the next both count,
+// though among fresh points the nearest stands for all within 1 mm.
 // mu  kinetic friction; what is near it slides
-static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold, double mu,
+static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& before,
+                                                const Pose& X_AB, double threshold, double mu,
                                                 const std::vector<ManifoldPoint>& fresh) {
   constexpr double opposite = 0.2;  // of the threshold
   std::vector<ManifoldPoint> out;
   std::erase_if(before, [&](ManifoldPoint& p) {
     const double pressing = p.force.dot(p.normal);
-    if (pressing <= 0 || out.size() == fresh.size() || (p.force - pressing * p.normal).norm() >= 0.99 * mu * pressing) return false;
-    const auto same = [&](const ManifoldPoint& q) { return p.feature_a == q.feature_a && p.feature_b == q.feature_b; };
+    if (pressing <= 0 || out.size() == fresh.size() ||
+        (p.force - pressing * p.normal).norm() >= 0.99 * mu * pressing)
+      return false;
+    const auto same = [&](const ManifoldPoint& q) {
+      return p.feature_a == q.feature_a && p.feature_b == q.feature_b;
+    };
     if (std::ranges::any_of(fresh, same)) return false;
     p.gap = gap_of(p, X_AB);
     const Eigen::Vector3d aside = X_AB * p.p_b - p.p_a - p.gap * p.normal;
@@ -87,9 +95,11 @@ static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& befo
   return out;
 }
 
-// The same of bodies that overlap: points that still lie deep beside the fresh ones, which are those of the shortest way out alone. What
-// is squeezed askew would rock from one end to the other, and get deeper at each.
-static std::vector<ManifoldPoint> take_deep(const std::vector<ManifoldPoint>& before, const Pose& X_AB, double threshold,
+// The same of bodies that overlap: points that still lie deep beside the fresh ones, which are
+// those of the shortest way out alone. What is squeezed askew would rock from one end to the other,
+// and get deeper at each.
+static std::vector<ManifoldPoint> take_deep(const std::vector<ManifoldPoint>& before,
+                                            const Pose& X_AB, double threshold,
                                             const std::vector<ManifoldPoint>& fresh) {
   constexpr double beside = 1e-3, opposite = 10;  // [m], of the threshold
   constexpr size_t most = 4;
@@ -97,8 +107,11 @@ static std::vector<ManifoldPoint> take_deep(const std::vector<ManifoldPoint>& be
   for (ManifoldPoint p : before) {
     p.gap = gap_of(p, X_AB);
     const Eigen::Vector3d aside = X_AB * p.p_b - p.p_a - p.gap * p.normal;
-    const auto near = [&](const ManifoldPoint& q) { return (q.p_a - p.p_a).norm() < beside || (q.p_b - p.p_b).norm() < beside; };
-    if (p.gap < 0 && aside.norm() <= opposite * threshold && std::ranges::none_of(fresh, near)) out.push_back(p);
+    const auto near = [&](const ManifoldPoint& q) {
+      return (q.p_a - p.p_a).norm() < beside || (q.p_b - p.p_b).norm() < beside;
+    };
+    if (p.gap < 0 && aside.norm() <= opposite * threshold && std::ranges::none_of(fresh, near))
+      out.push_back(p);
   }
   std::ranges::stable_sort(out, {}, &ManifoldPoint::gap);
   if (out.size() > most) out.resize(most);
@@ -110,7 +123,8 @@ static Elasticity elasticity(const Body& body) {
 }
 
 // points whose bodies are soft there transmit torsion
-static void find_patches(const World& world, const Manifold& m, std::vector<ManifoldPoint>& points) {
+static void find_patches(const World& world, const Manifold& m,
+                         std::vector<ManifoldPoint>& points) {
   const Body &a = world.body(m.a), &b = world.body(m.b);
   if (!a.elastic_modulus && !b.elastic_modulus) return;
   if (world.materials().friction(a.material, b.material).statics == 0) return;
@@ -121,17 +135,22 @@ static void find_patches(const World& world, const Manifold& m, std::vector<Mani
   for (size_t i = 0; i < points.size(); ++i) {
     size_t first = 0;
     while (sites[first] != sites[i]) ++first;
-    points[i].patch = first < i ? points[first].patch : std::make_shared<const SoftPatch>(soft_patch(*sites[i]));
+    points[i].patch =
+        first < i ? points[first].patch : std::make_shared<const SoftPatch>(soft_patch(*sites[i]));
   }
 }
 
 // Directions whose cosine is larger are taken for one: to 4.5e-5 rad.
 static constexpr double one_direction = 1 - 1e-9;
 
-// Where a point lies within a face the direction is that face's normal: taken from there all points of the face have the same one
-// to the bit, while the way between two points a gap apart rounds to some 1e-11.
-static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_AB, const Touch& touch) {
-  const auto face = [](const Shape& shape, const Feature& at) { return face_normal(shape.mesh().corners(at.first)); };
+// Where a point lies within a face the direction is that face's normal: taken from there all points
+// of the face have the same one to the bit, while the way between two points a gap apart rounds to
+// some 1e-11.
+static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_AB,
+                                 const Touch& touch) {
+  const auto face = [](const Shape& shape, const Feature& at) {
+    return face_normal(shape.mesh().corners(at.first));
+  };
   Eigen::Vector3d normal = touch.normal_b;
   if (touch.feature_a.kind == Feature::triangle)
     normal = face(a, touch.feature_a);
@@ -140,9 +159,10 @@ static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_A
   return normal.dot(touch.normal_b) > one_direction ? normal : touch.normal_b;
 }
 
-// Faces that lie on each other are parallel but for a tiny tilt, and touch along the one's normal here, along the other's there; at
-// edges that lie above each other the way between them is all but theirs. Sliding by v along one direction opens what touches along
-// another by v times the tilt, which rigid bodies can follow at few of the points only: one normal serves all.
+// Faces that lie on each other are parallel but for a tiny tilt, and touch along the one's normal
+// here, along the other's there; at edges that lie above each other the way between them is all but
+// theirs. Sliding by v along one direction opens what touches along another by v times the tilt,
+// which rigid bodies can follow at few of the points only: one normal serves all.
 static void share_normals(std::vector<ManifoldPoint>& points) {
   const auto share = [&](size_t i, const auto& may_lend) {
     for (size_t k = 0; k < points.size(); ++k)
@@ -152,7 +172,8 @@ static void share_normals(std::vector<ManifoldPoint>& points) {
       }
   };
   const auto on_face = [&](size_t k) {
-    return points[k].feature_a.kind == Feature::triangle || points[k].feature_b.kind == Feature::triangle;
+    return points[k].feature_a.kind == Feature::triangle ||
+           points[k].feature_b.kind == Feature::triangle;
   };
   for (size_t i = 0; i < points.size(); ++i)
     if (!on_face(i)) share(i, on_face);
@@ -165,7 +186,8 @@ static bool are_of_one_robot(const World& world, const Manifold& m) {
 }
 
 // Of two meshes; sets the clearance.   returns  false: the points that it has serve on
-static bool find_points(World& world, Manifold& m, double limit, std::vector<ManifoldPoint>& points) {
+static bool find_points(World& world, Manifold& m, double limit,
+                        std::vector<ManifoldPoint>& points) {
   const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
@@ -210,14 +232,17 @@ void measure(World& world, Manifold& m) {
   } else if (has_ball(world, m)) {
     m.X_AB = relative_pose(world, m.a, m.b);
     m.clearance = std::max(0.0, ball_distance(world, m, limit));
-    if (m.clearance <= threshold && !(m.clearance == 0 && are_of_one_robot(world, m))) points = ball_points(world, m, threshold);
+    if (m.clearance <= threshold && !(m.clearance == 0 && are_of_one_robot(world, m)))
+      points = ball_points(world, m, threshold);
   } else if (!find_points(world, m, limit, points)) {
     return update_gaps(world, m);
   }
   if (!points.empty()) find_patches(world, m, points);
   if (!points.empty() && !m.points.empty()) {
-    const double mu = world.materials().friction(world.body(m.a).material, world.body(m.b).material).kinetic;
-    const auto stay = m.clearance > 0 ? take_pressing(m.points, m.X_AB, threshold, mu, points) : take_deep(m.points, m.X_AB, threshold, points);
+    const double mu =
+        world.materials().friction(world.body(m.a).material, world.body(m.b).material).kinetic;
+    const auto stay = m.clearance > 0 ? take_pressing(m.points, m.X_AB, threshold, mu, points)
+                                      : take_deep(m.points, m.X_AB, threshold, points);
     inherit(points, m.points);
     points.insert(points.end(), stay.begin(), stay.end());
   }
@@ -230,18 +255,23 @@ static bool is_prescribed(const System& system, System::Place place) {
   return place.tree < 0 || system.trees[place.tree].size() == 0;
 }
 
-// Two bodies on one joint of a tree never come nearer to each other, and two that move as prescribed, whatever they meet.
+// Two bodies on one joint of a tree never come nearer to each other, and two that move as
+// prescribed, whatever they meet.
 static bool needs_no_contact(const System& system, Id<Body> a, Id<Body> b) {
   const auto p = system.place(a), q = system.place(b);
   if (is_prescribed(system, p) && is_prescribed(system, q)) return true;
-  return p.tree == q.tree && system.trees[p.tree].bodies[p.body].joint == system.trees[q.tree].bodies[q.body].joint;
+  return p.tree == q.tree &&
+         system.trees[p.tree].bodies[p.body].joint == system.trees[q.tree].bodies[q.body].joint;
 }
 
 static bool sweep_is_old(const World& world, const DynamicState& state, double travel) {
-  if (state.sweep_model != world.model().stamp || state.sweep_settings != world.settings().stamp) return true;
+  if (state.sweep_model != world.model().stamp || state.sweep_settings != world.settings().stamp)
+    return true;
   for (const auto id : world.bodies()) {
     const Body& body = world.body(id);
-    if (body.shape && displacement(state.sweep_poses[id.index], world.pose(id), *body.shape) + travel > state.sweep_reach / 2)
+    if (body.shape &&
+        displacement(state.sweep_poses[id.index], world.pose(id), *body.shape) + travel >
+            state.sweep_reach / 2)
       return true;
   }
   return false;
@@ -252,14 +282,16 @@ void find_manifolds(World& world, const System& system, double travel) {
   if (sweep_is_old(world, state, travel)) {
     state.sweep_reach = std::max(manifold_reach, 8 * travel);
     // what was measured holds no longer
-    const bool changed = state.sweep_model != world.model().stamp || state.sweep_threshold != world.contact_threshold();
+    const bool changed = state.sweep_model != world.model().stamp ||
+                         state.sweep_threshold != world.contact_threshold();
     std::vector<Manifold> before = std::move(state.manifolds);
     state.manifolds.clear();
     QueryContext& context = world.context();
     context.attend(world.lineage(), world.model());
     const auto less = [](const Manifold& m, const BodyPair& p) { return std::pair(m.a, m.b) < p; };
     std::ranges::sort(before, {}, [](const Manifold& m) { return std::pair(m.a, m.b); });
-    for (const BodyPair& near : near_bodies(world, state.sweep_reach + world.contact_threshold(), context)) {
+    for (const BodyPair& near :
+         near_bodies(world, state.sweep_reach + world.contact_threshold(), context)) {
       const BodyPair pair = ordered(near.first, near.second);
       if (needs_no_contact(system, pair.first, pair.second)) continue;
       const auto found = std::lower_bound(before.begin(), before.end(), pair, less);
@@ -267,7 +299,8 @@ void find_manifolds(World& world, const System& system, double travel) {
         state.manifolds.push_back(std::move(*found));
         if (changed) measure(world, state.manifolds.back());
       } else {
-        state.manifolds.push_back({.a = pair.first, .b = pair.second, .X_AB = {}, .X_AB_left = {}, .points = {}});
+        state.manifolds.push_back(
+            {.a = pair.first, .b = pair.second, .X_AB = {}, .X_AB_left = {}, .points = {}});
         Manifold& made = state.manifolds.back();
         measure(world, made);
         made.X_AB_left = made.X_AB;

@@ -1,4 +1,5 @@
-// Where bodies touch, kept from step to step: measured anew only when a pair has moved by as much as it was apart.
+// Where bodies touch, kept from step to step: measured anew only when a pair has moved by as much
+// as it was apart.
 #pragma once
 #include "clench/dynamics/tree/articulation.h"
 
@@ -6,27 +7,31 @@ namespace clench {
 
 /// Bodies rest at gaps from this part of the contact threshold on.
 inline constexpr double rest_gap = 0.25;
-/// Points follow their bodies as long as these have moved by no more than this part of the threshold.
+/// Points follow their bodies as long as these have moved by no more than this part of the
+/// threshold.
 inline constexpr double follows_within = 0.05;
 /// Pairs farther apart than this are not looked at until something has moved by half of it [m].
 inline constexpr double manifold_reach = 0.02;
 
-/// No point of b has moved against a by more than this, from one pose to the other, on a straight way [m].
+/// No point of b has moved against a by more than this, from one pose to the other, on a straight
+/// way [m].
 double displacement(const Pose& X_AB, const Pose& other, const Shape& b);
 
-/// Brings the list of pairs up to date with what was added, removed, switched or moved far, and measures those anew that
-/// somebody has placed elsewhere since the last step.
+/// Brings the list of pairs up to date with what was added, removed, switched or moved far, and
+/// measures those anew that somebody has placed elsewhere since the last step.
 /// travel  how far any point of a body may go before the next call [m]
 void find_manifolds(World& world, const System& system, double travel);
 
-/// Measures a pair where it is. Points that lie on the same features as before keep their forces; those of a pair that has come
-/// to overlap stay, so that it is pushed apart; one that was placed so gets those of the shortest way out.
+/// Measures a pair where it is. Points that lie on the same features as before keep their forces;
+/// those of a pair that has come to overlap stay, so that it is pushed apart; one that was placed
+/// so gets those of the shortest way out.
 void measure(World& world, Manifold& manifold);
 
 /// Gaps of its points where the pair is now, in the order of the points.
 void update_gaps(const World& world, Manifold& manifold);
 
-/// The radius by which a soft point resists torsion under its last force; found anew when that has changed by a twentieth.
+/// The radius by which a soft point resists torsion under its last force; found anew when that has
+/// changed by a twentieth.
 void update_torsion(ManifoldPoint& point);
 
 /// Of a point that follows its bodies, where these stand at X_AB [m]; negative where they overlap.

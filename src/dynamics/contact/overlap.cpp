@@ -7,13 +7,16 @@ namespace clench {
 std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, double threshold) {
   std::vector<Eigen::Vector3d> ways;
   const Eigen::Vector3d apart = X_AB * b.centre() - a.centre();
-  for (const auto& axes : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), X_AB.rotation.toRotationMatrix()})
+  for (const auto& axes :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), X_AB.rotation.toRotationMatrix()})
     for (int k = 0; k < 3; ++k) {
       const double side = axes.col(k).dot(apart) < 0 ? -1 : 1;
       ways.push_back(side * axes.col(k)), ways.push_back(-side * axes.col(k));
     }
   if (apart.norm() > threshold) ways.push_back(apart.normalized());
-  const auto at = [&](const Eigen::Vector3d& way, double s) { return Pose{X_AB.rotation, X_AB.position + s * way}; };
+  const auto at = [&](const Eigen::Vector3d& way, double s) {
+    return Pose{X_AB.rotation, X_AB.position + s * way};
+  };
   for (double s = threshold / 2; s <= deepest_parted * threshold; s *= 4) {
     std::optional<Pose> best;
     double least = 2 * s;

@@ -22,18 +22,23 @@ bool follow_sliding(const World& world, Manifold& m) {
   const bool face_of_a = m.points[0].feature_a.kind == Feature::triangle;
   const Shape &face = *(face_of_a ? a : b).shape, &other = *(face_of_a ? b : a).shape;
   constexpr size_t max_vertices = 4096;  // all are looked at in every step
-  if (!face.convex() || other.mesh().vertices.size() > max_vertices || a.elastic_modulus || b.elastic_modulus) return false;
+  if (!face.convex() || other.mesh().vertices.size() > max_vertices || a.elastic_modulus ||
+      b.elastic_modulus)
+    return false;
 
   const Pose X_AB = relative_pose(world, m.a, m.b), X_FV = face_of_a ? X_AB : X_AB.inverse();
   const auto& vertices = other.mesh().vertices;
-  const auto corner_of = [&](const ManifoldPoint& p) -> const Vector3d& { return vertices[(face_of_a ? p.feature_b : p.feature_a).first]; };
+  const auto corner_of = [&](const ManifoldPoint& p) -> const Vector3d& {
+    return vertices[(face_of_a ? p.feature_b : p.feature_a).first];
+  };
   const double threshold = world.contact_threshold();
   Vector3d normal = Vector3d::Zero();
   Corners corners;
   int triangle = -1;
   double offset = 0;
   for (const ManifoldPoint& p : m.points) {
-    const Feature &f = face_of_a ? p.feature_a : p.feature_b, &v = face_of_a ? p.feature_b : p.feature_a;
+    const Feature &f = face_of_a ? p.feature_a : p.feature_b,
+                  &v = face_of_a ? p.feature_b : p.feature_a;
     if (f.kind != Feature::triangle || v.kind != Feature::vertex) return false;
     if (f.first != triangle) {
       corners = face.mesh().corners(f.first);
@@ -51,7 +56,9 @@ bool follow_sliding(const World& world, Manifold& m) {
   const Vector3d down = X_FV.rotation.conjugate() * normal;
   const double near = offset + threshold - normal.dot(X_FV.position);
   for (const Vector3d& v : vertices)
-    if (down.dot(v) <= near && std::ranges::none_of(m.points, [&](const ManifoldPoint& p) { return corner_of(p) == v; })) return false;
+    if (down.dot(v) <= near &&
+        std::ranges::none_of(m.points, [&](const ManifoldPoint& p) { return corner_of(p) == v; }))
+      return false;
 
   m.X_AB = X_AB;
   m.clearance = threshold;

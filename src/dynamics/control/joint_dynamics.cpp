@@ -9,9 +9,12 @@ namespace clench {
 JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   const Robot& robot = world.robot(id);
   const auto dofs = static_cast<Eigen::Index>(robot.dofs.size());
-  JointDynamics out{Eigen::MatrixXd::Zero(dofs, dofs), Eigen::VectorXd::Zero(dofs), Eigen::VectorXd::Zero(dofs)};
+  JointDynamics out{Eigen::MatrixXd::Zero(dofs, dofs), Eigen::VectorXd::Zero(dofs),
+                    Eigen::VectorXd::Zero(dofs)};
   const System system = find_system(world);
-  const auto moves = [&](const Articulation& tree) { return std::ranges::find(tree.robots, id) != tree.robots.end(); };
+  const auto moves = [&](const Articulation& tree) {
+    return std::ranges::find(tree.robots, id) != tree.robots.end();
+  };
   const auto tree = std::ranges::find_if(system.trees, moves);
   if (tree == system.trees.end()) return out;
 
@@ -29,7 +32,8 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   constexpr double h = 1e-9;
   find_joint_forces(world, *tree, dynamics, h, state, forces);
   const Eigen::VectorXd own = v.segment(tree->first, tree->size());
-  const Eigen::VectorXd passive = forces.velocity_part.cwiseProduct(own) / h - (forces.efforts - forces.weight);
+  const Eigen::VectorXd passive =
+      forces.velocity_part.cwiseProduct(own) / h - (forces.efforts - forces.weight);
   bias -= forces.weight;
   Eigen::MatrixXd mass = dynamics.mass_matrix();
   mass.diagonal() += forces.added - forces.velocity_part;
@@ -39,7 +43,8 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   for (size_t i = 0; i < tree->coordinates.size(); ++i) {
     const Coordinate& c = tree->coordinates[i];
     if (c.robot != id) continue;
-    ratios(tree->root_size() + static_cast<Eigen::Index>(i), c.dof) = c.joint < 0 ? 1 : robot.joints[c.joint].ratio;
+    ratios(tree->root_size() + static_cast<Eigen::Index>(i), c.dof) =
+        c.joint < 0 ? 1 : robot.joints[c.joint].ratio;
   }
   out.mass_matrix = ratios.transpose() * mass * ratios;
   out.bias = ratios.transpose() * bias;

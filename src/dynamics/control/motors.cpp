@@ -12,16 +12,20 @@ static constexpr double no_bound = std::numeric_limits<double>::infinity();
 static constexpr double natural_frequency = 60;  // of motors without gains [rad/s]
 // a limit is a row when it is as near as this many steps at the present speed, or as this
 static constexpr double steps_ahead = 8, always_near = 0.05;
-// of what a joint is beyond its limit, this part is taken back in a step, but not faster than so [rad/s or m/s]
+// of what a joint is beyond its limit, this part is taken back in a step, but not faster than so
+// [rad/s or m/s]
 static constexpr double returned_part = 0.2, returned_at_most = 1;
 
 static double bound_of(double effort) { return effort > 0 ? effort : no_bound; }
 
 Gains gains_of(const World& world, Id<Robot> id, int dof, double inertia) {
   const RobotDynamics& settings = world.dynamic_settings().robot(id);
-  if (dof < static_cast<int>(settings.gains.size()) && settings.gains[dof]) return *settings.gains[dof];
+  if (dof < static_cast<int>(settings.gains.size()) && settings.gains[dof])
+    return *settings.gains[dof];
   const DofSpec& spec = world.robot(id).dofs[dof];
-  if (spec.kp > 0 || spec.kd > 0) return {spec.kp, spec.kd + 2 * spec.damping_ratio * std::sqrt(std::max(0.0, spec.kp) * inertia)};
+  if (spec.kp > 0 || spec.kd > 0)
+    return {spec.kp,
+            spec.kd + 2 * spec.damping_ratio * std::sqrt(std::max(0.0, spec.kp) * inertia)};
   return {inertia * natural_frequency * natural_frequency, 2 * inertia * natural_frequency};
 }
 
@@ -42,8 +46,8 @@ static bool is_compliant(const Robot& robot, const Coordinate& c) {
   return robot.dofs[c.dof].kind == DofKind::compliant;
 }
 
-void find_joint_forces(const World& world, const Articulation& tree, const TreeDynamics& dynamics, double h,
-                       const DynamicState& state, JointForces& out) {
+void find_joint_forces(const World& world, const Articulation& tree, const TreeDynamics& dynamics,
+                       double h, const DynamicState& state, JointForces& out) {
   out.efforts.setZero(tree.size());
   out.velocity_part.setZero(tree.size());
   out.added.setZero(tree.size());
@@ -67,7 +71,8 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
   const Eigen::VectorXd weight = dynamics.weight(world);
   for (int i = 0; i < static_cast<int>(tree.coordinates.size()); ++i) {
     const Coordinate& c = tree.coordinates[i];
-    if (world.dynamic_settings().robot(c.robot).gravity_compensation && world.robot(c.robot).dofs[c.dof].driven)
+    if (world.dynamic_settings().robot(c.robot).gravity_compensation &&
+        world.robot(c.robot).dofs[c.dof].driven)
       out.weight[tree.root_size() + i] = weight[tree.root_size() + i];
   }
   out.efforts += out.weight;
@@ -104,11 +109,16 @@ void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& stat
     else if (control.mode == ControlMode::velocity)
       speed = control.velocity;
     else
-      speed = ((control.trajectory ? control.trajectory->value(state.time + step) : control.target) - x) / step;
-    const double fastest = dof.max_velocity > 0 ? dof.max_velocity : std::max(std::abs(dof.default_velocity), 1.0);
+      speed =
+          ((control.trajectory ? control.trajectory->value(state.time + step) : control.target) -
+           x) /
+          step;
+    const double fastest =
+        dof.max_velocity > 0 ? dof.max_velocity : std::max(std::abs(dof.default_velocity), 1.0);
     speed = std::clamp(speed, -fastest, fastest);
     if (const double most = dof.max_effort; most > 0)
-      speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * step)), std::max(0.0, (most - force) / (stiffness * step)));
+      speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * step)),
+                         std::max(0.0, (most - force) / (stiffness * step)));
     const auto [low, high] = range_around(robot, static_cast<int>(d), x);
     speed = std::clamp(speed, (low - x) / step, (high - x) / step);
     state.dof_velocities[index] = speed;
@@ -120,8 +130,8 @@ namespace {
 
 class RowMaker {
  public:
-  RowMaker(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& M, double h,
-           const DynamicState& state, std::vector<CoordinateRow>& out)
+  RowMaker(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& M,
+           double h, const DynamicState& state, std::vector<CoordinateRow>& out)
       : world_(world), tree_(tree), number_(number), M_(M), h_(h), state_(state), out_(out) {}
 
   void add(int i) {
@@ -130,19 +140,26 @@ class RowMaker {
     const int column = tree_.root_size() + i;
     const bool alone = c.joint >= 0;
     const double q = alone ? world_.joints(c.robot)[c.joint] : world_.dofs(c.robot)[c.dof];
-    const double v = alone ? state_.joint_velocities[c.joint_index] : state_.dof_velocities[c.dof_index];
+    const double v =
+        alone ? state_.joint_velocities[c.joint_index] : state_.dof_velocities[c.dof_index];
     if (!alone) add_motor(c, robot, column, q);
     if (alone && !is_compliant(robot, c)) add_lock(c, column);
     const std::array<double, 2> range =
-        alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max} : robot.limits[c.dof];
+        alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max}
+              : robot.limits[c.dof];
     // joints by themselves are numbered apart from DOFs
     const int index = alone ? -1 - static_cast<int>(c.joint_index) : static_cast<int>(c.dof_index);
-    const double step = std::max(world_.dynamic_settings().step, h_), near = steps_ahead * std::abs(v) * step + always_near;
+    const double step = std::max(world_.dynamic_settings().step, h_),
+                 near = steps_ahead * std::abs(v) * step + always_near;
     // within them, as far as the next step may go; what stands beyond one comes back gently
-    const auto target = [&](double left) { return left <= 0 ? left / step : std::min(returned_part * left / step, returned_at_most); };
+    const auto target = [&](double left) {
+      return left <= 0 ? left / step : std::min(returned_part * left / step, returned_at_most);
+    };
     const bool endless = alone ? robot.joints[c.joint].endless : robot.endless[c.dof];
-    if (!endless && q - range[0] < near) push(RowKind::low_limit, index, column, target(range[0] - q), 0, no_bound);
-    if (!endless && range[1] - q < near) push(RowKind::high_limit, index, column, -target(q - range[1]), -no_bound, 0);
+    if (!endless && q - range[0] < near)
+      push(RowKind::low_limit, index, column, target(range[0] - q), 0, no_bound);
+    if (!endless && range[1] - q < near)
+      push(RowKind::high_limit, index, column, -target(q - range[1]), -no_bound, 0);
     double coulomb = 0;
     for (const ArticulationJoint& joint : tree_.joints)
       if (joint.coordinate == column)
@@ -151,7 +168,8 @@ class RowMaker {
   }
 
  private:
-  void push(RowKind kind, int index, int column, double target, double low, double high, double compliance = 0) {
+  void push(RowKind kind, int index, int column, double target, double low, double high,
+            double compliance = 0) {
     out_.push_back({kind, index, number_, column, target, low, high, compliance});
   }
 
@@ -173,11 +191,13 @@ class RowMaker {
     // both together stay within the largest effort, whatever each alone would be
     const double given = feedforward_effort(world_, c, state_), rest = control.effort - given;
     push(RowKind::motor, static_cast<int>(c.dof_index), column,
-         h_ * (gains.kp * (target - q) + gains.kd * velocity + rest) / gain, (-most - given) * h_, (most - given) * h_, 1 / gain);
+         h_ * (gains.kp * (target - q) + gains.kd * velocity + rest) / gain, (-most - given) * h_,
+         (most - given) * h_, 1 / gain);
   }
 
   // a joint that has left its breakaway DOF is locked by its worm gear, which nothing drives back
-  // source  Townsend (2000), The BarrettHand grasper: programmably flexible part handling and assembly
+  // source  Townsend (2000), The BarrettHand grasper: programmably flexible part handling and
+  //         assembly
   void add_lock(const Coordinate& c, int column) {
     push(RowKind::lock, -1 - static_cast<int>(c.joint_index), column, 0, -no_bound, no_bound);
   }
@@ -193,8 +213,9 @@ class RowMaker {
 
 }  // namespace
 
-void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix,
-                         double h, const DynamicState& state, std::vector<CoordinateRow>& out) {
+void add_coordinate_rows(const World& world, const Articulation& tree, int number,
+                         const Eigen::MatrixXd& mass_matrix, double h, const DynamicState& state,
+                         std::vector<CoordinateRow>& out) {
   RowMaker maker(world, tree, number, mass_matrix, h, state, out);
   for (int i = 0; i < static_cast<int>(tree.coordinates.size()); ++i) maker.add(i);
 }

@@ -6,19 +6,20 @@ namespace clench {
 
 enum class RowKind { motor, low_limit, high_limit, dry_friction, lock };
 
-/// Of one coordinate: low <= impulse <= high holds its velocity at a target, which it may leave in the sense of the bound that
-/// is reached; with a compliance, velocity - target + compliance * impulse is 0 between them.
+/// Of one coordinate: low <= impulse <= high holds its velocity at a target, which it may leave in
+/// the sense of the bound that is reached; with a compliance, velocity - target + compliance *
+/// impulse is 0 between them.
 struct CoordinateRow {
   RowKind kind = RowKind::motor;
-  int index = 0;       ///< of the DOF in the state's arrays; -1 - that of a joint by itself
+  int index = 0;  ///< of the DOF in the state's arrays; -1 - that of a joint by itself
   int tree = 0, coordinate = 0;
-  double target = 0;   ///< [rad/s or m/s]
+  double target = 0;         ///< [rad/s or m/s]
   double low = 0, high = 0;  ///< [N m s or N s]
   double compliance = 0;
 };
 
-/// Forces on the coordinates of a tree, and what is added to its mass matrix so that springs and dampers act as they are when
-/// the step ends.
+/// Forces on the coordinates of a tree, and what is added to its mass matrix so that springs and
+/// dampers act as they are when the step ends.
 struct JointForces {
   Eigen::VectorXd efforts;  ///< of all of them [N m or N]
   Eigen::VectorXd weight;   ///< that motors carry, of that [N m or N]
@@ -29,22 +30,27 @@ struct JointForces {
 
 /// Springs, friction, and what motors give to carry the robot's own weight where they are to.
 /// h  length of the step [s]
-void find_joint_forces(const World& world, const Articulation& tree, const TreeDynamics& dynamics, double h,
-                       const DynamicState& state, JointForces& out);
+void find_joint_forces(const World& world, const Articulation& tree, const TreeDynamics& dynamics,
+                       double h, const DynamicState& state, JointForces& out);
 
 /// Motors, limits, dry friction, and locks of joints that have left their DOF.
 /// mass_matrix  of the tree, armature included: gains that no file gives follow from it
-void add_coordinate_rows(const World& world, const Articulation& tree, int number, const Eigen::MatrixXd& mass_matrix, double h,
-                         const DynamicState& state, std::vector<CoordinateRow>& out);
+void add_coordinate_rows(const World& world, const Articulation& tree, int number,
+                         const Eigen::MatrixXd& mass_matrix, double h, const DynamicState& state,
+                         std::vector<CoordinateRow>& out);
 
-/// Gains of a DOF's motor: those set for it; else its file's, whose damping may be a ratio; else those of a motor of critical
-/// damping that swings back at 60 rad/s.   inertia  that the DOF feels [kg m^2 or kg]
+/// Gains of a DOF's motor: those set for it; else its file's, whose damping may be a ratio; else
+/// those of a motor of critical damping that swings back at 60 rad/s.   inertia  that the DOF feels
+/// [kg m^2 or kg]
 Gains gains_of(const World& world, Id<Robot> robot, int dof, double inertia);
 
-/// What a motor gives beside what its mode does, within its largest effort; 0 for a joint that no motor turns.
-double feedforward_effort(const World& world, const Coordinate& coordinate, const DynamicState& state);
+/// What a motor gives beside what its mode does, within its largest effort; 0 for a joint that no
+/// motor turns.
+double feedforward_effort(const World& world, const Coordinate& coordinate,
+                          const DynamicState& state);
 
-/// Tendons of compliant DOFs: how fast each goes to its target, as far as its effort allows. Their joints follow by springs.
+/// Tendons of compliant DOFs: how fast each goes to its target, as far as its effort allows. Their
+/// joints follow by springs.
 void pull_tendons(const World& world, Id<Robot> robot, double h, DynamicState& state);
 
 /// Stiffness between the tendon of a compliant DOF and a joint [N m/rad or N/m].

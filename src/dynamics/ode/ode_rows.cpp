@@ -6,8 +6,8 @@
 
 namespace clench {
 
-// Stops let joints pass by so much, each by more than the one before [rad/s, m/s]: Dantzig's method breaks off at ties, and a joint that stands at its
-// stop is one.
+// Stops let joints pass by so much, each by more than the one before [rad/s, m/s]: Dantzig's method
+// breaks off at ties, and a joint that stands at its stop is one.
 static constexpr double stop_slack = 1e-12;
 
 static Eigen::Vector3d vector_of(const dReal* x) { return {x[0], x[1], x[2]}; }
@@ -20,7 +20,8 @@ Eigen::Vector3d OdeScene::turning_of(const OdeNode& node) {
   return node.body ? vector_of(dBodyGetAngularVel(node.body)) : Eigen::Vector3d(0, 0, 0);
 }
 
-dJointID OdeScene::add_motor(const OdeTree& tree, const OdeJoint& joint, double velocity, double cfm, double most) {
+dJointID OdeScene::add_motor(const OdeTree& tree, const OdeJoint& joint, double velocity,
+                             double cfm, double most) {
   const dBodyID child = tree.nodes[joint.child].body, parent = tree.nodes[joint.parent].body;
   const Eigen::Vector3d& x = joint.axis;
   dJointID motor;
@@ -56,18 +57,22 @@ void OdeScene::add_row(const CoordinateRow& row) {
   if (row.kind != RowKind::low_limit && row.kind != RowKind::high_limit) {
     const double most = row.high < dInfinity ? row.high / h_ / std::abs(made.ratio) : dInfinity;
     if (most <= 0) return;
-    const dJointID motor = add_motor(tree, joint, made.ratio * row.target, h_ * made.ratio * made.ratio * row.compliance, most);
+    const dJointID motor = add_motor(tree, joint, made.ratio * row.target,
+                                     h_ * made.ratio * made.ratio * row.compliance, most);
     return dJointSetFeedback(motor, made.feedback.get());
   }
-  // the error of a stop times its ERP is the velocity that it asks for: an error of one, and an ERP that gives ours
+  // the error of a stop times its ERP is the velocity that it asks for: an error of one, and an ERP
+  // that gives ours
   made.stop = true;
   const bool low = (row.kind == RowKind::low_limit) == (made.ratio > 0);
   const double asked = made.ratio * row.target;
   const auto set = [&](int parameter, double value) {
-    joint.slides ? dJointSetSliderParam(joint.joint, parameter, value) : dJointSetHingeParam(joint.joint, parameter, value);
+    joint.slides ? dJointSetSliderParam(joint.joint, parameter, value)
+                 : dJointSetHingeParam(joint.joint, parameter, value);
   };
   const auto get = [&](int parameter) {
-    return joint.slides ? dJointGetSliderParam(joint.joint, parameter) : dJointGetHingeParam(joint.joint, parameter);
+    return joint.slides ? dJointGetSliderParam(joint.joint, parameter)
+                        : dJointGetHingeParam(joint.joint, parameter);
   };
   // ODE stops a joint on one side at a time: the one that is nearer
   if (get(low ? dParamHiStop : dParamLoStop) == (low ? -1 : 1)) {
@@ -75,14 +80,16 @@ void OdeScene::add_row(const CoordinateRow& row) {
     set(low ? dParamHiStop : dParamLoStop, low ? dInfinity : -dInfinity);
   }
   set(low ? dParamLoStop : dParamHiStop, low ? 1 : -1);
-  set(dParamStopERP, ((low ? asked : -asked) - stop_slack * static_cast<double>(rows_.size())) * h_);
+  set(dParamStopERP,
+      ((low ? asked : -asked) - stop_slack * static_cast<double>(rows_.size())) * h_);
   dJointSetFeedback(joint.joint, made.feedback.get());
 }
 
 const OdeNode* OdeScene::node_of(Id<Body> id) const {
   const System::Place place = problem_.system.place(id);
   if (place.tree < 0) return told_[id.index].body ? &told_[id.index] : nullptr;
-  const OdeNode& node = trees_[place.tree].nodes[problem_.system.trees[place.tree].bodies[place.body].joint + 1];
+  const OdeNode& node =
+      trees_[place.tree].nodes[problem_.system.trees[place.tree].bodies[place.body].joint + 1];
   return node.body ? &node : nullptr;
 }
 
@@ -98,24 +105,28 @@ void OdeScene::add_contact(const OdeContact& contact) {
   const double side = touch.turned ? -1 : 1;
   const Eigen::Vector3d normal = contact.frame.col(0);
   Eigen::Vector3d slide = contact.frame.rightCols<2>() * contact.free_velocity.tail<2>();
-  slide = slide.norm() > 1e-9 ? Eigen::Vector3d(slide.normalized()) : Eigen::Vector3d(contact.frame.col(1));
+  slide = slide.norm() > 1e-9 ? Eigen::Vector3d(slide.normalized())
+                              : Eigen::Vector3d(contact.frame.col(1));
   const Eigen::Vector3d across = normal.cross(slide);
   dContact made{};
-  made.surface.mode = dContactFDir1 | dContactMotionN | dContactMotion1 | dContactMotion2 | dContactApprox1 |
-                      dContactAxisDep | dContactSoftCFM | (contact.spin_radius > 0 ? dContactRolling : 0);
+  made.surface.mode = dContactFDir1 | dContactMotionN | dContactMotion1 | dContactMotion2 |
+                      dContactApprox1 | dContactAxisDep | dContactSoftCFM |
+                      (contact.spin_radius > 0 ? dContactRolling : 0);
   made.surface.mu = made.surface.mu2 = contact.mu;
   made.surface.rhoN = contact.spin_radius;
   made.surface.motionN = contact.target;
   made.surface.motion1 = -slide.dot(contact.surface_velocity);
   made.surface.motion2 = -side * across.dot(contact.surface_velocity);
-  made.surface.soft_cfm = softness_ * h_ * ((a_free ? 1 / a->mass : 0) + (b_free ? 1 / b->mass : 0));
+  made.surface.soft_cfm =
+      softness_ * h_ * ((a_free ? 1 / a->mass : 0) + (b_free ? 1 / b->mass : 0));
   for (int k = 0; k < 3; ++k) {
     made.geom.pos[k] = contact.p_W[k];
     made.geom.normal[k] = side * normal[k];
     made.fdir1[k] = side * slide[k];
   }
   const dJointID joint = dJointCreateContact(ode_.get(), nullptr, &made);
-  dJointAttach(joint, touch.turned ? a->body : b->body, touch.turned ? nullptr : (a ? a->body : nullptr));
+  dJointAttach(joint, touch.turned ? a->body : b->body,
+               touch.turned ? nullptr : (a ? a->body : nullptr));
   dJointSetFeedback(joint, touch.feedback.get());
   touch.made = true;
 }
@@ -125,7 +136,8 @@ double OdeScene::joint_velocity(int tree, int number) const {
   const OdeJoint& joint = t.joints[number];
   const OdeNode &child = t.nodes[joint.child], &parent = t.nodes[joint.parent];
   if (!joint.slides) return joint.axis.dot(turning_of(child) - turning_of(parent));
-  const Eigen::Vector3d carried = velocity_of(parent) + turning_of(parent).cross(child.com - parent.com);
+  const Eigen::Vector3d carried =
+      velocity_of(parent) + turning_of(parent).cross(child.com - parent.com);
   return joint.axis.dot(velocity_of(child) - carried);
 }
 
@@ -150,8 +162,8 @@ Eigen::Vector3d OdeScene::velocity_at(Id<Body> id, const Eigen::Vector3d& p_W) c
 
 void OdeScene::read_contact(const OdeContact& contact, int number, OdeSolution& out) const {
   const Touch& touch = touches_[number];
-  const Eigen::Vector3d relative =
-      velocity_at(contact.b, contact.p_W) - velocity_at(contact.a, contact.p_W) + contact.surface_velocity;
+  const Eigen::Vector3d relative = velocity_at(contact.b, contact.p_W) -
+                                   velocity_at(contact.a, contact.p_W) + contact.surface_velocity;
   out.velocities.push_back(contact.frame.transpose() * relative);
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
   double spin = 0;

@@ -8,7 +8,8 @@
 
 namespace clench {
 
-// Between joints in a row there is no body; ODE wants one. This part of those beside it weighs next to nothing.
+// Between joints in a row there is no body; ODE wants one. This part of those beside it weighs next
+// to nothing.
 static constexpr double ghost = 1e-6;
 // Joints give way by this part of what an impulse does to a body.
 static constexpr double soft_joint = 1e-9;
@@ -19,9 +20,10 @@ static void add_mass(const Body& body, const Pose& X_WB, OdeNode& node) {
   const double sum = node.mass + body.mass;
   if (!(sum > 0)) return;
   const Eigen::Vector3d apart = com - node.com;
-  node.inertia += R * (body.mass * body.inertia_per_mass) * R.transpose() +
-                  node.mass * body.mass / sum *
-                      (apart.squaredNorm() * Eigen::Matrix3d::Identity() - apart * apart.transpose());
+  node.inertia +=
+      R * (body.mass * body.inertia_per_mass) * R.transpose() +
+      node.mass * body.mass / sum *
+          (apart.squaredNorm() * Eigen::Matrix3d::Identity() - apart * apart.transpose());
   node.com += body.mass / sum * apart;
   node.mass = sum;
 }
@@ -40,7 +42,8 @@ OdeScene::OdeScene(const World& world, const OdeProblem& problem, double h, doub
   }
   if (heaviest > 0) dWorldSetCFM(ode_.get(), soft_joint * h / heaviest);
   for (const auto id : world.bodies())
-    if (const Twist twist = world.twist(id); problem.system.place(id).tree < 0 && !twist.is_zero()) {
+    if (const Twist twist = world.twist(id);
+        problem.system.place(id).tree < 0 && !twist.is_zero()) {
       OdeNode& node = told_[id.index];
       node.com = world.pose(id) * world.body(id).com;
       node.v = twist.linear;
@@ -60,7 +63,8 @@ void OdeScene::make_body(OdeNode& node) {
   if (!node.free) return dBodySetKinematic(node.body);
   const Eigen::Matrix3d& I = node.inertia;
   dMass mass;
-  dMassSetParameters(&mass, node.mass, 0, 0, 0, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
+  dMassSetParameters(&mass, node.mass, 0, 0, 0, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2),
+                     I(1, 2));
   dBodySetMass(node.body, &mass);
 }
 
@@ -89,16 +93,21 @@ void OdeScene::add_tree(const Articulation& tree, int number) {
     if (joint.robot != framed) frames = world_.frames(framed = joint.robot);
     out.nodes[i + 1].free = true;
     make_body(out.nodes[i + 1]);
-    add_joint(joint, frames.joints[joint.joint].position, frames.axis(robot, joint.joint).normalized(), out);
-    if (int& lead = out.lead[joint.coordinate]; lead < 0 && joint.ratio != 0) lead = static_cast<int>(i);
+    add_joint(joint, frames.joints[joint.joint].position,
+              frames.axis(robot, joint.joint).normalized(), out);
+    if (int& lead = out.lead[joint.coordinate]; lead < 0 && joint.ratio != 0)
+      lead = static_cast<int>(i);
   }
   find_motion(tree, number);
 }
 
-void OdeScene::add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out) {
+void OdeScene::add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin,
+                         const Eigen::Vector3d& axis, OdeTree& out) {
   const int child = static_cast<int>(out.joints.size()) + 1, parent = joint.parent + 1;
-  OdeJoint made{.child = child, .parent = parent, .origin = origin, .axis = axis, .slides = joint.slides};
-  made.joint = joint.slides ? dJointCreateSlider(ode_.get(), nullptr) : dJointCreateHinge(ode_.get(), nullptr);
+  OdeJoint made{
+      .child = child, .parent = parent, .origin = origin, .axis = axis, .slides = joint.slides};
+  made.joint = joint.slides ? dJointCreateSlider(ode_.get(), nullptr)
+                            : dJointCreateHinge(ode_.get(), nullptr);
   dJointAttach(made.joint, out.nodes[child].body, out.nodes[parent].body);
   if (joint.slides) {
     dJointSetSliderAxis(made.joint, axis.x(), axis.y(), axis.z());
@@ -116,7 +125,8 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
   // the group's centre of mass is elsewhere where something is fixed to the root
   const Eigen::Vector3d arm = root.com - centre(world_, tree);
   Twist twist = world_.twist(tree.root);
-  if (tree.floating) twist = {problem_.v.segment<3>(tree.first), problem_.v.segment<3>(tree.first + 3)};
+  if (tree.floating)
+    twist = {problem_.v.segment<3>(tree.first), problem_.v.segment<3>(tree.first + 3)};
   if (root.body) {
     root.w = twist.angular;
     root.v = twist.linear + root.w.cross(arm);
@@ -128,7 +138,8 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
     OdeNode& node = out.nodes[joint.child];
     const double speed = tree.joints[i].ratio * problem_.v[tree.first + tree.joints[i].coordinate];
     const Eigen::Vector3d along = speed * joint.axis;
-    const auto carry = [&](const Eigen::Vector3d& r, const OdeNode& by, Eigen::Vector3d& v, Eigen::Vector3d& a) {
+    const auto carry = [&](const Eigen::Vector3d& r, const OdeNode& by, Eigen::Vector3d& v,
+                           Eigen::Vector3d& a) {
       v += by.w.cross(r);
       a += by.turning.cross(r) + by.w.cross(by.w.cross(r));
     };
@@ -180,7 +191,9 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
     OdeNode& node = out.nodes[part.joint + 1];
     const Load& load = state.loads[part.body.index];
     node.force += load.force;
-    node.torque += load.torque + (world_.pose(part.body) * world_.body(part.body).com - node.com).cross(load.force);
+    node.torque +=
+        load.torque +
+        (world_.pose(part.body) * world_.body(part.body).com - node.com).cross(load.force);
   }
   // springs and what motors are told to give; armature and dampers as motors that give way
   const JointForces& forces = problem_.forces[number];
@@ -194,7 +207,8 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
     const int c = tree.root_size() + static_cast<int>(i), lead = out.lead[c];
     if (lead < 0) continue;
     const double ratio = tree.joints[lead].ratio;
-    push(number, lead, (forces.efforts[c] + feedforward_effort(world_, tree.coordinates[i], state)) / ratio);
+    push(number, lead,
+         (forces.efforts[c] + feedforward_effort(world_, tree.coordinates[i], state)) / ratio);
     if (const double added = forces.added[c]; added > 0) {
       const double kept = (added - forces.velocity_part[c]) * problem_.v[tree.first + c] / added;
       add_motor(out, out.joints[lead], ratio * kept, h_ * ratio * ratio / added, dInfinity);
@@ -232,7 +246,8 @@ void OdeScene::step() {
   for (const OdeTree& tree : trees_)
     for (const OdeNode& node : tree.nodes) reset(node);
   for (const OdeNode& node : told_) reset(node);
-  if (dWorldStep(ode_.get(), h_) == 0) fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
+  if (dWorldStep(ode_.get(), h_) == 0)
+    fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
 }
 
 Twist OdeScene::root_twist(int tree) const {

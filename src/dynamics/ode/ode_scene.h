@@ -1,4 +1,5 @@
-// A world as ODE has it: one of its bodies for all bodies that a joint moves together, its hinges and sliders, and contacts.
+// A world as ODE has it: one of its bodies for all bodies that a joint moves together, its hinges
+// and sliders, and contacts.
 #pragma once
 #include <ode/ode.h>
 
@@ -18,10 +19,12 @@ struct OdeNode {
   bool free = false;       ///< does it obey forces? else it moves as told
   double mass = 0;
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about com [kg m^2]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();                         ///< about com [kg m^2]
   Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();  ///< before the step
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero(), turning = Eigen::Vector3d::Zero();  ///< that joints at constant speed cause
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();  ///< in the step
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero(),
+                  turning = Eigen::Vector3d::Zero();  ///< that joints at constant speed cause
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(),
+                  torque = Eigen::Vector3d::Zero();  ///< in the step
 };
 
 struct OdeJoint {
@@ -33,14 +36,16 @@ struct OdeJoint {
 
 /// One tree of the system.
 struct OdeTree {
-  std::vector<OdeNode> nodes;    ///< the root first, then by joint
+  std::vector<OdeNode> nodes;  ///< the root first, then by joint
   std::vector<OdeJoint> joints;
-  std::vector<int> lead;         ///< by coordinate: the joint that stands for it; -1: one of the six, or none
+  /// by coordinate: the joint that stands for it; -1: one of the six, or none
+  std::vector<int> lead;
 };
 
 class OdeScene {
  public:
-  /// softness  contacts give way by this part of what an impulse does to a body: four corners carry a box in many ways
+  /// softness  contacts give way by this part of what an impulse does to a body: four corners carry
+  ///           a box in many ways
   OdeScene(const World& world, const OdeProblem& problem, double h, double softness);
 
   void add_row(const CoordinateRow& row);
@@ -70,11 +75,13 @@ class OdeScene {
 
   void add_tree(const Articulation& tree, int number);
   void find_motion(const Articulation& tree, int number);
-  void add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, OdeTree& out);
+  void add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& origin,
+                 const Eigen::Vector3d& axis, OdeTree& out);
   void make_body(OdeNode& node);
   void base_impulse(const Articulation& tree, int number);
   void add_forces(const Articulation& tree, int number);
-  dJointID add_motor(const OdeTree& tree, const OdeJoint& joint, double velocity, double cfm, double most);
+  dJointID add_motor(const OdeTree& tree, const OdeJoint& joint, double velocity, double cfm,
+                     double most);
   const OdeNode* node_of(Id<Body> id) const;
   static Eigen::Vector3d velocity_of(const OdeNode& node);  // after a step
   static Eigen::Vector3d turning_of(const OdeNode& node);
@@ -85,7 +92,7 @@ class OdeScene {
   double h_, softness_;
   std::unique_ptr<dxWorld, OdeDelete> ode_;
   std::vector<OdeTree> trees_;
-  std::vector<OdeNode> told_;      // obstacles that move, by the index of the body's id
+  std::vector<OdeNode> told_;  // obstacles that move, by the index of the body's id
   std::vector<Row> rows_;
   std::vector<Touch> touches_;
 };

@@ -26,13 +26,15 @@ std::vector<Coupling> couplings_of(const System& system, const OdeScene& scene) 
     for (size_t j = 0; j < joints.size(); ++j) {
       const int lead = scene.trees()[t].lead[joints[j].coordinate];
       if (lead >= 0 && lead != static_cast<int>(j))
-        out.push_back({static_cast<int>(t), static_cast<int>(j), lead, joints[j].ratio / joints[lead].ratio});
+        out.push_back(
+            {static_cast<int>(t), static_cast<int>(j), lead, joints[j].ratio / joints[lead].ratio});
     }
   }
   return out;
 }
 
-// Torques that keep couplings, by Newton's method: ODE's velocities are pieces of linear functions of them.
+// Torques that keep couplings, by Newton's method: ODE's velocities are pieces of linear functions
+// of them.
 class Coupler {
  public:
   Coupler(OdeScene& scene, std::vector<Coupling> couplings, OdeSolution& out)
@@ -79,7 +81,8 @@ class Coupler {
     ++out_.solves;
     for (Eigen::Index i = 0; i < size(); ++i) {
       const Coupling& c = couplings_[i];
-      g[i] = scene_.joint_velocity(c.tree, c.joint) - c.share * scene_.joint_velocity(c.tree, c.lead);
+      g[i] =
+          scene_.joint_velocity(c.tree, c.joint) - c.share * scene_.joint_velocity(c.tree, c.lead);
     }
     if (!g.allFinite()) fail("dynamics: ODE gives velocities that are no numbers");
     return g;
@@ -144,10 +147,12 @@ OdeSolution step_ode(const World& world, const OdeProblem& problem, double h) {
     }
     for (int c = tree.root_size(); c < tree.size(); ++c)
       if (const int lead = scene.trees()[t].lead[c]; lead >= 0)
-        out.v[tree.first + c] = scene.joint_velocity(static_cast<int>(t), lead) / tree.joints[lead].ratio;
+        out.v[tree.first + c] =
+            scene.joint_velocity(static_cast<int>(t), lead) / tree.joints[lead].ratio;
   }
   if (!out.v.allFinite()) fail("dynamics: ODE gives velocities that are no numbers");
-  for (size_t i = 0; i < problem.rows.size(); ++i) out.row_impulses.push_back(scene.row_impulse(static_cast<int>(i)));
+  for (size_t i = 0; i < problem.rows.size(); ++i)
+    out.row_impulses.push_back(scene.row_impulse(static_cast<int>(i)));
   for (size_t i = 0; i < problem.contacts.size(); ++i) {
     scene.read_contact(problem.contacts[i], static_cast<int>(i), out);
     out.residual = std::max(out.residual, problem.contacts[i].target - out.velocities[i][0]);

@@ -56,7 +56,8 @@ void ContactBlock::set(double mu, int tangents, const double* W, int stride, dou
 }
 
 // |r_t| - mu r_n
-double ContactBlock::excess(double lambda, double normal, const double* c, double* y, double& r_n) const {
+double ContactBlock::excess(double lambda, double normal, const double* c, double* y,
+                            double& r_n) const {
   double square = 0;
   r_n = normal;
   for (int k = 0; k < tangents_; ++k) {
@@ -76,7 +77,8 @@ void ContactBlock::solve(const double* q, double* r) const {
   double c[3] = {}, y[3] = {};
   for (int k = 0; k < tangents_; ++k) {
     c[k] = 0;
-    for (int i = 0; i < tangents_; ++i) c[k] -= V_[tangents_ * k + i] * (q[1 + i] + W_tn_[i] * normal);
+    for (int i = 0; i < tangents_; ++i)
+      c[k] -= V_[tangents_ * k + i] * (q[1 + i] + W_tn_[i] * normal);
   }
   double low = 0, below = excess(0, normal, c, y, r[0]);
   if (below > 0) {

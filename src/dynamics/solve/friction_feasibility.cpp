@@ -41,7 +41,8 @@ bool may_contradict(const ScaledFriction& problem) {
       program.cones.push_back(block.size());
       continue;
     }
-    const bool rises = block.is_contact() || std::isinf(block.high), falls = !block.is_contact() && std::isinf(block.low);
+    const bool rises = block.is_contact() || std::isinf(block.high),
+               falls = !block.is_contact() && std::isinf(block.low);
     if (rises && falls)
       equal.add(row, 1);
     else if (rises || falls)

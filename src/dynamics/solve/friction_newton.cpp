@@ -8,7 +8,8 @@ namespace clench {
 
 using Eigen::VectorXd;
 
-double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r, const VectorXd& u) {
+double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r,
+                                const VectorXd& u) {
   double square = 0;
   states_.resize(problem.blocks.size()), slide_.resize(4 * problem.blocks.size());
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
@@ -18,7 +19,9 @@ double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r
     if (!block.moves) {
       states_[i] = State::fixed;
     } else if (!block.is_contact()) {
-      states_[i] = normal <= block.low ? State::low : normal >= block.high ? State::high : State::free;
+      states_[i] = normal <= block.low    ? State::low
+                   : normal >= block.high ? State::high
+                                          : State::free;
       const double fault = r[row] - std::clamp(normal, block.low, block.high);
       square += fault * fault;
     } else if (!(normal > 0)) {
@@ -36,7 +39,8 @@ double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r
       const double friction = block.mu * normal;
       if (length <= friction && block.mu > 0) {
         states_[i] = State::sticks;
-        for (int k = 1; k <= block.tangents; ++k) square += rho_ * rho_ * u[row + k] * u[row + k] / (block.d * block.d);
+        for (int k = 1; k <= block.tangents; ++k)
+          square += rho_ * rho_ * u[row + k] * u[row + k] / (block.d * block.d);
         continue;
       }
       states_[i] = State::slides;
@@ -75,7 +79,8 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
       const double beta = slide_[4 * i];
       Direction normal{.row = row, .tangents = tangents};
       double along = 0;
-      for (int k = 0; k < tangents; ++k) normal.t[k] = block.mu * t[k], along += t[k] * r[row + 1 + k];
+      for (int k = 0; k < tangents; ++k)
+        normal.t[k] = block.mu * t[k], along += t[k] * r[row + 1 + k];
       for (int k = 0; k < tangents; ++k) r[row + 1 + k] += (block.mu * r[row] - along) * t[k];
       directions_.push_back(normal);
       Direction across{.row = row, .tangents = tangents, .across = true, .factor = beta};
@@ -85,10 +90,12 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
         directions_.push_back(across);
       } else if (tangents == 3) {
         // two directions across, at a right angle
-        const int smallest = std::abs(t[0]) < std::abs(t[1]) ? (std::abs(t[0]) < std::abs(t[2]) ? 0 : 2)
-                                                          : (std::abs(t[1]) < std::abs(t[2]) ? 1 : 2);
+        const int smallest = std::abs(t[0]) < std::abs(t[1])
+                                 ? (std::abs(t[0]) < std::abs(t[2]) ? 0 : 2)
+                                 : (std::abs(t[1]) < std::abs(t[2]) ? 1 : 2);
         const Eigen::Vector3d along_t(t[0], t[1], t[2]);
-        const Eigen::Vector3d a = along_t.cross(Eigen::Vector3d::Unit(smallest)).normalized(), b = along_t.cross(a);
+        const Eigen::Vector3d a = along_t.cross(Eigen::Vector3d::Unit(smallest)).normalized(),
+                              b = along_t.cross(a);
         for (const auto& direction : {a, b}) {
           for (int k = 0; k < 3; ++k) across.t[k] = direction[k];
           directions_.push_back(across);
@@ -115,7 +122,8 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
         columns_.col(0).setZero();
       else
         columns_.col(0) = problem.S.col(by.row);
-      for (int k = 0; k < by.tangents; ++k) columns_.col(0) += by.t[k] * problem.S.col(by.row + 1 + k);
+      for (int k = 0; k < by.tangents; ++k)
+        columns_.col(0) += by.t[k] * problem.S.col(by.row + 1 + k);
       column = columns_.data();
     }
     double* out = m.col(l).data();
@@ -142,8 +150,8 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
   return false;
 }
 
-bool FrictionNewton::step(const ScaledFriction& problem, double damping, const VectorXd& r, const VectorXd& u,
-                          bool keep, VectorXd& next) {
+bool FrictionNewton::step(const ScaledFriction& problem, double damping, const VectorXd& r,
+                          const VectorXd& u, bool keep, VectorXd& next) {
   next = r;
   decide(problem, next);
   shift_ = u;
@@ -183,7 +191,8 @@ bool FrictionNewton::slides() const {
   return std::find(states_.begin(), states_.end(), State::slides) != states_.end();
 }
 
-FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const VectorXd& q, double damping, double rho, int max_iterations,
+FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const VectorXd& q,
+                                          double damping, double rho, int max_iterations,
                                           VectorXd& r) {
   rho_ = rho;
   End end;
@@ -248,7 +257,8 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const V
   return end;
 }
 
-bool FrictionNewton::refine(const ScaledFriction& problem, double damping, const VectorXd& u, VectorXd& r) {
+bool FrictionNewton::refine(const ScaledFriction& problem, double damping, const VectorXd& u,
+                            VectorXd& r) {
   rho_ = 1;
   classify(problem, r, u);
   if (!step(problem, damping, r, u, true, next_)) return false;

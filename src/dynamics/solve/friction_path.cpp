@@ -28,13 +28,16 @@ double meets_cone(double mu, int tangents, const double* z, const double* by, do
   // a alpha^2 + 2 b alpha + c rises through 0, c <= 0
   const double root = b * b - a * c;
   if (root < 0) return never;
-  const double alpha = b > 0 ? -c / (b + std::sqrt(root)) : a != 0 ? (std::sqrt(root) - b) / a : never;
+  const double alpha = b > 0    ? -c / (b + std::sqrt(root))
+                       : a != 0 ? (std::sqrt(root) - b) / a
+                                : never;
   return alpha >= 0 ? alpha : never;
 }
 
 }  // namespace
 
-void FrictionNewton::begin_path(const ScaledFriction& problem, const VectorXd& r, const VectorXd& u) {
+void FrictionNewton::begin_path(const ScaledFriction& problem, const VectorXd& r,
+                                const VectorXd& u) {
   states_.resize(problem.blocks.size()), slide_.resize(4 * problem.blocks.size());
   z_ = r;
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
@@ -43,7 +46,9 @@ void FrictionNewton::begin_path(const ScaledFriction& problem, const VectorXd& r
     if (!block.moves) {
       states_[i] = State::fixed;
     } else if (!block.is_contact()) {
-      states_[i] = r[row] <= block.low ? State::low : r[row] >= block.high ? State::high : State::free;
+      states_[i] = r[row] <= block.low    ? State::low
+                   : r[row] >= block.high ? State::high
+                                          : State::free;
       if (states_[i] == State::low) z_[row] = block.low - std::max(u[row], 0.0) / block.d;
       if (states_[i] == State::high) z_[row] = block.high - std::min(u[row], 0.0) / block.d;
     } else if (!(r[row] > 0)) {
@@ -52,20 +57,25 @@ void FrictionNewton::begin_path(const ScaledFriction& problem, const VectorXd& r
       if (z_[row] > 0) states_[i] = State::slides;
       double square = 0;
       for (int k = 1; k <= block.tangents; ++k) square += z_[row + k] * z_[row + k];
-      if (z_[row] > 0 && block.mu > 0 && std::sqrt(square) <= block.mu * z_[row]) states_[i] = State::sticks;
+      if (z_[row] > 0 && block.mu > 0 && std::sqrt(square) <= block.mu * z_[row])
+        states_[i] = State::sticks;
     } else {
       double length = 0, along = 0;
-      for (int k = 1; k <= block.tangents; ++k) length += r[row + k] * r[row + k], along += r[row + k] * u[row + k];
+      for (int k = 1; k <= block.tangents; ++k)
+        length += r[row + k] * r[row + k], along += r[row + k] * u[row + k];
       length = std::sqrt(length);
-      states_[i] = block.mu > 0 && length < block.mu * r[row] * (1 - 1e-9) ? State::sticks : State::slides;
-      if (block.mu == 0) z_.segment(row + 1, block.tangents) = -u.segment(row + 1, block.tangents) / block.d;
+      states_[i] =
+          block.mu > 0 && length < block.mu * r[row] * (1 - 1e-9) ? State::sticks : State::slides;
+      if (block.mu == 0)
+        z_.segment(row + 1, block.tangents) = -u.segment(row + 1, block.tangents) / block.d;
       if (states_[i] == State::sticks || block.mu == 0) continue;
       // just on the cone or beyond
       if (block.tangents == 0) {
         states_[i] = State::sticks;
         continue;
       }
-      const double scale = block.mu * r[row] / length + std::max(-along / length, 0.0) / (block.d * length);
+      const double scale =
+          block.mu * r[row] / length + std::max(-along / length, 0.0) / (block.d * length);
       for (int k = 1; k <= block.tangents; ++k) z_[row + k] = scale * r[row + k];
     }
   }
@@ -79,13 +89,14 @@ void FrictionNewton::find_slides(const ScaledFriction& problem) {
     double length = 0;
     for (int k = 0; k < block.tangents; ++k) t[k] = z_[block.row + 1 + k], length += t[k] * t[k];
     length = std::sqrt(length);
-    slide_[4 * i] = length > 0 ? std::min(block.mu * std::max(z_[block.row], 0.0) / length, 1.0) : 0;
+    slide_[4 * i] =
+        length > 0 ? std::min(block.mu * std::max(z_[block.row], 0.0) / length, 1.0) : 0;
     for (int k = 0; k < block.tangents && length > 0; ++k) t[k] /= length;
   }
 }
 
-double FrictionNewton::leaves(const ScaledFriction::Block& block, State state, const double* z, const double* by, double most,
-                              State& next) const {
+double FrictionNewton::leaves(const ScaledFriction::Block& block, State state, const double* z,
+                              const double* by, double most, State& next) const {
   double alpha = most;
   const auto meets = [&](double value, double change, State other) {
     // value + alpha change falls below 0
@@ -96,7 +107,8 @@ double FrictionNewton::leaves(const ScaledFriction::Block& block, State state, c
   if (!block.is_contact()) {
     if (state == State::low) meets(block.low - z[0], -by[0], State::free);
     if (state == State::high) meets(z[0] - block.high, by[0], State::free);
-    if (state == State::free) meets(z[0] - block.low, by[0], State::low), meets(block.high - z[0], -by[0], State::high);
+    if (state == State::free)
+      meets(z[0] - block.low, by[0], State::low), meets(block.high - z[0], -by[0], State::high);
     return alpha;
   }
   const bool frictional = block.mu > 0 && block.tangents > 0;
@@ -112,8 +124,8 @@ double FrictionNewton::leaves(const ScaledFriction::Block& block, State state, c
   return alpha;
 }
 
-FrictionNewton::End FrictionNewton::follow(const ScaledFriction& problem, const VectorXd& q, double damping, int max_iterations,
-                                           VectorXd& r) {
+FrictionNewton::End FrictionNewton::follow(const ScaledFriction& problem, const VectorXd& q,
+                                           double damping, int max_iterations, VectorXd& r) {
   rho_ = 1;
   End end;
   const auto velocities = [&](const VectorXd& at, VectorXd& u) {
@@ -132,7 +144,8 @@ FrictionNewton::End FrictionNewton::follow(const ScaledFriction& problem, const 
     velocities(next_, u_next_);
     change_ = next_ - z_;
     for (const auto& block : problem.blocks)
-      for (int k = 0; k < block.size(); ++k) change_[block.row + k] -= u_next_[block.row + k] / block.d;
+      for (int k = 0; k < block.size(); ++k)
+        change_[block.row + k] -= u_next_[block.row + k] / block.d;
     best_.swap(next_), u_.swap(u_next_);
     if (!change_.allFinite()) break;
     change_ *= sense;
@@ -140,7 +153,8 @@ FrictionNewton::End FrictionNewton::follow(const ScaledFriction& problem, const 
     // a path that turned back follows q the other way round for a while
     if (changed >= 0) {
       const auto& block = problem.blocks[changed];
-      if (leaves(block, states_[changed], &z_[block.row], &change_[block.row], 1e-14, into) == 0) sense = -sense, change_ = -change_;
+      if (leaves(block, states_[changed], &z_[block.row], &change_[block.row], 1e-14, into) == 0)
+        sense = -sense, change_ = -change_;
     }
     if (sense < 0 && ++back > max_back) break;
     double alpha = sense > 0 ? 1 : 1e6;

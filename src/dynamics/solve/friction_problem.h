@@ -1,4 +1,5 @@
-// What a step must solve: impulses at contacts, joint limits and motors, and the velocities that follow from them.
+// What a step must solve: impulses at contacts, joint limits and motors, and the velocities that
+// follow from them.
 #pragma once
 #include <Eigen/Core>
 #include <limits>
@@ -6,21 +7,26 @@
 
 namespace clench {
 
-/// Unknown impulses r and velocities u = W r + q of one island of bodies, in blocks of rows. A block is one of two things.
+/// Unknown impulses r and velocities u = W r + q of one island of bodies, in blocks of rows. A
+/// block is one of two things.
 ///
-/// A contact, 1 + tangents rows: u_n >= 0, r_n >= 0, u_n r_n = 0; |r_t| <= mu r_n, and where u_t is not 0,
-/// r_t = -mu r_n u_t / |u_t|: Coulomb's law, sliding bodies are not lifted by it. Rows of torsion are scaled by the torsion
-/// radius, so that the friction cone is round.
+/// A contact, 1 + tangents rows: u_n >= 0, r_n >= 0, u_n r_n = 0; |r_t| <= mu r_n, and where u_t is
+/// not 0, r_t = -mu r_n u_t / |u_t|: Coulomb's law, sliding bodies are not lifted by it. Rows of
+/// torsion are scaled by the torsion radius, so that the friction cone is round.
 ///
-/// A bounded row, such as a limit of a joint (0 to infinity), a motor (-effort to effort, its compliance on W's diagonal), dry
-/// friction of a joint, or an equation (no bounds): low <= r <= high; u = 0 where r is between them, u >= 0 at low, u <= 0 at high.
+/// A bounded row, such as a limit of a joint (0 to infinity), a motor (-effort to effort, its
+/// compliance on W's diagonal), dry friction of a joint, or an equation (no bounds): low <= r <=
+/// high; u = 0 where r is between them, u >= 0 at low, u <= 0 at high.
 struct FrictionProblem {
   struct Block {
-    int row = 0;       ///< its first one
-    int tangents = -1; ///< of a contact: 0 (frictionless), 2, or 3 with torsion; -1: a bounded row
-    double mu = 0;     ///< of a contact
-    int pair = -1;     ///< of contacts that follow each other: those of the same two bodies share their load alike; -1: of none
-    double low = 0, high = std::numeric_limits<double>::infinity();  ///< of a bounded row: low <= 0 <= high
+    int row = 0;        ///< its first one
+    int tangents = -1;  ///< of a contact: 0 (frictionless), 2, or 3 with torsion; -1: a bounded row
+    double mu = 0;      ///< of a contact
+    /// of contacts that follow each other: those of the same two bodies share their load alike; -1:
+    /// of none
+    int pair = -1;
+    double low = 0,
+           high = std::numeric_limits<double>::infinity();  ///< of a bounded row: low <= 0 <= high
 
     bool is_contact() const { return tangents >= 0; }
     int size() const { return is_contact() ? 1 + tangents : 1; }
@@ -32,10 +38,11 @@ struct FrictionProblem {
 
 /// How near impulses are to a solution.
 struct FrictionSolution {
-  Eigen::VectorXd r;     ///< impulses [N s, N m s]
-  Eigen::VectorXd u;     ///< W r + q
-  double residual = 0;   ///< largest fault of any row, as a velocity; 0: exact (see friction_residual)
-  int iterations = 0;    ///< of all methods together
+  Eigen::VectorXd r;  ///< impulses [N s, N m s]
+  Eigen::VectorXd u;  ///< W r + q
+  /// largest fault of any row, as a velocity; 0: exact (see friction_residual)
+  double residual = 0;
+  int iterations = 0;      ///< of all methods together
   bool fell_back = false;  ///< did the methods that end soon not end?
   bool solved = false;     ///< is the residual within the tolerance?
 };

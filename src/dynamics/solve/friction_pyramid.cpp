@@ -15,7 +15,9 @@ using Eigen::VectorXd;
 
 MatrixXd pyramid_directions(int tangents, int edges) {
   // a bounded row has none
-  MatrixXd directions(std::max(tangents, 0), tangents == 2 ? edges : tangents == 3 ? 3 * edges - 4 : 0);
+  MatrixXd directions(std::max(tangents, 0), tangents == 2   ? edges
+                                             : tangents == 3 ? 3 * edges - 4
+                                                             : 0);
   int column = 0;
   const auto ring = [&](int count, double latitude) {
     for (int k = 0; k < count; ++k) {
@@ -40,9 +42,10 @@ MatrixXd pyramid_directions(int tangents, int edges) {
 
 namespace {
 
-/// r = start + rows x; w = M x + q, with unknowns for lambda and for the upper bounds of rows as well.
+/// r = start + rows x; w = M x + q, with unknowns for lambda and for the upper bounds of rows as
+/// well.
 struct Complementarity {
-  MatrixXd rows;      // r by x
+  MatrixXd rows;  // r by x
   VectorXd start;
   MatrixXd coupling;  // of M, beside rows^T S rows
   VectorXd offset;    // of q, beside rows^T (S start + q)
@@ -64,8 +67,11 @@ int count_unknowns(const ScaledFriction& problem, const std::vector<MatrixXd>& e
 
 Complementarity put_together(const ScaledFriction& problem, const std::vector<MatrixXd>& edges) {
   const int count = count_unknowns(problem, edges), n = problem.rows();
-  Complementarity c{.rows = MatrixXd::Zero(n, count), .start = VectorXd::Zero(n), .coupling = MatrixXd::Zero(count, count),
-                    .offset = VectorXd::Zero(count), .units = VectorXd::Zero(count)};
+  Complementarity c{.rows = MatrixXd::Zero(n, count),
+                    .start = VectorXd::Zero(n),
+                    .coupling = MatrixXd::Zero(count, count),
+                    .offset = VectorXd::Zero(count),
+                    .units = VectorXd::Zero(count)};
   int x = 0;
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
     const auto& block = problem.blocks[i];
@@ -97,7 +103,8 @@ Complementarity put_together(const ScaledFriction& problem, const std::vector<Ma
   return c;
 }
 
-// What is above 0 stays so, and its velocities become 0 in steps that change it as little as can be.
+// What is above 0 stays so, and its velocities become 0 in steps that change it as little as can
+// be.
 template <typename Velocities>
 void take_damping_away(const MatrixXd& damped, const Velocities& velocities, VectorXd& z) {
   std::vector<int> above;
@@ -123,7 +130,8 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   // rows without bounds are equations: r there follows from the others, as u is 0
   std::vector<int> free;
   for (const auto& block : problem.blocks)
-    if (!block.is_contact() && block.moves && std::isinf(block.low) && std::isinf(block.high)) free.push_back(block.row);
+    if (!block.is_contact() && block.moves && std::isinf(block.low) && std::isinf(block.high))
+      free.push_back(block.row);
   const int count = static_cast<int>(free.size());
   if (count > 0) {
     MatrixXd part(count, count), right(count, c.rows.cols() + 1);
@@ -146,15 +154,18 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   solution.found = lcp.status == LcpStatus::solved;
   solution.iterations = lcp.iterations;
   const auto without_damping = [&](const VectorXd& z) -> VectorXd {
-    return c.rows.transpose() * (problem.S * (c.start + c.rows * z) + problem.q) + c.coupling * z + c.offset;
+    return c.rows.transpose() * (problem.S * (c.start + c.rows * z) + problem.q) + c.coupling * z +
+           c.offset;
   };
   if (solution.found) take_damping_away(M, without_damping, lcp.z);
   solution.r = c.start + c.rows * lcp.z;
   const VectorXd w = without_damping(lcp.z);
   for (int i = 0; i < w.size(); ++i)
-    solution.residual = std::max(solution.residual, std::abs(std::min(lcp.z[i], w[i])) * c.units[i]);
+    solution.residual =
+        std::max(solution.residual, std::abs(std::min(lcp.z[i], w[i])) * c.units[i]);
   const VectorXd u = problem.S * solution.r + problem.q;
-  for (const int row : free) solution.residual = std::max(solution.residual, std::abs(u[row]) / problem.units[row]);
+  for (const int row : free)
+    solution.residual = std::max(solution.residual, std::abs(u[row]) / problem.units[row]);
   return solution;
 }
 

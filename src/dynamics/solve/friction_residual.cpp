@@ -28,7 +28,8 @@ void project_on_friction_cone(double mu, int tangents, double* r) {
   for (int k = 1; k <= tangents; ++k) r[k] *= scale;
 }
 
-double block_fault(const FrictionProblem::Block& block, double d, const double* r, const double* u) {
+double block_fault(const FrictionProblem::Block& block, double d, const double* r,
+                   const double* u) {
   if (!block.is_contact()) {
     const double dr = d * r[0];
     // an infinite bound stays one where d is 0
@@ -50,8 +51,8 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
-                             double tolerance) {
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r,
+                             const Eigen::VectorXd& u, double tolerance) {
   // |W_ij| <= sqrt(W_ii W_jj): what the sums of u are sums of
   double size = 0;
   for (const auto& block : problem.blocks) {

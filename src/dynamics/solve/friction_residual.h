@@ -7,9 +7,10 @@ namespace clench {
 /// The point of the friction cone |r_t| <= mu r_n nearest to r, in place; r has 1 + tangents rows.
 void project_on_friction_cone(double mu, int tangents, double* r);
 
-/// What is missing of one block's law, as a velocity: |d r - P(d r - v)| with P the projection on the friction cone and
-/// v = u + mu |u_t| n, or for a bounded row on [d low, d high] and v = u. It is 0 exactly where the law holds: Coulomb's
-/// law is the complementarity of r in the friction cone and v in its dual.
+/// What is missing of one block's law, as a velocity: |d r - P(d r - v)| with P the projection on
+/// the friction cone and v = u + mu |u_t| n, or for a bounded row on [d low, d high] and v = u. It
+/// is 0 exactly where the law holds: Coulomb's law is the complementarity of r in the friction cone
+/// and v in its dual.
 ///
 /// r, u     the block's own rows
 /// d        what an impulse of the block changes of its velocity: the mean of its diagonal of W
@@ -21,15 +22,18 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
 
 /// How true impulses are.
 struct FrictionFault {
-  double largest = 0;  ///< fault of any block; infinite where a number is not finite or a block is no block
-  double excess = 0;   ///< of any block, fault by what is allowed: the tolerance, and the rounding of W r beside it
+  /// fault of any block; infinite where a number is not finite or a block is no block
+  double largest = 0;
+  /// of any block, fault by what is allowed: the tolerance, and the rounding of W r beside it
+  double excess = 0;
 };
 /// u  W r + q
-FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
-                             double tolerance);
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r,
+                             const Eigen::VectorXd& u, double tolerance);
 
-/// The largest fault of any block [m/s, rad/s]; infinite where a number of the problem or of r is not finite (but
-/// bounds), a coefficient of friction is negative, or 0 is not within the bounds of a row.
+/// The largest fault of any block [m/s, rad/s]; infinite where a number of the problem or of r is
+/// not finite (but bounds), a coefficient of friction is negative, or 0 is not within the bounds of
+/// a row.
 double friction_residual(const FrictionProblem& problem, const Eigen::VectorXd& r);
 
 }  // namespace clench

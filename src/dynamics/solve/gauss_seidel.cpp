@@ -10,7 +10,8 @@ void GaussSeidel::set(const ScaledFriction& problem, double damping) {
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
     const auto& block = problem.blocks[i];
     if (block.is_contact() && block.moves)
-      contacts_[i].set(block.mu, block.tangents, &problem.S(block.row, block.row), problem.rows(), damping * block.d);
+      contacts_[i].set(block.mu, block.tangents, &problem.S(block.row, block.row), problem.rows(),
+                       damping * block.d);
   }
 }
 
@@ -31,7 +32,8 @@ void GaussSeidel::sweep(const ScaledFriction& problem, int sweeps, Eigen::Vector
       if (block.is_contact())
         contacts_[i].solve(q, &r[row]);
       else
-        r[row] = std::clamp(-q[0] / (problem.S(row, row) + damping_ * block.d), block.low, block.high);
+        r[row] =
+            std::clamp(-q[0] / (problem.S(row, row) + damping_ * block.d), block.low, block.high);
     }
   }
 }

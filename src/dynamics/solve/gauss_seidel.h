@@ -7,8 +7,10 @@
 
 namespace clench {
 
-/// Block Gauss-Seidel with `damping * weights` added to the diagonal of S: seldom near a solution soon, never lost.
-/// source  Jourdan, Alart & Jean (1998), A Gauss-Seidel like algorithm to solve frictional contact problems
+/// Block Gauss-Seidel with `damping * weights` added to the diagonal of S: seldom near a solution
+/// soon, never lost.
+/// source  Jourdan, Alart & Jean (1998), A Gauss-Seidel like algorithm to solve frictional contact
+///         problems
 class GaussSeidel {
  public:
   void set(const ScaledFriction& problem, double damping);

@@ -29,11 +29,14 @@ void ScaledFriction::set(const FrictionProblem& problem) {
   for (size_t first = 0, next; first < blocks.size(); first = next) {
     const int pair = blocks[first].pair;
     double sum = 0;
-    for (next = first; next < blocks.size() && (next == first || (pair >= 0 && blocks[next].pair == pair)); ++next)
+    for (next = first;
+         next < blocks.size() && (next == first || (pair >= 0 && blocks[next].pair == pair));
+         ++next)
       sum += blocks[next].d / (units[blocks[next].row] * units[blocks[next].row]);
     const double mean = sum / static_cast<double>(next - first);
     for (size_t i = first; i < next && next - first > 1; ++i)
-      weights.segment(blocks[i].row, blocks[i].size()).setConstant(mean * units[blocks[i].row] * units[blocks[i].row]);
+      weights.segment(blocks[i].row, blocks[i].size())
+          .setConstant(mean * units[blocks[i].row] * units[blocks[i].row]);
   }
   S.resize(n, n);
   for (int j = 0; j < n; ++j) S.col(j) = problem.W.col(j).cwiseProduct(units) * units[j];

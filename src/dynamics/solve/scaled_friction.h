@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// Rows times a power of two per block, which changes no digit: then a mean of each block's diagonal is within 1/2 and 2,
-/// so that a feather between boulders is as well posed as a boulder.
+/// Rows times a power of two per block, which changes no digit: then a mean of each block's
+/// diagonal is within 1/2 and 2, so that a feather between boulders is as well posed as a boulder.
 struct ScaledFriction {
   struct Block : FrictionProblem::Block {
     double d = 1;       ///< mean of its diagonal
@@ -13,7 +13,8 @@ struct ScaledFriction {
   };
   Eigen::MatrixXd S;
   Eigen::VectorXd q;
-  Eigen::VectorXd units;    ///< one of a row is so many of the problem's: impulses times it, velocities divided by it
+  /// one of a row is so many of the problem's: impulses times it, velocities divided by it
+  Eigen::VectorXd units;
   Eigen::VectorXd weights;  ///< d of the row's block; of contacts of one pair their mean
   std::vector<Block> blocks;
 

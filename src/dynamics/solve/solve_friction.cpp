@@ -13,24 +13,27 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// of a block's own diagonal: redundant contacts share their load to 1e-8 the same way wherever Newton starts, and what is
-// 1e8 times as soft as a contact itself is still no redundancy
+// of a block's own diagonal: redundant contacts share their load to 1e-8 the same way wherever
+// Newton starts, and what is 1e8 times as soft as a contact itself is still no redundancy
 constexpr double damping = 1e-8;
-// Forces of the last step that leave faults below this are changed as little as can be where following them does not end: what
-// all but rests would else waver between solutions [m/s].
+// Forces of the last step that leave faults below this are changed as little as can be where
+// following them does not end: what all but rests would else waver between solutions [m/s].
 constexpr double nearly_holds = 1e-4;
-// Of so many rows few paths reach their end, and each step of one costs much: proximal points come before other ways.
+// Of so many rows few paths reach their end, and each step of one costs much: proximal points come
+// before other ways.
 constexpr int many_rows = 60;
 
 }  // namespace
 
-bool FrictionSolver::newton(double by, double rho, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+bool FrictionSolver::newton(double by, double rho, int max_iterations, VectorXd& r,
+                            FrictionSolution& solution) {
   const auto end = newton_.solve(scaled_, scaled_.q, by, rho, max_iterations, r);
   solution.iterations += end.iterations;
   return end.converged;
 }
 
-bool FrictionSolver::follow(double by, int max_iterations, VectorXd& r, FrictionSolution& solution) {
+bool FrictionSolver::follow(double by, int max_iterations, VectorXd& r,
+                            FrictionSolution& solution) {
   const auto end = newton_.follow(scaled_, scaled_.q, by, max_iterations, r);
   solution.iterations += end.iterations;
   return end.converged;
@@ -87,21 +90,23 @@ double FrictionSolver::descend(double rho, VectorXd& r, FrictionSolution& soluti
   return reached;
 }
 
-bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by, int max_iterations, VectorXd& r,
-                            FrictionSolution& solution) {
+bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, double by,
+                            int max_iterations, VectorXd& r, FrictionSolution& solution) {
   // sets u_ and keeps the best
   bool enough = false;
   const auto measure = [&](VectorXd& at) {
     // bounds hold to the bit
     for (const auto& block : scaled_.blocks)
-      at[block.row] = block.is_contact() ? std::max(at[block.row], 0.0) : std::clamp(at[block.row], block.low, block.high);
+      at[block.row] = block.is_contact() ? std::max(at[block.row], 0.0)
+                                         : std::clamp(at[block.row], block.low, block.high);
     u_ = scaled_.q;
     u_.noalias() += scaled_.S * at;
     impulses_ = at.cwiseProduct(scaled_.units);
     velocities_ = u_.cwiseQuotient(scaled_.units);
     const FrictionFault fault = friction_fault(problem, impulses_, velocities_, tolerance);
     enough = fault.excess <= 1;
-    if (enough || fault.largest < solution.residual) solution.residual = fault.largest, solution.r = impulses_;
+    if (enough || fault.largest < solution.residual)
+      solution.residual = fault.largest, solution.r = impulses_;
     return fault.largest;
   };
   double residual = measure(r);
@@ -133,8 +138,10 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
     if (found) {
       const double next = measure(r_);
       straight = false;
-      if (next > 0.3 * residual) by = std::max(by / 2, 1e-14);
-      else if (next > 0.01 * residual) by = std::max(by / 30, 1e-11);
+      if (next > 0.3 * residual)
+        by = std::max(by / 2, 1e-14);
+      else if (next > 0.01 * residual)
+        by = std::max(by / 30, 1e-11);
       r.swap(r_);
       residual = next;
     } else {
@@ -145,12 +152,14 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
   return enough;
 }
 
-FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem, double tolerance, int edges_per_contact) {
+FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem, double tolerance,
+                                                  int edges_per_contact) {
   FrictionSolution solution;
   solution.residual = infinity;
   scaled_.set(problem);
   std::vector<Eigen::MatrixXd> edges;
-  for (const auto& block : scaled_.blocks) edges.push_back(pyramid_directions(block.tangents, edges_per_contact));
+  for (const auto& block : scaled_.blocks)
+    edges.push_back(pyramid_directions(block.tangents, edges_per_contact));
   VectorXd r = VectorXd::Zero(scaled_.rows());
   // pivots lose what is far below 1
   double by = 1e-6;
@@ -185,7 +194,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   const FrictionFault fault = friction_fault(problem, solution.r, solution.u, tolerance);
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
-  const bool finite = problem.q.allFinite() && problem.W.allFinite() && std::isfinite(fault.largest);
+  const bool finite =
+      problem.q.allFinite() && problem.W.allFinite() && std::isfinite(fault.largest);
   if (solution.solved && finite && options.cone == FrictionCone::round) return solution;
   if (!finite) {
     solution.solved = false;
@@ -193,7 +203,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     solution.r.setZero(), solution.u.setZero();
     return solution;
   }
-  if (options.cone == FrictionCone::pyramid) return solve_as_pyramid(problem, tolerance, options.edges);
+  if (options.cone == FrictionCone::pyramid)
+    return solve_as_pyramid(problem, tolerance, options.edges);
   scaled_.set(problem);
   VectorXd r = solution.r.cwiseQuotient(scaled_.units);
   double reached = damping;
@@ -201,7 +212,8 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     const VectorXd warm = r;
     if (!follow(damping, 30, r, solution)) {
       r = warm;
-      if (fault.largest < nearly_holds) solution.solved = refine(problem, tolerance, 10 * damping, 8, r, solution);
+      if (fault.largest < nearly_holds)
+        solution.solved = refine(problem, tolerance, 10 * damping, 8, r, solution);
       if (!solution.solved && scaled_.rows() > many_rows) {
         gauss_seidel_.set(scaled_, damping);
         gauss_seidel_.sweep(scaled_, 10, r = warm);

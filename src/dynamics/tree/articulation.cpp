@@ -15,13 +15,15 @@ class TreeBuilder {
     const Robot& robot = world_.robot(id);
     tree_.robots.push_back(id);
     tree_.bodies.push_back({robot.base, carrier});
-    if (robot.mounting && robot.mounting->piece) tree_.bodies.push_back({*robot.mounting->piece, carrier});
+    if (robot.mounting && robot.mounting->piece)
+      tree_.bodies.push_back({*robot.mounting->piece, carrier});
     std::vector<int> moved_by(robot.links.size());
     std::vector<int> coordinate_of(robot.dofs.size(), -1);
     for (size_t l = 0; l < robot.links.size(); ++l) {
       const Link& link = robot.links[l];
       int before = link.parent < 0 ? carrier : moved_by[link.parent];
-      for (int j = link.first_joint; j < link.end_joint; ++j) before = add_joint(id, robot, j, before, coordinate_of);
+      for (int j = link.first_joint; j < link.end_joint; ++j)
+        before = add_joint(id, robot, j, before, coordinate_of);
       moved_by[l] = before;
       tree_.bodies.push_back({link.body, before});
     }
@@ -32,9 +34,11 @@ class TreeBuilder {
   }
 
  private:
-  int add_joint(Id<Robot> id, const Robot& robot, int j, int before, std::vector<int>& coordinate_of) {
+  int add_joint(Id<Robot> id, const Robot& robot, int j, int before,
+                std::vector<int>& coordinate_of) {
     const Joint& joint = robot.joints[j];
-    const bool alone = robot.dofs[joint.dof].kind == DofKind::compliant || !world_.follows_dof(id, j);
+    const bool alone =
+        robot.dofs[joint.dof].kind == DofKind::compliant || !world_.follows_dof(id, j);
     const Coordinate coordinate{.robot = id,
                                 .dof = joint.dof,
                                 .joint = alone ? j : -1,
@@ -46,7 +50,8 @@ class TreeBuilder {
       tree_.coordinates.push_back(coordinate);
       if (!alone) coordinate_of[joint.dof] = number;
     }
-    tree_.joints.push_back({id, j, before, number, alone ? 1 : joint.ratio, joint.kind == JointKind::prismatic});
+    tree_.joints.push_back(
+        {id, j, before, number, alone ? 1 : joint.ratio, joint.kind == JointKind::prismatic});
     return static_cast<int>(tree_.joints.size()) - 1;
   }
 
@@ -58,7 +63,8 @@ void add_welded(const World& world, Id<Body> object, Id<Body> to, System& system
   const auto known = [&](const auto& weld) { return weld.first == object; };
   if (std::ranges::any_of(system.welds, known)) return;
   const auto& welds = world.dynamic_settings().welds;
-  if (const auto carrier = welds.find(to); carrier != welds.end()) add_welded(world, to, carrier->second, system);
+  if (const auto carrier = welds.find(to); carrier != welds.end())
+    add_welded(world, to, carrier->second, system);
   system.welds.emplace_back(object, to);
   const System::Place place = system.place(to);
   if (place.tree < 0) return;
@@ -75,13 +81,19 @@ System find_system(const World& world) {
     tree.first = system.size;
     system.size += tree.size();
     for (size_t i = 0; i < tree.bodies.size(); ++i)
-      system.places[tree.bodies[i].body.index] = {static_cast<int>(system.trees.size()), static_cast<int>(i)};
+      system.places[tree.bodies[i].body.index] = {static_cast<int>(system.trees.size()),
+                                                  static_cast<int>(i)};
     system.trees.push_back(std::move(tree));
   };
   system.places.resize(world.model().bodies.size());
   for (const auto id : world.bodies())
     if (world.body(id).kind == BodyKind::object && !world.dynamic_settings().welds.contains(id))
-      add({.floating = true, .root = id, .joints = {}, .bodies = {{id, -1}}, .coordinates = {}, .robots = {}});
+      add({.floating = true,
+           .root = id,
+           .joints = {},
+           .bodies = {{id, -1}},
+           .coordinates = {},
+           .robots = {}});
   for (const auto id : world.robots()) {
     if (world.robot(id).mounting) continue;
     Articulation tree;
@@ -90,11 +102,14 @@ System find_system(const World& world) {
     TreeBuilder(world, tree).add_robot(id, -1);
     add(std::move(tree));
   }
-  for (const auto& [object, to] : world.dynamic_settings().welds) add_welded(world, object, to, system);
+  for (const auto& [object, to] : world.dynamic_settings().welds)
+    add_welded(world, object, to, system);
   return system;
 }
 
-static Eigen::Vector3d com(const World& world, Id<Body> id) { return world.pose(id) * world.body(id).com; }
+static Eigen::Vector3d com(const World& world, Id<Body> id) {
+  return world.pose(id) * world.body(id).com;
+}
 
 Eigen::Vector3d centre(const World& world, const Articulation& tree) {
   if (!tree.is_free_body() || tree.bodies.size() == 1) return com(world, tree.root);
@@ -115,29 +130,36 @@ Vector6d prescribed_twist(const World& world, const Articulation& tree) {
   return out;
 }
 
-void gather_velocities(const System& system, const World& world, const DynamicState& state, Eigen::VectorXd& v) {
+void gather_velocities(const System& system, const World& world, const DynamicState& state,
+                       Eigen::VectorXd& v) {
   v.resize(system.size);
   for (const Articulation& tree : system.trees) {
     int at = tree.first;
     if (tree.floating) {
       const Twist& twist = state.twists[tree.root.index];
-      v.segment<3>(at) = twist.linear + twist.angular.cross(centre(world, tree) - com(world, tree.root));
+      v.segment<3>(at) =
+          twist.linear + twist.angular.cross(centre(world, tree) - com(world, tree.root));
       v.segment<3>(at + 3) = twist.angular;
       at += 6;
     }
     for (const Coordinate& c : tree.coordinates)
-      v[at++] = c.joint < 0 ? state.dof_velocities[c.dof_index] : state.joint_velocities[c.joint_index];
+      v[at++] =
+          c.joint < 0 ? state.dof_velocities[c.dof_index] : state.joint_velocities[c.joint_index];
   }
 }
 
-void scatter_velocities(const System& system, const World& world, const Eigen::VectorXd& v, DynamicState& state) {
+void scatter_velocities(const System& system, const World& world, const Eigen::VectorXd& v,
+                        DynamicState& state) {
   for (const Articulation& tree : system.trees) {
     if (tree.floating) {
-      const Eigen::Vector3d linear = v.segment<3>(tree.first), angular = v.segment<3>(tree.first + 3);
-      state.twists[tree.root.index] = {linear + angular.cross(com(world, tree.root) - centre(world, tree)), angular};
+      const Eigen::Vector3d linear = v.segment<3>(tree.first),
+                            angular = v.segment<3>(tree.first + 3);
+      state.twists[tree.root.index] = {
+          linear + angular.cross(com(world, tree.root) - centre(world, tree)), angular};
     }
     for (const ArticulationJoint& joint : tree.joints)
-      state.joint_velocities[world.robot(joint.robot).first_joint + static_cast<size_t>(joint.joint)] =
+      state.joint_velocities[world.robot(joint.robot).first_joint +
+                             static_cast<size_t>(joint.joint)] =
           joint.ratio * v[tree.first + joint.coordinate];
     for (size_t i = 0; i < tree.coordinates.size(); ++i)
       if (const Coordinate& c = tree.coordinates[i]; c.joint < 0)

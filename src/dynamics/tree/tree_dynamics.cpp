@@ -4,12 +4,14 @@
 
 namespace clench {
 
-SpatialInertia SpatialInertia::of(const Body& body, const Pose& X_WB, const Eigen::Vector3d& about) {
+SpatialInertia SpatialInertia::of(const Body& body, const Pose& X_WB,
+                                  const Eigen::Vector3d& about) {
   const Eigen::Matrix3d R = X_WB.matrix();
   const Eigen::Vector3d c = R * body.com + X_WB.position - about;
   const Eigen::Matrix3d turning = R * (body.mass * body.inertia_per_mass) * R.transpose();
-  return {body.mass, body.mass * c,
-          turning + body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose())};
+  return {
+      body.mass, body.mass * c,
+      turning + body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose())};
 }
 
 Vector6d SpatialInertia::operator*(const Vector6d& motion) const {
@@ -27,7 +29,8 @@ static Vector6d cross_motion(const Vector6d& v, const Vector6d& m) {
 }
 
 static Vector6d cross_force(const Vector6d& v, const Vector6d& f) {
-  const Eigen::Vector3d w = v.tail<3>(), lin = v.head<3>(), force = f.head<3>(), torque = f.tail<3>();
+  const Eigen::Vector3d w = v.tail<3>(), lin = v.head<3>(), force = f.head<3>(),
+                        torque = f.tail<3>();
   Vector6d out;
   out << w.cross(force), w.cross(torque) + lin.cross(force);
   return out;
@@ -99,22 +102,24 @@ void TreeDynamics::find_mass_matrix() {
 }
 
 // by joint + 1: what must act on what the joint carries directly
-void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change, const Vector6d& root_twist,
-                               const Eigen::Vector3d& gravity) {
+void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change,
+                               const Vector6d& root_twist, const Eigen::Vector3d& gravity) {
   const auto& joints = tree_->joints;
   velocity_.resize(joints.size() + 1);
   acceleration_.resize(joints.size() + 1);
   force_.resize(joints.size() + 1);
   velocity_[0] = tree_->floating ? Vector6d(v.segment<6>(tree_->first)) : root_twist;
   acceleration_[0].setZero();
-  // of the root's centre of mass; seen from a point that stands, its surroundings accelerate against it
+  // of the root's centre of mass; seen from a point that stands, its surroundings accelerate
+  // against it
   if (tree_->floating && change) acceleration_[0] = change->segment<6>(tree_->first);
   acceleration_[0].head<3>() -= velocity_[0].tail<3>().cross(velocity_[0].head<3>());
   for (size_t i = 0; i < joints.size(); ++i) {
     const int c = tree_->first + joints[i].coordinate;
     const Vector6d moved = (joints[i].ratio * v[c]) * S_[i];
     velocity_[i + 1] = velocity_[joints[i].parent + 1] + moved;
-    acceleration_[i + 1] = acceleration_[joints[i].parent + 1] + cross_motion(velocity_[i + 1], moved);
+    acceleration_[i + 1] =
+        acceleration_[joints[i].parent + 1] + cross_motion(velocity_[i + 1], moved);
     if (change) acceleration_[i + 1] += (joints[i].ratio * (*change)[c]) * S_[i];
   }
   for (size_t i = 0; i <= joints.size(); ++i) {
@@ -142,8 +147,10 @@ const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const V
   return bias_;
 }
 
-const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change,
-                                                          const Vector6d& root_twist, const Eigen::Vector3d& gravity,
+const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd& v,
+                                                          const Eigen::VectorXd& change,
+                                                          const Vector6d& root_twist,
+                                                          const Eigen::Vector3d& gravity,
                                                           const std::vector<Vector6d>& loads) {
   const auto& joints = tree_->joints;
   joint_efforts_.assign(joints.size(), 0);
@@ -165,12 +172,14 @@ Eigen::VectorXd TreeDynamics::weight(const World& world) const {
     force << mass * world.gravity(), moment.cross(world.gravity());
     out[joints[joint].coordinate] -= joints[joint].ratio * S_[joint].dot(force);
   };
-  for (int i = 0; i < static_cast<int>(joints.size()); ++i) carry(i, all_[i + 1].mass, all_[i + 1].moment);
+  for (int i = 0; i < static_cast<int>(joints.size()); ++i)
+    carry(i, all_[i + 1].mass, all_[i + 1].moment);
   for (size_t b = 0; b < tree_->bodies.size(); ++b) {
     const TreeBody& part = tree_->bodies[b];
     const double mass = part.welded ? world.body(part.body).mass : 0;
     if (mass > 0)
-      for (int i = part.joint; i >= 0; i = joints[i].parent) carry(i, -mass, -mass * (com_[b] - about_));
+      for (int i = part.joint; i >= 0; i = joints[i].parent)
+        carry(i, -mass, -mass * (com_[b] - about_));
   }
   return out;
 }
@@ -213,8 +222,9 @@ void TreeDynamics::other_half_solve(Eigen::Ref<Eigen::VectorXd> x) const {
   L_.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
 }
 
-void TreeDynamics::add_linear(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction,
-                              double sign, Eigen::Ref<Eigen::VectorXd> column) const {
+void TreeDynamics::add_linear(int body, const Eigen::Vector3d& p_W,
+                              const Eigen::Vector3d& direction, double sign,
+                              Eigen::Ref<Eigen::VectorXd> column) const {
   const Eigen::Vector3d force = sign * direction, torque = (p_W - about_).cross(force);
   if (tree_->floating) {
     column.head<3>() += force;
@@ -233,14 +243,16 @@ void TreeDynamics::add_angular(int body, const Eigen::Vector3d& direction, doubl
     column[tree_->joints[j].coordinate] += tree_->joints[j].ratio * S_[j].tail<3>().dot(torque);
 }
 
-Vector6d TreeDynamics::motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const {
+Vector6d TreeDynamics::motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v,
+                              const Vector6d& root_twist) const {
   Vector6d out = tree_->floating ? Vector6d(v.head<6>()) : root_twist;
   for (int j = tree_->bodies[body].joint; j >= 0; j = tree_->joints[j].parent)
     out += (tree_->joints[j].ratio * v[tree_->joints[j].coordinate]) * S_[j];
   return out;
 }
 
-Twist TreeDynamics::twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const {
+Twist TreeDynamics::twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v,
+                          const Vector6d& root_twist) const {
   const Vector6d m = motion(body, v, root_twist);
   const Eigen::Vector3d w = m.tail<3>();
   return {m.head<3>() + w.cross(com_[body] - about_), w};

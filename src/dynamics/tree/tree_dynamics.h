@@ -1,6 +1,7 @@
 // Masses and forces of an articulated system as its coordinates feel them.
-// source  Featherstone (2008), Rigid Body Dynamics Algorithms: recursive Newton-Euler (5.3), composite rigid bodies (6.2). All
-//         spatial vectors are (linear, angular) in world axes about one point, so nothing is transformed on the way
+// source  Featherstone (2008), Rigid Body Dynamics Algorithms: recursive Newton-Euler (5.3),
+//         composite rigid bodies (6.2). All spatial vectors are (linear, angular) in world axes
+//         about one point, so nothing is transformed on the way
 #pragma once
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace clench {
 /// Of a rigid body or several, about a point, in world axes.
 struct SpatialInertia {
   double mass = 0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();    ///< mass times the centre of mass from the point [kg m]
-  Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();   ///< about the point [kg m^2]
+  /// mass times the centre of mass from the point [kg m]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();  ///< about the point [kg m^2]
 
   static SpatialInertia of(const Body& body, const Pose& X_WB, const Eigen::Vector3d& about);
   void add(const SpatialInertia& other) {
@@ -34,18 +36,26 @@ class TreeDynamics {
   /// root_twist  of a root that moves as prescribed, at the point about() [m/s, rad/s]
   /// gravity     [m/s^2]
   /// returns     bias, one per coordinate [N or N m]
-  const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
-  /// What must act on each joint, beside what acts on bodies, so that velocities change as they do. Recursive Newton and Euler.
+  const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
+                                   const Eigen::Vector3d& gravity);
+  /// What must act on each joint, beside what acts on bodies, so that velocities change as they do.
+  /// Recursive Newton and Euler.
   /// change  of the coordinates' velocities [m/s^2, rad/s^2]
   /// loads   on the bodies, (force, torque about about()), by the tree's bodies; or none
   /// returns one per joint of the tree, for its own unit [N m or N]
-  const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v, const Eigen::VectorXd& change, const Vector6d& root_twist,
-                                              const Eigen::Vector3d& gravity, const std::vector<Vector6d>& loads);
-  /// What on each coordinate carries the weight of all that it moves, less what is welded to it [N m or N].
+  const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v,
+                                              const Eigen::VectorXd& change,
+                                              const Vector6d& root_twist,
+                                              const Eigen::Vector3d& gravity,
+                                              const std::vector<Vector6d>& loads);
+  /// What on each coordinate carries the weight of all that it moves, less what is welded to it [N
+  /// m or N].
   Eigen::VectorXd weight(const World& world) const;
-  /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at once.
+  /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at
+  /// once.
   Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
-  /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at the step's end), and factors.
+  /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at
+  /// the step's end), and factors.
   void factor(const Eigen::VectorXd& added_to_diagonal);
 
   const Eigen::MatrixXd& mass_matrix() const { return M_; }
@@ -55,26 +65,32 @@ class TreeDynamics {
   /// x = L^-T x, in place
   void other_half_solve(Eigen::Ref<Eigen::VectorXd> x) const;
 
-  /// How coordinates move a point of a body: adds sign * direction . velocity to a column, and that of turning about it.
-  void add_linear(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction, double sign,
-                  Eigen::Ref<Eigen::VectorXd> column) const;
-  void add_angular(int body, const Eigen::Vector3d& direction, double sign, Eigen::Ref<Eigen::VectorXd> column) const;
+  /// How coordinates move a point of a body: adds sign * direction . velocity to a column, and that
+  /// of turning about it.
+  void add_linear(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction,
+                  double sign, Eigen::Ref<Eigen::VectorXd> column) const;
+  void add_angular(int body, const Eigen::Vector3d& direction, double sign,
+                   Eigen::Ref<Eigen::VectorXd> column) const;
   /// Of its centre of mass.
-  Twist twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
+  Twist twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v,
+              const Vector6d& root_twist) const;
   const Eigen::Vector3d& com(int body) const { return com_[body]; }
 
  private:
   // spatial velocity of a body at about()
-  Vector6d motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v, const Vector6d& root_twist) const;
+  Vector6d motion(int body, const Eigen::Ref<const Eigen::VectorXd>& v,
+                  const Vector6d& root_twist) const;
   void place_joints(const World& world);
   void find_mass_matrix();
-  void find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change, const Vector6d& root_twist, const Eigen::Vector3d& gravity);
+  void find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change,
+                   const Vector6d& root_twist, const Eigen::Vector3d& gravity);
 
   const Articulation* tree_ = nullptr;
   Eigen::Vector3d about_ = Eigen::Vector3d::Zero();
-  std::vector<Vector6d> S_;                 // by joint, for its own unit speed
-  std::vector<Eigen::Vector3d> com_;        // by body
-  std::vector<SpatialInertia> own_, all_;   // by joint + 1, the root first: of what it carries directly, and with all beyond
+  std::vector<Vector6d> S_;           // by joint, for its own unit speed
+  std::vector<Eigen::Vector3d> com_;  // by body
+  std::vector<SpatialInertia> own_,
+      all_;  // by joint + 1, the root first: of what it carries directly, and with all beyond
   std::vector<Vector6d> velocity_, acceleration_, force_;
   std::vector<double> joint_efforts_;
   Eigen::MatrixXd M_, L_;

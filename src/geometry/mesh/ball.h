@@ -11,8 +11,9 @@ struct Sphere {
   double radius = 0;                                 ///< [m]
 };
 
-/// The ball that a closed mesh is a tessellation of: all its vertices lie on one sphere, to a millionth of its radius, and
-/// it fills at least 95 % of it. A cap or a bowl does not, nor does a cube.
+/// The ball that a closed mesh is a tessellation of: all its vertices lie on one sphere, to a
+/// millionth of its radius, and it fills at least 95 % of it. A cap or a bowl does not, nor does a
+/// cube.
 /// volume  that it encloses [m^3]
 std::optional<Sphere> ball_of(const Mesh& mesh, double volume);
 

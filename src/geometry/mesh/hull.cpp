@@ -142,7 +142,8 @@ std::vector<Triangle> hull_triangles(const Hull& hull, const Eigen::MatrixXd& po
   for (size_t f = 0; f < hull.facets.size(); ++f) {
     Triangle t = {hull.facets[f][0], hull.facets[f][1], hull.facets[f][2]};
     const auto edge = [&](int k) -> Eigen::Vector3d { return points.col(t[k]) - points.col(t[0]); };
-    if (edge(1).cross(edge(2)).dot(hull.normals.col(static_cast<int>(f))) < 0) std::swap(t[1], t[2]);
+    if (edge(1).cross(edge(2)).dot(hull.normals.col(static_cast<int>(f))) < 0)
+      std::swap(t[1], t[2]);
     out.push_back(t);
   }
   return out;

@@ -22,7 +22,8 @@ double doubled_area(const std::array<Vector3d, 3>& c) {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-// Numbers by the vertex that each belongs to, sorted at each: a sort whose time goes with their count.
+// Numbers by the vertex that each belongs to, sorted at each: a sort whose time goes with their
+// count.
 class ByVertex {
  public:
   explicit ByVertex(size_t vertices) : start_(vertices + 1, 0) {}

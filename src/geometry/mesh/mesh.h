@@ -12,7 +12,8 @@ namespace clench {
 
 using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise from outside
 
-/// Of a vertex, as of where things stand in a world; a thousand times beyond it queries lose digits [m].
+/// Of a vertex, as of where things stand in a world; a thousand times beyond it queries lose digits
+/// [m].
 inline constexpr double largest_coordinate = 1e9;
 
 /// Axis-aligned bounds; empty when low > high.
@@ -60,8 +61,8 @@ struct MeshFaults {
 /// Has the triangle a vertex twice, or no more area than rounding leaves of three points in a line?
 bool without_area(const Mesh& mesh, int triangle);
 
-/// Do all vertices lie on or behind the plane of every triangle, up to rounding? False also of what would take long to tell:
-/// of meshes with more than some 700 triangles.
+/// Do all vertices lie on or behind the plane of every triangle, up to rounding? False also of what
+/// would take long to tell: of meshes with more than some 700 triangles.
 bool is_convex(const Mesh& mesh);
 
 /// throws Stopped

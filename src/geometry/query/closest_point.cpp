@@ -49,8 +49,7 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   // what is found is at least as near as the corners of the seed
   double reach = std::numeric_limits<double>::infinity();
   if (shape.has_triangle(seed)) {
-    for (const int v : mesh.triangles[seed])
-      reach = std::min(reach, (mesh.vertices[v] - p).norm());
+    for (const int v : mesh.triangles[seed]) reach = std::min(reach, (mesh.vertices[v] - p).norm());
     reach += rounding;
   }
   for_near_triangles(shape.tree(), from.data(), rounding, reach, true, [&](int triangle) {

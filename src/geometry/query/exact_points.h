@@ -1,5 +1,5 @@
-// Nearest points of several triangles to one point at once, in double precision. For the queries of this module
-// only. Includes no Eigen: it may be compiled for the machine at hand.
+// Nearest points of several triangles to one point at once, in double precision. For the queries of
+// this module only. Includes no Eigen: it may be compiled for the machine at hand.
 #pragma once
 #include "clench/geometry/tree/lanes.h"
 
@@ -14,8 +14,8 @@ struct CornerLanes {
 };
 
 struct alignas(32) NearestToPoint {
-  double squared[point_step];   ///< distance [m^2]
-  double q[3][point_step];  ///< on the triangle
+  double squared[point_step];  ///< distance [m^2]
+  double q[3][point_step];     ///< on the triangle
 };
 
 /// point_triangle of each, to the bit.

@@ -12,8 +12,8 @@ namespace clench {
 
 namespace {
 
-// so many pairs are judged at once, as soon as a leaf is done: fewer would leave lanes idle, more would
-// let the limit wait
+// so many pairs are judged at once, as soon as a leaf is done: fewer would leave lanes idle, more
+// would let the limit wait
 constexpr int patience = 4;
 
 template <class F>
@@ -104,7 +104,8 @@ class PairWalk {
     return judge(visit);
   }
 
-  // Bounds of the eight boxes of a bundle of one tree against a box of the other.   returns those in reach
+  // Bounds of the eight boxes of a bundle of one tree against a box of the other.   returns those
+  // in reach
   unsigned open(bool open_a, int bundle, int box, Real* bounds) {
     const BoxBundle& from = open_a ? a_.boxes(bundle) : b_.boxes(bundle);
     const auto rows_a = boxes_a_(open_a ? bundle : box / 8);

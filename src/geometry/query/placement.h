@@ -47,7 +47,8 @@ class Placement {
   const Eigen::Vector3d& position() const { return position_; }
   const TreePair& trees() const { return trees_; }
   double rounding() const { return trees_.rounding; }
-  /// Is it soon seen that the solids are farther apart than reach [m]? Looks first where the cache remembers.
+  /// Is it soon seen that the solids are farther apart than reach [m]? Looks first where the cache
+  /// remembers.
   bool clearly_apart(double reach, PairCache* cache = nullptr) const;
 
  private:

@@ -23,8 +23,8 @@ Triple<Real> triple(const double v[3]) {
   return {static_cast<Real>(v[0]), static_cast<Real>(v[1]), static_cast<Real>(v[2])};
 }
 
-// Depth first, the child of least bound on top. bounds(boxes) gives eight of them, or their squares where limit() is
-// one; judge(leaf) ends the walk by returning true; limit() may sink on the way.
+// Depth first, the child of least bound on top. bounds(boxes) gives eight of them, or their squares
+// where limit() is one; judge(leaf) ends the walk by returning true; limit() may sink on the way.
 template <class F, class Bounds, class Judge, class Limit>
 bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
@@ -35,7 +35,8 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   while (height > 0) {
     Task<Real> task = stack[--height];
     if (task.bound > limit()) continue;
-    // down to the child of least bound, while the others wait: their order would cost more than it spares
+    // down to the child of least bound, while the others wait: their order would cost more than it
+    // spares
     while (!(task.child & 1)) {
       const BoxBundle& from = tree.boxes(task.child >> 1);
       const F gaps = bounds(load_boxes<F>(from));

@@ -21,12 +21,12 @@ struct PairMeasure {
   double clear = 0;  ///< the solids were at least this far apart; 0 when unknown [m]
 };
 
-/// What a pair of shapes remembers between queries. It changes how fast an answer comes and no bit of
-/// it: of several pairs equally near the first in the order of triangles is the answer.
+/// What a pair of shapes remembers between queries. It changes how fast an answer comes and no bit
+/// of it: of several pairs equally near the first in the order of triangles is the answer.
 struct PairCache {
   int closest_a = -1, closest_b = -1;  ///< triangles of the last closest pair
   int hit_a = -1, hit_b = -1;          ///< triangles that met, when they were last asked
-  float hit_rate = 0;                  ///< how often it collided of late, of those times that it was asked
+  float hit_rate = 0;  ///< how often it collided of late, of those times that it was asked
   /// along which b may lie beyond a, in the frame of a, unit; zero when unknown
   Eigen::Vector3d separation = Eigen::Vector3d::Zero();
   PairMeasure measured = {};
@@ -50,10 +50,11 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB,
                   double limit = std::numeric_limits<double>::infinity(),
                   PairCache* cache = nullptr);
 
-/// A lower bound of the distance of the surfaces, found sooner than that: at least `part` of it, in (0, 1], or `limit` when
-/// it is not below that [m], but for some 1e-5 of the shapes' extent; 0 when they meet or rounding does not tell them apart.
-/// near  a pair of triangles where they may be nearest, -1 when unknown; where they nearly are, afterwards. The same pose, limit, part
-///       and pair give the same bound
+/// A lower bound of the distance of the surfaces, found sooner than that: at least `part` of it, in
+/// (0, 1], or `limit` when it is not below that [m], but for some 1e-5 of the shapes' extent; 0
+/// when they meet or rounding does not tell them apart.
+/// near  a pair of triangles where they may be nearest, -1 when unknown; where they nearly are,
+///       afterwards. The same pose, limit, part and pair give the same bound
 double distance_bound(const Shape& a, const Shape& b, const Pose& X_AB, double limit, double part,
                       std::array<int, 2>& near);
 

@@ -9,9 +9,10 @@
 
 namespace clench {
 
-// Walks whose reach is known from the start: which triangles may meet, or be within a threshold. What
-// they name is judged exactly, and all of it is named, so neither the order of the walk nor the rounding
-// of its bounds shows in an answer: the compiler may contract products and sums in this file.
+// Walks whose reach is known from the start: which triangles may meet, or be within a threshold.
+// What they name is judged exactly, and all of it is named, so neither the order of the walk nor
+// the rounding of its bounds shows in an answer: the compiler may contract products and sums in
+// this file.
 namespace {
 
 // When one pair that meets is enough, so many are judged as soon as a leaf is done.
@@ -52,8 +53,8 @@ class ReachWalk {
   }
 
  private:
-  // boxes are named by eight times their bundle and their lane; leaves have no size, so that what is opened
-  // is always the larger one
+  // boxes are named by eight times their bundle and their lane; leaves have no size, so that what
+  // is opened is always the larger one
   struct Task {
     Real gap;
     int32_t box_a, box_b, child_a, child_b;
@@ -99,8 +100,8 @@ class ReachWalk {
     return height;
   }
 
-  // The triangles of a leaf in the frame of a: their bounds along the axes, and their planes, unit normal
-  // and offsets between which the corners lie.
+  // The triangles of a leaf in the frame of a: their bounds along the axes, and their planes, unit
+  // normal and offsets between which the corners lie.
   struct Side {
     int leaf = -1;
     Real corners[9][8];
@@ -168,7 +169,8 @@ class ReachWalk {
     return {rows[3 * corner][lane], rows[3 * corner + 1][lane], rows[3 * corner + 2][lane]};
   }
 
-  // which of b's triangles are in reach of triangle i of a, by the axes of a's frame and the planes of both
+  // which of b's triangles are in reach of triangle i of a, by the axes of a's frame and the planes
+  // of both
   CLENCH_INLINE unsigned near_row(int i, unsigned expected) const {
     const Side &a = side_a_, &b = side_b_;
     F squared = F::all(0);

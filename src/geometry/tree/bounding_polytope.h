@@ -1,5 +1,5 @@
-// A polytope of some corners that holds a mesh: where two of them lie apart the meshes do, which is soon
-// known. Single precision, about the tree's centre; includes no Eigen.
+// A polytope of some corners that holds a mesh: where two of them lie apart the meshes do, which is
+// soon known. Single precision, about the tree's centre; includes no Eigen.
 #pragma once
 #include "clench/geometry/tree/lanes.h"
 
@@ -14,8 +14,8 @@ struct BoundingPolytope {
   static constexpr int max_bundles = 16;
   static constexpr int max_corners = max_bundles * lane_count;
 
-  /// None is farther than 1.8 r from the centre, r the tree's radius. By rounding, u = 2^-24, the mesh
-  /// may reach 16 u r beyond them.
+  /// None is farther than 1.8 r from the centre, r the tree's radius. By rounding, u = 2^-24, the
+  /// mesh may reach 16 u r beyond them.
   PointBundle corners[max_bundles];
   int bundles = 0;  ///< that are used, the first ones
 };

@@ -1,9 +1,9 @@
 // One box, point or ray against eight boxes at once. For the queries of this module only.
 //
 // Bounds are lower bounds of distances up to the slack of the query, which the caller takes off. In
-// single precision, u = 2^-24, lengths at most l (the query's extent): a centre moved into the other
-// frame is off by 5 u l a coordinate, its difference along an axis by 14 u l, the shadow of a box
-// by 16 u l for the rounding of the product of the frames and 8 u l because stored axes are
+// single precision, u = 2^-24, lengths at most l (the query's extent): a centre moved into the
+// other frame is off by 5 u l a coordinate, its difference along an axis by 14 u l, the shadow of a
+// box by 16 u l for the rounding of the product of the frames and 8 u l because stored axes are
 // orthonormal up to 2 u only, and the root of the sum of squares by 4 u l: 42 u l in all, 64 u l
 // are taken. In double precision stored axes are made orthonormal, and the boxes grown by that.
 #pragma once
@@ -43,8 +43,7 @@ CLENCH_INLINE BoxOf<F> load_boxes(const BoxBundle& from) {
     out.half[k] = F::load(from.half[k]);
   }
   out.centre = {F::load(from.centre[0]), F::load(from.centre[1]), F::load(from.centre[2])};
-  if constexpr (sizeof(typename F::Real) == 8)
-    straighten(out, F::load(from.size) * straightened);
+  if constexpr (sizeof(typename F::Real) == 8) straighten(out, F::load(from.size) * straightened);
   return out;
 }
 
@@ -97,8 +96,8 @@ CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& o
   return select(squared > Real{0}, sqrt(squared), min_deep);
 }
 
-/// The largest gap along any axis of the two, or the least depth where all of them show an overlap: a
-/// lower bound of the distance too, not as tight as box_gaps, and cheaper.
+/// The largest gap along any axis of the two, or the least depth where all of them show an overlap:
+/// a lower bound of the distance too, not as tight as box_gaps, and cheaper.
 template <class F>
 CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
   const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
@@ -119,8 +118,9 @@ CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& 
   return most;
 }
 
-/// The largest gap along the products of their axes, which are at most 1 long; 0 for none: a lower bound too.
-/// Its rounding, by the count above: 37 u l of the products, 17 u l of the shadows, 8 u l of the axes.
+/// The largest gap along the products of their axes, which are at most 1 long; 0 for none: a lower
+/// bound too. Its rounding, by the count above: 37 u l of the products, 17 u l of the shadows, 8 u
+/// l of the axes.
 template <class F>
 CLENCH_INLINE F edge_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
   const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,

@@ -1,5 +1,5 @@
-// The boxes of a tree in the frame of a query: a bundle is moved when first asked for, and kept, as a
-// query comes back to most of them. For the walks only.
+// The boxes of a tree in the frame of a query: a bundle is moved when first asked for, and kept, as
+// a query comes back to most of them. For the walks only.
 #pragma once
 #include <cstddef>
 

@@ -32,7 +32,8 @@ class PointBundles {
   std::vector<PointBundle> bundles_;
 };
 
-// A box whose corners are cut off, the one farthest from the points first, as long as there is room.
+// A box whose corners are cut off, the one farthest from the points first, as long as there is
+// room.
 class PolytopeCutter {
  public:
   PolytopeCutter(const std::vector<Vector3d>& points, const Eigen::Matrix3d& axes)
@@ -82,7 +83,8 @@ class PolytopeCutter {
   };
 
   // From about the nearest point of their hull.
-  // source  Gilbert (1966), an iterative procedure for the minimum of a quadratic form on a convex set
+  // source  Gilbert (1966), an iterative procedure for the minimum of a quadratic form on a convex
+  //         set
   void find_excess(Corner& corner) const {
     Vector3d to = corner.at - sample_.farthest_along(corner.at);
     for (int i = 0; i < 8; ++i) {
@@ -100,7 +102,8 @@ class PolytopeCutter {
     corner.excess = corner.at.dot(corner.out) - height;
   }
 
-  // cuts off what lies beyond the points on the corner's side, if there is room for what comes instead
+  // cuts off what lies beyond the points on the corner's side, if there is room for what comes
+  // instead
   bool cut(const Corner& worst) {
     const Vector3d n = worst.out;
     double offset;

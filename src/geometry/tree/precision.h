@@ -8,8 +8,8 @@ namespace clench {
 
 /// extent  of a query: no coordinate in it is larger [m]
 /// sizes   sum of the radii of the trees in it
-/// Single precision where it tells parts of the trees from each other, and no product of four lengths leaves its
-/// range.
+/// Single precision where it tells parts of the trees from each other, and no product of four
+/// lengths leaves its range.
 CLENCH_INLINE bool single_is_enough(double extent, double sizes) {
   return extent > 1e-4 && extent < 1e6 && extent < 256 * sizes;
 }

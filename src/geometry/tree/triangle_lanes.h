@@ -1,10 +1,10 @@
-// Eight pairs of triangles at once, and a point or ray against eight triangles: bounds that let most
-// of them go before the exact tests in double. For the queries of this module only.
+// Eight pairs of triangles at once, and a point or ray against eight triangles: bounds that let
+// most of them go before the exact tests in double. For the queries of this module only.
 //
 // Any direction n gives a lower bound, the gap between the two shadows along it over |n|, so how n
-// was found need not be exact. The shadows are: corners off by 9 u l a coordinate at most (moved into
-// the other frame), 16 u l along n, products and sums by 4 u l more, of both triangles and the root
-// 44 u l in all; the query's slack of 64 u l covers it.
+// was found need not be exact. The shadows are: corners off by 9 u l a coordinate at most (moved
+// into the other frame), 16 u l along n, products and sums by 4 u l more, of both triangles and the
+// root 44 u l in all; the query's slack of 64 u l covers it.
 #pragma once
 #include <limits>
 
@@ -38,7 +38,8 @@ CLENCH_INLINE TrianglesOf<F> moved(const TrianglesOf<F>& from, const Move<typena
 
 /// The gap of a's shadow below b's along n, not divided by the length of n.
 template <class F>
-CLENCH_INLINE F projected_gap(const TrianglesOf<F>& a, const TrianglesOf<F>& b, const Triple<F>& n) {
+CLENCH_INLINE F projected_gap(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
+                              const Triple<F>& n) {
   const F low = min(min(dot(b.corner[0], n), dot(b.corner[1], n)), dot(b.corner[2], n));
   const F high = max(max(dot(a.corner[0], n), dot(a.corner[1], n)), dot(a.corner[2], n));
   return low - high;
@@ -172,7 +173,7 @@ CLENCH_INLINE unsigned edges_within_reach(const TrianglesOf<F>& a, const Triangl
 template <class F>
 struct PointBounds {
   F squared_high;  ///< the square of an upper bound
-  F height;        ///< the square root of that times a lower bound; that bound itself may not be a number
+  F height;  ///< the square root of that times a lower bound; that bound itself may not be a number
 };
 
 template <class F>

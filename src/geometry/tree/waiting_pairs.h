@@ -26,7 +26,8 @@ class WaitingPairs {
     pairs_[count_++] = pair;
   }
 
-  /// Calls judge(a, b, lanes, pairs) for those that wait, if there are any; none do then.   returns what judge does
+  /// Calls judge(a, b, lanes, pairs) for those that wait, if there are any; none do then.   returns
+  /// what judge does
   template <class Judge>
   CLENCH_INLINE bool take(Judge&& judge) {
     const int count = count_;

@@ -46,26 +46,28 @@ Separation find_separation(const TreePair& pair, double reach, const double star
 /// Finds all pairs of triangles that may be as near as the reach.
 void find_pairs_within(const TreePair& pair, double reach, std::vector<NearPair>& out);
 
-/// Finds all pairs of triangles within the reach that may be the nearest. Those that may meet are shown
-/// to `meet` on the way, which ends the walk by returning true.
+/// Finds all pairs of triangles within the reach that may be the nearest. Those that may meet are
+/// shown to `meet` on the way, which ends the walk by returning true.
 bool find_nearest_pairs(const TreePair& pair, const Reach& reach, std::vector<NearPair>& out,
                         PairVisit meet);
 
-/// A lower bound of a distance [m], 0 where triangles meet, and the pair that is nearest as far as was looked; -1: none.
+/// A lower bound of a distance [m], 0 where triangles meet, and the pair that is nearest as far as
+/// was looked; -1: none.
 struct DistanceBound {
   double lower = 0;
   NearPair pair{-1, -1};
 };
 
-/// At least the reach, or `part` of the distance where that is less. Surfaces are known to be as near as `nearest`.
+/// At least the reach, or `part` of the distance where that is less. Surfaces are known to be as
+/// near as `nearest`.
 DistanceBound bound_distance(const TreePair& pair, const Reach& reach, double part, double nearest,
                              PairVisit meet);
 
 /// Visits all pairs of triangles that may meet, likely ones early.
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit);
 
-/// Visits all triangles that may be as near to p (about the tree's centre) as reach [m]; of these, if
-/// nearest_only, all that may be the nearest. What visit returns ends nothing.
+/// Visits all triangles that may be as near to p (about the tree's centre) as reach [m]; of these,
+/// if nearest_only, all that may be the nearest. What visit returns ends nothing.
 void for_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
                         bool nearest_only, TriangleVisit visit);
 

@@ -79,7 +79,8 @@ void read_margin(const ForceProgram& p, bool interior, ForceResult& out) {
   if (out.margin <= noise * most) out.margin = 0;
 }
 
-// Is what is left small against a load, in force and in torque about the longest arm, each as the other at its end?
+// Is what is left small against a load, in force and in torque about the longest arm, each as the
+// other at its end?
 bool balances(double arm, const Vector6d& load, const Vector6d& left) {
   const auto force = [&](const Vector6d& w) { return w.head<3>().stableNorm(); };
   const auto torque = [&](const Vector6d& w) { return w.tail<3>().stableNorm(); };
@@ -172,8 +173,8 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   return out;
 }
 
-// What stands in the way of the largest part of the load that is held is the tightest of all proofs. Where no part is,
-// since motors or springs press too much, the solver's own.
+// What stands in the way of the largest part of the load that is held is the tightest of all
+// proofs. Where no part is, since motors or springs press too much, the solver's own.
 ForceCertificate best_certificate(const ForceProgram& p, const World& world, const Grasp& grasp,
                                   const ForceOptions& options) {
   if (!options.load.isZero(0)) {

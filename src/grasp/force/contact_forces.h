@@ -1,4 +1,5 @@
-// Which contact forces hold an object against a load, within friction, caps and what the hand's joints can give.
+// Which contact forces hold an object against a load, within friction, caps and what the hand's
+// joints can give.
 #pragma once
 #include "clench/grasp/force/force_options.h"
 
@@ -6,8 +7,8 @@ namespace clench {
 
 struct ContactForce {
   double normal = 0;  ///< [N]
-  Eigen::Vector2d tangential =
-      Eigen::Vector2d::Zero();                        ///< along x and y of contact_frame(n_W) [N]
+  /// along x and y of contact_frame(n_W) [N]
+  Eigen::Vector2d tangential = Eigen::Vector2d::Zero();
   double torsion = 0;                                 ///< about the normal [N m]
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();  ///< on the object [N]
   double margin = 0;  ///< distance from the edge of the cone; below 0: outside [N]
@@ -20,15 +21,16 @@ enum class ForceStatus {
   inaccurate,  ///< what was found does not pass its check: the best there is
 };
 
-/// Proof that a load is too much: a small motion of the object and of the hand's joints that gives way to it. Along it
-/// the load does more work than all that caps and motors can hold against it.
+/// Proof that a load is too much: a small motion of the object and of the hand's joints that gives
+/// way to it. Along it the load does more work than all that caps and motors can hold against it.
 struct ForceCertificate {
-  Vector6d twist =
-      Vector6d::Zero();  ///< of the object, world axes, about its centre of mass; |(v, rho w)| = 1
-  double power =
-      0;  ///< of the load along it, of the largest one where that was asked for [W at m/s]
-  double capacity =
-      0;  ///< most that caps, motors and springs give against it: less than the power; equal, of the largest load
+  /// of the object, world axes, about its centre of mass; |(v, rho w)| = 1
+  Vector6d twist = Vector6d::Zero();
+  /// of the load along it, of the largest one where that was asked for [W at m/s]
+  double power = 0;
+  /// most that caps, motors and springs give against it: less than the power; equal, of the largest
+  /// load
+  double capacity = 0;
   std::vector<double> separation_rates,
       sliding_rates;  ///< a contact: how fast the object leaves it, and slides along it [m/s]
   std::vector<double> force_limit_power;   ///< a contact: what of the capacity its cap gives [W]
@@ -43,8 +45,9 @@ struct ForceResult {
   std::vector<ContactForce> forces;        ///< one per contact of the grasp
   Vector6d unbalanced = Vector6d::Zero();  ///< load and forces together, world axes
   double residual = 0;                     ///< its length, torque over rho [N]
-  /// the least distance that a force keeps from the edge of its cone, and of `max_margin` from its cap; 0: some force lies
-  /// on its edge, and for `max_margin` no forces keep away from it, as without force closure [N]
+  /// the least distance that a force keeps from the edge of its cone, and of `max_margin` from its
+  /// cap; 0: some force lies on its edge, and for `max_margin` no forces keep away from it, as
+  /// without force closure [N]
   double margin = 0;
   Eigen::VectorXd efforts;  ///< of the hand's motors; without `joints`: that fit best [N m or N]
   double load_factor = 0;   ///< of max_load
@@ -55,8 +58,8 @@ struct ForceResult {
 /// throws  Error when an option is out of order, or as check_unmoved does
 ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options);
 
-/// The largest multiple of the load's direction, options.load, that forces balance, as load_factor; the objective does
-/// not count. unbounded: any. The certificate says what gives way beyond it.
+/// The largest multiple of the load's direction, options.load, that forces balance, as load_factor;
+/// the objective does not count. unbounded: any. The certificate says what gives way beyond it.
 /// throws  Error as above, and when the load is 0
 ForceResult max_load(const World& world, const Grasp& grasp, const ForceOptions& options);
 

@@ -19,7 +19,8 @@ struct EquilibriumOptions {
 
 struct Equilibrium {
   EquilibriumStatus status = EquilibriumStatus::inaccurate;
-  /// stable: the balance of least normal forces; unstable: what leaves the least wrench, and the proof in `certificate`
+  /// stable: the balance of least normal forces; unstable: what leaves the least wrench, and the
+  /// proof in `certificate`
   ForceResult result;
 };
 

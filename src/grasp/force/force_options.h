@@ -4,29 +4,32 @@
 
 namespace clench {
 
-/// What is best among the forces that balance; f_n normal force, f_t the rest: tangential force and torsion over its
-/// radius.
+/// What is best among the forces that balance; f_n normal force, f_t the rest: tangential force and
+/// torsion over its radius.
 enum class ForceObjective {
-  min_sum,  ///< least sum of normal forces   source  Han, Trinkle & Li (2000); Boyd & Wegbreit (2007)
-  min_norm,    ///< least sum of f_n^2 + |f_t|^2: the only one that is always unique
-  min_max,     ///< least largest normal force
-  max_margin,  ///< largest distance that each force keeps from the edge of its cone, and from its cap
+  /// least sum of normal forces   source  Han, Trinkle & Li (2000); Boyd & Wegbreit (2007)
+  min_sum,
+  min_norm,  ///< least sum of f_n^2 + |f_t|^2: the only one that is always unique
+  min_max,   ///< least largest normal force
+  /// largest distance that each force keeps from the edge of its cone, and from its cap
+  max_margin,
   max_margin_sum,  ///< largest sum of the distances from the cones
 };
 
 /// What the joints ask of the forces.
 struct JointDemand {
-  std::optional<Eigen::VectorXd>
-      limits;              ///< of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
-  bool unlimited = false;  ///< motors give whatever it takes
+  /// of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
+  std::optional<Eigen::VectorXd> limits;
+  bool unlimited = false;                       ///< motors give whatever it takes
   std::optional<Eigen::VectorXd> efforts = {};  ///< what the hand's motors give [N m or N]
-  /// tendons of compliant DOFs are held where they stand, and clutches of joints that have broken away give all they can
+  /// tendons of compliant DOFs are held where they stand, and clutches of joints that have broken
+  /// away give all they can
   bool springs_only = false;
   /// springs of compliant DOFs may be off their rest by springs_at_rest
   bool nearly_at_rest = false;
   bool unilateral = false;  ///< efforts that open the hand are not allowed
-  std::optional<double>
-      total_torque;           ///< sum of the hand's efforts, along which it closes [N m or N]
+  /// sum of the hand's efforts, along which it closes [N m or N]
+  std::optional<double> total_torque;
   bool arms = false;          ///< limits of the robots that carry the hand, too
   bool link_weights = false;  ///< motors hold the links up as well, and what robots they carry
 };

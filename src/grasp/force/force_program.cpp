@@ -17,7 +17,8 @@ constexpr double no_bound = std::numeric_limits<double>::infinity();
 MatrixXd number(double x) { return MatrixXd::Constant(1, 1, x); }
 VectorXd numbers(double x) { return VectorXd::Constant(1, x); }
 
-// t at least |u|: mu f_n less `back` of an unknown, against the tangential forces and the torsion over its radius
+// t at least |u|: mu f_n less `back` of an unknown, against the tangential forces and the torsion
+// over its radius
 void add_friction(ForceProgram& p, const Grasp& grasp, int i, int less, double back) {
   const PointContact& contact = grasp.points[i];
   const int count = p.map.starts[i + 1] - p.map.starts[i];
@@ -125,8 +126,8 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
   }
 }
 
-// Efforts that hold springs and weights without a contact, and what of those no effort holds: so that heavy links do not
-// hide small forces.
+// Efforts that hold springs and weights without a contact, and what of those no effort holds: so
+// that heavy links do not hide small forces.
 VectorXd efforts_at_rest(const JointBalance& joints, VectorXd& left) {
   left = joints.springs;
   if (joints.efforts.size() == 0) return VectorXd::Zero(joints.efforts.cols());

@@ -5,7 +5,8 @@
 
 namespace clench {
 
-/// f of the contacts, u of the joints, and what else the program asks for, with the rows that a proof is read from
+/// f of the contacts, u of the joints, and what else the program asks for, with the rows that a
+/// proof is read from
 struct ForceProgram {
   GraspMap map;
   Vector6d load_O = Vector6d::Zero();

@@ -6,7 +6,8 @@ namespace clench {
 
 namespace {
 
-// a robot on the way from the ground to the hand, and the link of it that carries the next one; the hand: none
+// a robot on the way from the ground to the hand, and the link of it that carries the next one; the
+// hand: none
 struct MovingRobot {
   Id<Robot> robot;
   int link = -1;

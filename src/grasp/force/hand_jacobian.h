@@ -12,12 +12,12 @@ struct JointRef {
 };
 
 struct HandJacobian {
-  /// forces x joints: velocity of the hand's side of each contact along what the grasp map's columns press with,
-  /// the joint at 1 [m, 1, rad and rad/m per unit of joint]. Its transpose times forces is the torque or force that
-  /// each joint must give.
+  /// forces x joints: velocity of the hand's side of each contact along what the grasp map's
+  /// columns press with, the joint at 1 [m, 1, rad and rad/m per unit of joint]. Its transpose
+  /// times forces is the torque or force that each joint must give.
   Eigen::MatrixXd of_joints;
-  std::vector<JointRef>
-      joints;  ///< those of the hand first; then, when asked for, of who carries it
+  /// those of the hand first; then, when asked for, of who carries it
+  std::vector<JointRef> joints;
 };
 
 struct JacobianOptions {
@@ -29,7 +29,8 @@ struct JacobianOptions {
 HandJacobian hand_jacobian(const World& world, const Grasp& grasp,
                            const JacobianOptions& options = {});
 
-/// Columns of the hand's DOFs: what its joints that have not broken away do together, by their ratios.
+/// Columns of the hand's DOFs: what its joints that have not broken away do together, by their
+/// ratios.
 ///
 /// returns  forces x DOFs
 Eigen::MatrixXd dof_jacobian(const World& world, const Grasp& grasp, const HandJacobian& jacobian);

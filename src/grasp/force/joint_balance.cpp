@@ -25,8 +25,8 @@ double spring_of(const World& world, const JointRef& ref) {
   return joint.spring > 0 ? -joint.spring * (world.joints(ref.robot)[ref.joint] - joint.rest) : 0;
 }
 
-// what the joints of a compliant DOF get of its effort: in free air the tendon holds their springs, and does the work
-// that the DOF does
+// what the joints of a compliant DOF get of its effort: in free air the tendon holds their springs,
+// and does the work that the DOF does
 struct TendonShares {
   bool sprung = true;  // has each joint a spring?
   double work = 0;     // of free motion: sum of k ratio^2, or of ratio^2
@@ -41,7 +41,8 @@ struct TendonShares {
   }
 };
 
-// what a compliant DOF's motor gives to stand where it does in free air: the work of its springs along its motion
+// what a compliant DOF's motor gives to stand where it does in free air: the work of its springs
+// along its motion
 double tendon_effort(const World& world, Id<Robot> id, int dof) {
   const Robot& robot = world.robot(id);
   const double q = world.dofs(id)[dof];

@@ -4,7 +4,8 @@
 
 namespace clench {
 
-/// Torque or force that gravity gives to a joint through all that it moves: links, and robots that it carries [N m or N].
+/// Torque or force that gravity gives to a joint through all that it moves: links, and robots that
+/// it carries [N m or N].
 double link_weight(const World& world, const JointRef& joint);
 
 }  // namespace clench

@@ -28,7 +28,8 @@ double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector
   for (const double axis : axes_W)
     if (!(axis > 0) || !std::isfinite(axis))
       fail("resistance: half axes of an ellipsoid must be > 0, got {} [N or N m]", axis);
-  // a flat ellipsoid needs no more than one that is a billionth thick, and the stretch to a ball keeps its digits
+  // a flat ellipsoid needs no more than one that is a billionth thick, and the stretch to a ball
+  // keeps its digits
   const Vector6d axes = axes_W.cwiseMax(1e-8 * axes_W.maxCoeff());
 
   // where the ellipsoid is a ball: along the world's axes, each over its half axis

@@ -18,7 +18,8 @@ struct ContactPolygon {
 };
 
 /// points  at least one, finite; those within a micrometre of another count once
-/// source  Roa & Suarez (2015), Grasp quality measures, sec. 2.2: shape and area of the grasp polygon
+/// source  Roa & Suarez (2015), Grasp quality measures, sec. 2.2: shape and area of the grasp
+///         polygon
 ContactPolygon contact_polygon(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace clench

@@ -65,7 +65,8 @@ const MeasuredGrasp::Maps& MeasuredGrasp::maps() {
   maps_->J = dof_jacobian(world_, grasp_, hand_jacobian(world_, grasp_));
   maps_->starts = map.starts;
   maps_->G.bottomRows(3) /= grasp_.rho;
-  // torsions as the friction that makes them, at the contact's own radius: within the cone the two share one bound
+  // torsions as the friction that makes them, at the contact's own radius: within the cone the two
+  // share one bound
   for (int i = 0; i < map.contacts(); ++i)
     if (map.starts[i + 1] - map.starts[i] == 4) {
       maps_->G.col(map.starts[i] + 3) *= grasp_.points[i].torsion_radius;
@@ -126,8 +127,8 @@ double polygon_irregularity(MeasuredGrasp& g) {
 }
 
 double gravity_effort(MeasuredGrasp& g) {
-  const ForceResult held =
-      contact_forces(g.world(), g.grasp(), {.load = weight_of(g.world(), g.world().body(g.grasp().object))});
+  const ForceResult held = contact_forces(
+      g.world(), g.grasp(), {.load = weight_of(g.world(), g.world().body(g.grasp().object))});
   return held.status == ForceStatus::optimal ? held.objective : unbounded;
 }
 
@@ -137,7 +138,8 @@ void each_place_in_range(const World& world, Id<Robot> id, Act act) {
   const Robot& robot = world.robot(id);
   const auto q = world.dofs(id);
   for (Index i = 0; i < q.size(); ++i)
-    if (const auto [low, high] = robot.limits[i]; high > low && std::isfinite(high - low) && !robot.endless[i])
+    if (const auto [low, high] = robot.limits[i];
+        high > low && std::isfinite(high - low) && !robot.endless[i])
       act((q[i] - low) / (high - low));
 }
 
@@ -159,7 +161,8 @@ double joint_deviation(MeasuredGrasp& g) {
   return count > 0 ? sum / count : unbounded;
 }
 
-// in the object frame; no axis where two moments differ by less than the facets of a round body make
+// in the object frame; no axis where two moments differ by less than the facets of a round body
+// make
 std::optional<Eigen::Vector3d> principal_axis(const Body& body) {
   constexpr double alike = 1e-3;  // of the largest moment
   const auto [moments, axes] = eigensystem(body.inertia_per_mass);
@@ -194,8 +197,8 @@ double coplanarity(MeasuredGrasp& g) {
   return std::sqrt(std::max(0.0, eigenvalues(scatter)[0] / static_cast<double>(distinct.size())));
 }
 
-// A contact that is off by d shifts its unit wrenches by d times their force, over rho: so much less
-// than before they reach in any direction.
+// A contact that is off by d shifts its unit wrenches by d times their force, over rho: so much
+// less than before they reach in any direction.
 double contact_position_tolerance(MeasuredGrasp& g) {
   double force = 1;
   for (const PointContact& c : g.grasp().points) force = std::max(force, std::hypot(1, c.mu));

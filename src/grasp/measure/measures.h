@@ -10,8 +10,8 @@
 
 namespace clench {
 
-/// A grasp being judged: what several measures need is calculated once. The world must stand as it did
-/// when the grasp was measured.
+/// A grasp being judged: what several measures need is calculated once. The world must stand as it
+/// did when the grasp was measured.
 class MeasuredGrasp {
  public:
   MeasuredGrasp(const MeasuredGrasp&) = delete;

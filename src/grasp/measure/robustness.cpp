@@ -15,7 +15,8 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-// singular values below this part of the largest are rounding: contact frames and levers are good to 1e-14
+// singular values below this part of the largest are rounding: contact frames and levers are good
+// to 1e-14
 constexpr double rank_part = 1e-10;
 
 void check_robustness_problem(const RobustnessProblem& p) {
@@ -56,7 +57,8 @@ std::vector<Index> held_rows(const RobustnessProblem& p, const std::vector<Conta
   return rows;
 }
 
-// The same problem with torques that count about as much as forces, and DOFs that move their fingers alike.
+// The same problem with torques that count about as much as forces, and DOFs that move their
+// fingers alike.
 struct EvenProblem : RobustnessProblem {
   Vector6d units = Vector6d::Ones();  // of wrenches, in the problem's own
 
@@ -112,8 +114,8 @@ double min_margin(const RobustnessProblem& p, const std::vector<ContactHold>& st
   return least;
 }
 
-// The bounds of contact forces f = start + span x, with the margin d between each and its bounds; the
-// unknowns are (d, x).
+// The bounds of contact forces f = start + span x, with the margin d between each and its bounds;
+// the unknowns are (d, x).
 class MarginProgram {
  public:
   MarginProgram(const RobustnessProblem& problem, VectorXd start, MatrixXd span)
@@ -294,8 +296,8 @@ class RobustnessSearch {
     states_[decided] = ContactHold::sticks;
   }
 
-  // No right inverse of G stretches less than the one of least norm, which stretches less with every row;
-  // and no margin is larger than with free forces that balance the load.
+  // No right inverse of G stretches less than the one of least norm, which stretches less with
+  // every row; and no margin is larger than with free forces that balance the load.
   double bound(size_t decided) const {
     const std::vector<Index> rows = held_rows(problem_, states_);
     const MatrixXd G = problem_.G(Eigen::all, rows);

@@ -17,8 +17,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // The deciding plane holds its corners within this.
 constexpr double plane_noise = 2e-13;
 
-// What all points are shifted by at most in one coordinate, attempt after attempt: the first with the
-// points as they are. Brackets grow by it.
+// What all points are shifted by at most in one coordinate, attempt after attempt: the first with
+// the points as they are. Brackets grow by it.
 constexpr double shifts[] = {0, 0, 0, 1e-11, 1e-11, 1e-11, 3e-11, 3e-11, 1e-10, 3e-10};
 
 // Memory that a thread's polytopes use one after the other.
@@ -74,7 +74,8 @@ class Growing {
   double limit_ = infinite;
 };
 
-// The set's own support, for the upper bound; the point may be shifted, always the same point alike.
+// The set's own support, for the upper bound; the point may be shifted, always the same point
+// alike.
 template <int D>
 double Growing<D>::support(const double* direction, double* point) {
   const double reach = set_.support(direction, point);
@@ -114,7 +115,8 @@ SimplexEnd Growing<D>::start(double zero) {
   return simplex.end;
 }
 
-// Turns the plane of a facet into the one that its corners span, as far as they do, and moves it in front of them.
+// Turns the plane of a facet into the one that its corners span, as far as they do, and moves it in
+// front of them.
 // unless   it is within that of them
 // returns  how far the worst corner lies from it
 template <int D>

@@ -1,16 +1,18 @@
-// Polytopes that grow inside a convex set until they tell what is asked of it: the largest ball about
-// the origin, or all facets. The set is known by its support function only. Includes no Eigen.
+// Polytopes that grow inside a convex set until they tell what is asked of it: the largest ball
+// about the origin, or all facets. The set is known by its support function only. Includes no
+// Eigen.
 //
-// The polytope starts as a simplex of points of the set. Its facet nearest to the origin asks how far the set
-// reaches along its normal: not beyond the facet means that the facet is one of the set, and as the set
-// contains the polytope, no other is nearer. Else the polytope expands to the point found: the
-// facets that see it go, and the rim that they leave is joined to it.
+// The polytope starts as a simplex of points of the set. Its facet nearest to the origin asks how
+// far the set reaches along its normal: not beyond the facet means that the facet is one of the
+// set, and as the set contains the polytope, no other is nearer. Else the polytope expands to the
+// point found: the facets that see it go, and the rim that they leave is joined to it.
 //
-// At every moment the nearest facet is a lower bound of the ball's radius and the least support found an
-// upper one. The lower bound needs no more than that the facets are closed around the origin, which
-// follows from how they are joined, and that each plane holds its points, which is checked for
-// the plane that decides; a wrong turn of rounding elsewhere costs time, not truth.
-// source  van den Bergen (2001), Proximity queries and penetration depth computation, in 3 dimensions
+// At every moment the nearest facet is a lower bound of the ball's radius and the least support
+// found an upper one. The lower bound needs no more than that the facets are closed around the
+// origin, which follows from how they are joined, and that each plane holds its points, which is
+// checked for the plane that decides; a wrong turn of rounding elsewhere costs time, not truth.
+// source  van den Bergen (2001), Proximity queries and penetration depth computation, in 3
+//         dimensions
 #pragma once
 #include <vector>
 
@@ -22,8 +24,8 @@ namespace clench {
 // Lengths are absolute: sets of size about one are meant.
 struct BallOptions {
   double tolerance = 1e-12;  ///< upper - lower that is enough, >= 1e-12
-  double zero =
-      1e-12;  ///< a set that reaches no farther in some direction leaves the origin outside
+  /// a set that reaches no farther in some direction leaves the origin outside
+  double zero = 1e-12;
   double at_least = 0;         ///< > 0: enough to know whether the radius is below this
   int max_points = 100000;     ///< of the polytope
   int max_facets = 2'000'000;  ///< at once
@@ -55,8 +57,8 @@ enum class FacetsEnd { complete, flat, too_many, failed };
 struct Facets {
   FacetsEnd end = FacetsEnd::failed;
   std::vector<double> points;  ///< dimension numbers a point
-  std::vector<int>
-      corners;  ///< dimension indices of points a facet, all facets turned the same way
+  /// dimension indices of points a facet, all facets turned the same way
+  std::vector<int> corners;
   double volume = 0;
 };
 

@@ -1,6 +1,6 @@
-// The surface of a polytope in D dimensions: facets that are simplices and know their neighbours, and
-// how it grows to a point outside. The facets that see the point go, and the rim that they leave is
-// joined to it. Includes no Eigen, as geometry/lanes.h does not.
+// The surface of a polytope in D dimensions: facets that are simplices and know their neighbours,
+// and how it grows to a point outside. The facets that see the point go, and the rim that they
+// leave is joined to it. Includes no Eigen, as geometry/lanes.h does not.
 //
 // What costs time is not arithmetic but guesses of the processor that fail, so the walks have no
 // branches that depend on which facets see the point.
@@ -21,12 +21,12 @@ namespace clench {
 /// a surface that rounding broke
 struct BrokenSurface {};
 
-/// A facet sees a point that lies farther beyond its plane than this: rounding of planes and products
-/// is some 1e-15, and what is nearer counts as in the plane.
+/// A facet sees a point that lies farther beyond its plane than this: rounding of planes and
+/// products is some 1e-15, and what is nearer counts as in the plane.
 inline constexpr double seen = 1e-13;
 
-/// A point, with 1 in the place behind its coordinates, or a plane,
-/// with minus its offset there: their product is the point's height above the plane. Zero elsewhere.
+/// A point, with 1 in the place behind its coordinates, or a plane, with minus its offset there:
+/// their product is the point's height above the plane. Zero elsewhere.
 struct alignas(64) Eight {
   double x[lane_count] = {};
 
@@ -248,8 +248,8 @@ void FacetComplex<D>::raise(int corner) {
 }
 
 // Neighbours along the new ridges: both sides have left their numbers at one place of the table, by
-// exclusive or, so that each finds the other unless a second ridge was there. Those that do not find
-// each other try again at other places.
+// exclusive or, so that each finds the other unless a second ridge was there. Those that do not
+// find each other try again at other places.
 template <int D>
 void FacetComplex<D>::join() {
   unmatched_.clear();

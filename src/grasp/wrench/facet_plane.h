@@ -64,8 +64,8 @@ Spread spread_along(const double* direction, const FacetCorners<D>& corners) {
   return out;
 }
 
-/// Turns a unit normal into that of the plane that D points span, as far as they do: the longest edges
-/// first, and what the shortest leave open stays as it was.
+/// Turns a unit normal into that of the plane that D points span, as far as they do: the longest
+/// edges first, and what the shortest leave open stays as it was.
 /// returns  how far the points lie along it
 template <int D>
 Spread true_normal(double* normal, const FacetCorners<D>& corners) {

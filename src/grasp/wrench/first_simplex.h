@@ -1,5 +1,5 @@
-// A simplex of points of a set around the origin, or on the way there, for a polytope to start with.
-// Includes no Eigen.
+// A simplex of points of a set around the origin, or on the way there, for a polytope to start
+// with. Includes no Eigen.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -94,8 +94,8 @@ Simplex<D> first_simplex(const Support& support, uint64_t seed, double zero) {
       if (reach <= zero) return ended(SimplexEnd::outside);
       best = reach + length;
     }
-    // the origin is near, or beyond all points: both ways along one direction, and others where that
-    // leads nowhere
+    // the origin is near, or beyond all points: both ways along one direction, and others where
+    // that leads nowhere
     for (int trial = 0; trial < 8 && best < near; ++trial) {
       do {
         for (int i = 0; i < D; ++i) u[i] = random();

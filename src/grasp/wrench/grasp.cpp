@@ -33,11 +33,14 @@ static Pose hand_in_object(const World& world, Id<Robot> hand, Id<Body> object) 
 // of metres and radians: a hundredth of the usual contact threshold, far above rounding
 static constexpr double moved = 1e-6;
 
-static bool has_moved(const Pose& off) { return off.position.norm() > moved || off.angle() > moved; }
+static bool has_moved(const Pose& off) {
+  return off.position.norm() > moved || off.angle() > moved;
+}
 
 void check_unmoved(const World& world, const Grasp& grasp) {
   if (!grasp.X_OH) return;
-  const bool object = has_moved(grasp.X_OH->inverse() * hand_in_object(world, grasp.hand, grasp.object));
+  const bool object =
+      has_moved(grasp.X_OH->inverse() * hand_in_object(world, grasp.hand, grasp.object));
   const bool joints =
       !std::ranges::equal(grasp.joints, world.joints(grasp.hand),
                           [](double a, double b) { return std::abs(a - b) <= moved; });
@@ -116,7 +119,8 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   return grasp;
 }
 
-// values of all DOFs of a hand: those of the grasp, by their names where it has them, the others as they are
+// values of all DOFs of a hand: those of the grasp, by their names where it has them, the others as
+// they are
 static Eigen::VectorXd dofs_for(const World& world, Id<Robot> hand, const GraspSpec& grasp,
                                 const std::string& place) {
   const Robot& robot = world.robot(hand);
@@ -132,25 +136,29 @@ static Eigen::VectorXd dofs_for(const World& world, Id<Robot> hand, const GraspS
              instead_of(grasp.dof_names[i], names));
     }
     const std::string unit = i < grasp.dof_units.size() ? grasp.dof_units[i] : "",
-                      own = d < names.size() && dof_slides(robot, static_cast<int>(d)) ? "m" : "rad";
+                      own =
+                          d < names.size() && dof_slides(robot, static_cast<int>(d)) ? "m" : "rad";
     if ((unit == "rad" || unit == "m") && unit != own)
-      fail("{}: DOF {}: expected a value in {}, got one in {}", place, in_quotes(names[d]), own, unit);
+      fail("{}: DOF {}: expected a value in {}, got one in {}", place, in_quotes(names[d]), own,
+           unit);
     q[static_cast<Eigen::Index>(d)] = grasp.dofs[i];
   }
   return q;
 }
 
 // joints of rigid DOFs have no positions of their own
-static void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q, const std::vector<double>& joints,
-                               const std::string& place) {
+static void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q,
+                               const std::vector<double>& joints, const std::string& place) {
   // of metres and radians: far above the rounding of a file
   constexpr double apart = 1e-6;
   for (size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = robot.joints[j];
     const double by_dof = joint.ratio * q[joint.dof];
     if (robot.dofs[joint.dof].kind == DofKind::rigid && !(std::abs(joints[j] - by_dof) <= apart))
-      fail("{}: joint {} stands at {}, and its DOF puts it at {}; without 'joints' the DOFs tell all", place, j + 1,
-           joints[j], by_dof);
+      fail(
+          "{}: joint {} stands at {}, and its DOF puts it at {}; without 'joints' the DOFs tell "
+          "all",
+          place, j + 1, joints[j], by_dof);
   }
 }
 
@@ -159,9 +167,10 @@ void apply_grasp(World& world, const GraspSpec& grasp) {
   const auto object = world.find_body(grasp.object_name);
   const auto missing = [&](const std::string& name, const char* what) {
     if (name.empty())
-      fail("grasp of {} by {}: it does not name its {}; one has to be given", in_quotes(grasp.object_name),
-           in_quotes(grasp.hand_name), what);
-    fail("grasp of {} by {}: there is no such {} in this world", grasp.object_name, grasp.hand_name, what);
+      fail("grasp of {} by {}: it does not name its {}; one has to be given",
+           in_quotes(grasp.object_name), in_quotes(grasp.hand_name), what);
+    fail("grasp of {} by {}: there is no such {} in this world", grasp.object_name, grasp.hand_name,
+         what);
   };
   if (!hand) missing(grasp.hand_name, "hand");
   if (!object) missing(grasp.object_name, "object");
@@ -185,8 +194,10 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
   if (robot.mounting) {
     const Pose off = grasp.X_OH->inverse() * hand_in_object(world, hand, object);
     if (has_moved(off))
-      fail("{}: robot '{}' carries the hand, {:.3g} m and {:.3g} rad from where it stood about the object: move that one", place,
-           world.robot(robot.mounting->parent).name, off.position.norm(), off.angle());
+      fail(
+          "{}: robot '{}' carries the hand, {:.3g} m and {:.3g} rad from where it stood about the "
+          "object: move that one",
+          place, world.robot(robot.mounting->parent).name, off.position.norm(), off.angle());
   } else {
     world.set_pose(hand, world.pose(object) * *grasp.X_OH);
   }

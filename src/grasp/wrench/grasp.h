@@ -15,20 +15,22 @@ struct Grasp : GraspSpec {
   mutable KeptSpaces spaces = {};
 };
 
-/// The contacts of palm, links and mount with the object, now. None is no error: such a grasp resists nothing.
-/// throws Error when edges are neither 3 to max_edges nor round_edges, rho <= 0, normal forces are
+/// The contacts of palm, links and mount with the object, now. None is no error: such a grasp
+/// resists nothing. throws Error when edges are neither 3 to max_edges nor round_edges, rho <= 0,
+/// normal forces are
 ///        not > 0 or not as many as the contacts, or the object is a part of a robot
 Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
                     const GraspOptions& options = {});
 
-/// What is asked of the world about a grasp wants hand and object to stand as they did when it was measured, wherever
-/// both have been moved.
+/// What is asked of the world about a grasp wants hand and object to stand as they did when it was
+/// measured, wherever both have been moved.
 /// throws  Error when they do not
 void check_unmoved(const World& world, const Grasp& grasp);
 
-/// Puts hand and joints where they stood about the object, wherever that is now. Nothing else moves; the hand may collide.
-/// DOFs are found by their names where the grasp has them; those that it does not name stay.
-/// throws Error when the world has no such hand or object, the hand has other DOFs or joints, a value lies outside its limits,
+/// Puts hand and joints where they stood about the object, wherever that is now. Nothing else
+/// moves; the hand may collide. DOFs are found by their names where the grasp has them; those that
+/// it does not name stay. throws Error when the world has no such hand or object, the hand has
+/// other DOFs or joints, a value lies outside its limits,
 ///        the grasp was put together by hand, or another robot carries the hand and holds it
 ///        elsewhere
 void apply_grasp(World& world, const GraspSpec& grasp);

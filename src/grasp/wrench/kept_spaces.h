@@ -22,7 +22,8 @@ struct GraspSpaceOptions {
 
 using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
 
-/// The last few, for spaces keep what they have found. A copy begins with none: a space is for one thread.
+/// The last few, for spaces keep what they have found. A copy begins with none: a space is for one
+/// thread.
 class KeptSpaces {
  public:
   KeptSpaces() = default;

@@ -1,5 +1,5 @@
-// Offsets of facets by number, of which the least is asked for again and again while many change each
-// time: blocks that know their own least, in no order. Includes no Eigen.
+// Offsets of facets by number, of which the least is asked for again and again while many change
+// each time: blocks that know their own least, in no order. Includes no Eigen.
 #pragma once
 #include <limits>
 #include <vector>

@@ -16,7 +16,8 @@ struct ProjectionOptions {
   std::vector<std::pair<int, double>> fixed =
       {};                           ///< coordinates at a value: a section of the space
   std::vector<int> projected = {};  ///< coordinates that may be anything: its projection
-  /// how far the space may reach beyond the mesh, as a part of its size, when a contact has a round cone
+  /// how far the space may reach beyond the mesh, as a part of its size, when a contact has a round
+  /// cone
   double tolerance = 1e-3;
   Progress progress = {};
 };
@@ -30,7 +31,8 @@ struct Projection {
 };
 
 /// throws  Error when three free coordinates are not left, one is named twice or does not count in
-///         the space, a number is not finite, the tolerance is not > 0, or nothing has the fixed values; Stopped
+///         the space, a number is not finite, the tolerance is not > 0, or nothing has the fixed
+///         values; Stopped
 Projection project(const WrenchSpace& space, const ProjectionOptions& options = {});
 
 }  // namespace clench

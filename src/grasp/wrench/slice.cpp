@@ -40,7 +40,8 @@ Slice::Slice(const SupportSet& set, const Eigen::VectorXd& values)
   }
   // their weights are alike: e_1 + ... + e_m - (1, ..., 1) = 0
   weights_ = Eigen::VectorXd::Constant(rows, 1.0 / rows);
-  // columns (v + e_k; 1) and (v - 1; 1): the inverse is (e_k . (x - v) + 1) / rows plus what the sum asks
+  // columns (v + e_k; 1) and (v - 1; 1): the inverse is (e_k . (x - v) + 1) / rows plus what the
+  // sum asks
   Eigen::MatrixXd inverse(rows, rows);
   for (int column = 0; column < rows; ++column) {
     // weights that make up the column'th unit vector: x - v t, with t its last number

@@ -23,8 +23,8 @@ class Slice final : public SupportSet {
   double support(const double* direction, double* point) const override;
 
  private:
-  // Steps from corner to corner while `goal` grows: per coordinate of the set, and of points that only
-  // stand in.
+  // Steps from corner to corner while `goal` grows: per coordinate of the set, and of points that
+  // only stand in.
   double climb(const Eigen::VectorXd& goal, double stand_in) const;
   void enter(const Eigen::VectorXd& point, const Eigen::VectorXd& shares, int leaving) const;
   int leaving(const Eigen::VectorXd& shares) const;

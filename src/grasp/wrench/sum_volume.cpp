@@ -17,9 +17,9 @@ namespace {
 using CellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-// Points rise off a turning plane by more than this times the sum of their coordinates on the cell, or not at
-// all: what rounding makes of one that lies in the axis of the turn, as many do where summands have
-// directions in common.
+// Points rise off a turning plane by more than this times the sum of their coordinates on the cell,
+// or not at all: what rounding makes of one that lies in the axis of the turn, as many do where
+// summands have directions in common.
 constexpr double rounding_rise = 1e-13;
 constexpr double repeated = 1e-9;  // columns this near are one
 constexpr double flat = 1e-10;     // a sum this much thinner than wide has no volume
@@ -64,8 +64,8 @@ LiftedPoints lift(std::span<const Eigen::MatrixXd> summands, const CellMatrix& c
   return out;
 }
 
-// Ascending numbers of points: of each summand the corners of a simplex, whose edges together span the
-// space.
+// Ascending numbers of points: of each summand the corners of a simplex, whose edges together span
+// the space.
 using Cell = std::vector<int>;
 
 struct CellHash {
@@ -118,7 +118,8 @@ NextPoint next_point(const LiftedPoints& points, const Cell& cell, const std::ve
   return out;
 }
 
-// The highest points, and then those that a plane over them meets as it turns until it lies on a cell.
+// The highest points, and then those that a plane over them meets as it turns until it lies on a
+// cell.
 Cell first_cell(const LiftedPoints& points, Random& random) {
   Cell cell(points.summands, -1);
   for (int i = 0; i < points.count(); ++i) {

@@ -18,8 +18,8 @@ struct SumVolume {
   int cells = 0;  ///< that the sum was cut into
 };
 
-/// Of {x1 + x2 + ...}, each from the hull of the columns of one summand; they have 1 to 6 rows and size
-/// about one. Columns closer than 1e-9 count as one. Time goes with the cells; they are a few
+/// Of {x1 + x2 + ...}, each from the hull of the columns of one summand; they have 1 to 6 rows and
+/// size about one. Columns closer than 1e-9 count as one. Time goes with the cells; they are a few
 /// times as many as the facets that the summands' faces make.
 ///
 /// The sum is cut into cells that are sums of simplices, one of each summand, by lifting each point

@@ -1,5 +1,5 @@
-// A convex set that is known only by how far it reaches in any direction. Includes no Eigen: what is
-// built on it may be compiled for the machine at hand.
+// A convex set that is known only by how far it reaches in any direction. Includes no Eigen: what
+// is built on it may be compiled for the machine at hand.
 #pragma once
 
 namespace clench {

@@ -1,5 +1,5 @@
-// The convex hull of wrenches, for any set of them: symmetric grasps repeat wrenches up to rounding, and
-// qhull refuses some such sets.
+// The convex hull of wrenches, for any set of them: symmetric grasps repeat wrenches up to
+// rounding, and qhull refuses some such sets.
 #pragma once
 #include "clench/geometry/mesh/hull.h"
 

@@ -23,15 +23,16 @@ constexpr double rank_tolerance = 1e-10;
 // A set that reaches this far in every direction, of size one, spans them all.
 constexpr double surely_spanned = 1e-6;
 
-// A facet nearer to the origin than this part of the largest wrench goes through it: planes are good
-// to some 1e-14 of the wrenches' extent.
+// A facet nearer to the origin than this part of the largest wrench goes through it: planes are
+// good to some 1e-14 of the wrenches' extent.
 constexpr double on_boundary = 1e-12;
 
-// What epsilon is found to, for size one: of polytopes as far as doubles go, of round cones as far as is
-// worth its time, some twenty points a digit.
+// What epsilon is found to, for size one: of polytopes as far as doubles go, of round cones as far
+// as is worth its time, some twenty points a digit.
 constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 
-// A bracket wider than this is not good enough for a polytope: only the larger shifts of points leave one.
+// A bracket wider than this is not good enough for a polytope: only the larger shifts of points
+// leave one.
 constexpr double poor = 3e-10;
 
 // How near to the most a contact's answer must come to count as it.
@@ -42,8 +43,8 @@ constexpr int max_facets = 1'000'000;
 // Cells of a sum take some 15 to 30 us each: a second or two at most.
 constexpr int max_cells = 60'000;
 
-// Around a curved set whose nearest points to the origin are many, brackets close slowly: so many facets take a
-// third of a second and 160 MB, and what they certify is what there is.
+// Around a curved set whose nearest points to the origin are many, brackets close slowly: so many
+// facets take a third of a second and 160 MB, and what they certify is what there is.
 constexpr int max_round_facets = 500'000;
 
 // of the two unit vectors along a line the one whose largest component is positive
@@ -93,7 +94,8 @@ bool surely_full_rank(Eigen::MatrixXd m) {
   return true;
 }
 
-// Points of the unit sphere in two or three dimensions, and the radius of the ball within their hull.
+// Points of the unit sphere in two or three dimensions, and the radius of the ball within their
+// hull.
 struct SpherePoints {
   Eigen::MatrixXd points;
   double within;

@@ -11,8 +11,8 @@
 
 namespace clench {
 
-/// What a contact does with unit normal force: the edges of a pyramid or any other wrenches, a column
-/// each, or a round cone.
+/// What a contact does with unit normal force: the edges of a pyramid or any other wrenches, a
+/// column each, or a round cone.
 struct UnitWrenches {
   Wrenches edges;
   std::optional<RoundCone> round;  ///< instead of edges
@@ -29,8 +29,8 @@ struct WrenchSpaceOptions {
   bool operator==(const WrenchSpaceOptions&) const = default;
 };
 
-/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so w
-/// is resisted when -w lies in the space.
+/// The wrench on the object, from outside, that a grasp resists worst. Contacts answer w by -w, so
+/// w is resisted when -w lies in the space.
 struct Weakest {
   Vector6d direction = Vector6d::Zero();  ///< unit; 0 in coordinates that do not count
   /// largest multiple resisted; 0: none; below 0: all contacts push along it, by as much at least
@@ -40,29 +40,29 @@ struct Weakest {
 };
 
 struct EpsilonOptions {
-  double tolerance =
-      1e-6;  ///< upper - lower that is enough, >= 0; no space is told closer than 1e-12 of its size
+  /// upper - lower that is enough, >= 0; no space is told closer than 1e-12 of its size
+  double tolerance = 1e-6;
   std::optional<double> at_least = {};  ///< enough to know whether epsilon reaches this
 };
 
-/// lower <= epsilon <= upper. lower is certified by a polytope inside the space, upper by a direction
-/// in which the space reaches no farther.
+/// lower <= epsilon <= upper. lower is certified by a polytope inside the space, upper by a
+/// direction in which the space reaches no farther.
 struct EpsilonBounds {
   double lower = 0, upper = 0;
-  bool converged =
-      true;  ///< upper - lower is within the tolerance; else at_least was known before, or it is as near as it
-             ///< came
+  /// upper - lower is within the tolerance; else at_least was known before, or it is as near as it
+  bool converged = true;
+  ///< came
 };
 
-/// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the same
-/// ones grown until they are around.
+/// lower <= volume <= upper: of the space with round cones replaced by pyramids within, and by the
+/// same ones grown until they are around.
 struct VolumeBounds {
   double lower = 0, upper = 0;
 };
 
-/// All wrenches that contacts resist with bounded normal forces. L1: they sum to one; the convex hull
-/// of the unit wrenches of all contacts. L-infinity: each is at most one; the
-/// sum of the hulls of zero and each contact's unit wrenches.
+/// All wrenches that contacts resist with bounded normal forces. L1: they sum to one; the convex
+/// hull of the unit wrenches of all contacts. L-infinity: each is at most one; the sum of the hulls
+/// of zero and each contact's unit wrenches.
 ///
 /// Known by its support function: nothing is calculated before it is asked for, and then kept. One
 /// thread at a time. What takes long throws Stopped when its progress is told to stop.
@@ -74,20 +74,22 @@ class WrenchSpace {
   explicit WrenchSpace(std::vector<UnitWrenches> contacts, WrenchSpaceOptions options = {});
   explicit WrenchSpace(std::vector<Wrenches> contacts, WrenchSpaceOptions options = {});
 
-  /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In
-  /// [0, sqrt(1 + mu^2)] in L1. Within 1e-12 of the space's size; with round cones within 1e-9,
-  /// or, where 500,000 facets do not show that much (rings of alike contacts, huge friction), a certified lower bound.
+  /// Radius of the largest ball about the origin inside the space; 0 unless force closure. In [0,
+  /// sqrt(1 + mu^2)] in L1. Within 1e-12 of the space's size; with round cones within 1e-9, or,
+  /// where 500,000 facets do not show that much (rings of alike contacts, huge friction), a
+  /// certified lower bound.
   double epsilon(const Progress& progress = {}) const;
   /// An epsilon that is less certain, and found sooner; told to stop, the bounds found so far.
   /// throws Error when tolerance < 0 or not finite
   EpsilonBounds epsilon_bounds(const EpsilonOptions& options, const Progress& progress = {}) const;
   /// Of the space in its coordinates; 0 when it is flat. With round cones the middle of its bounds.
-  /// throws  Error when the hull has more than a million facets or, in L-infinity, the sum more than
-  ///         60,000 cells, which is known within some two seconds: five hard contacts of eight edges or
-  ///         three soft ones have fewer
+  /// throws  Error when the hull has more than a million facets or, in L-infinity, the sum more
+  ///         than 60,000 cells, which is known within some two seconds: five hard contacts of eight
+  ///         edges or three soft ones have fewer
   double volume(const Progress& progress = {}) const;
   /// edges   of the pyramids for round cones, 4 to max_edges; a soft contact's are those of
-  ///         friction_edges with half as many directions. Without round cones both bounds are the volume
+  ///         friction_edges with half as many directions. Without round cones both bounds are the
+  ///         volume
   /// throws  Error as volume, or when edges are out of range
   VolumeBounds volume_bounds(int edges = 32, const Progress& progress = {}) const;
   bool is_force_closure(const Progress& progress = {}) const;

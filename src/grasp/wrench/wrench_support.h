@@ -19,8 +19,8 @@ struct ContactPart {
   int width = 0;                   ///< 0 to 3
 };
 
-/// L1: the convex hull of all unit wrenches. L-infinity: the sum over the contacts of the convex hulls
-/// of zero and their unit wrenches.   source  Ferrari & Canny (1992), Pollard (1994)
+/// L1: the convex hull of all unit wrenches. L-infinity: the sum over the contacts of the convex
+/// hulls of zero and their unit wrenches.   source  Ferrari & Canny (1992), Pollard (1994)
 class WrenchSupport final : public SupportSet {
  public:
   /// copies what the parts point to

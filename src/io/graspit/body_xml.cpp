@@ -176,17 +176,15 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, File
   const XmlElement file = element.child("geometryFile");
   if (!file) {
     cache.suspected(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
-                                  element.place()));
+                                element.place()));
     return body;
   }
-  Geometry geometry =
-      read_scaled(file, *read_placed_file(element, path, cache.options()), cache);
+  Geometry geometry = read_scaled(file, *read_placed_file(element, path, cache.options()), cache);
   body.appearance = std::move(geometry.appearance);
   body.mesh_report = std::move(geometry.report);
   if (geometry.mesh.triangles.empty()) {
-    cache.suspected(
-        fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
-                    file.place(), in_quotes(file.text())));
+    cache.suspected(fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
+                                file.place(), in_quotes(file.text())));
     return body;
   }
   try {

@@ -1,7 +1,7 @@
 // Bodies from the XML files of GraspIt! 2.1 and later.
 #pragma once
-#include "clench/io/text/file_kind.h"
 #include "clench/io/text/file_cache.h"
+#include "clench/io/text/file_kind.h"
 #include "clench/io/text/xml.h"
 
 namespace clench {
@@ -27,8 +27,8 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body,
 /// throws Error  "hand.xml:2: expected a body, got <robot>"
 void check_body_root(const XmlFile& file);
 
-/// An element with such children; geometry is looked for beside `path`. Leaves name, source and file
-/// to the caller.
+/// An element with such children; geometry is looked for beside `path`. Leaves name, source and
+/// file to the caller.
 BodySpec read_body_element(const XmlElement& element, const std::filesystem::path& path,
                            FileCache& cache);
 

@@ -4,15 +4,16 @@
 
 namespace clench {
 
-/// Constant parts of the four numbers of a joint. Frame after it = frame before * Rz(theta) Tz(d) Tx(a) Rx(alpha), with q
-/// added to theta (revolute) or d (prismatic).
+/// Constant parts of the four numbers of a joint. Frame after it = frame before * Rz(theta) Tz(d)
+/// Tx(a) Rx(alpha), with q added to theta (revolute) or d (prismatic).
 /// source  Denavit & Hartenberg (1955), distal
 struct DenavitHartenberg {
   double theta = 0, d = 0, a = 0, alpha = 0;  ///< [rad, m, m, rad]
 };
 
-/// Number of joints that the dynamics of the original give a link of a kind: Revolute, Prismatic, Universal, Ball, Fixed.
-/// throws Error "expected Revolute, Prismatic, Universal, Ball or Fixed, got 'Revolut'; did you mean 'Revolute'?"
+/// Number of joints that the dynamics of the original give a link of a kind: Revolute, Prismatic,
+/// Universal, Ball, Fixed. throws Error "expected Revolute, Prismatic, Universal, Ball or Fixed,
+/// got 'Revolut'; did you mean 'Revolute'?"
 int joints_of_kind(std::string_view word);
 
 /// Joints and links of one chain, as they come.
@@ -23,7 +24,8 @@ class ChainLinks {
   void add_joint(const JointSpec& joint, const DenavitHartenberg& numbers);
   int joints() const { return static_cast<int>(joints_.size()); }
   int last_joint() const { return used_ - 1; }  ///< that moves the last link; -1: none
-  /// The next link: all joints up to `last_joint` move it, which is not before those of the link before.
+  /// The next link: all joints up to `last_joint` move it, which is not before those of the link
+  /// before.
   void add_link(const BodySpec& body, int last_joint, RobotSpec& robot);
 
  private:

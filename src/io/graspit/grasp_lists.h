@@ -21,9 +21,9 @@ std::vector<Pregrasp> read_pregrasps(const std::filesystem::path& path,
                                      const ReadOptions& options = {});
 void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesystem::path& path);
 
-/// Grasps that have no more than a pose, the measure "quality" (<= 0: no grasp), and the notes "run", from 1, for a file
-/// collects several, and "spread" [rad]. Lines of `x y z qw qx qy qz spread quality`, millimetres and degrees; a line of
-/// zeros that ends in -2 begins a run.
+/// Grasps that have no more than a pose, the measure "quality" (<= 0: no grasp), and the notes
+/// "run", from 1, for a file collects several, and "spread" [rad]. Lines of `x y z qw qx qy qz
+/// spread quality`, millimetres and degrees; a line of zeros that ends in -2 begins a run.
 std::vector<GraspSpec> read_planned_grasps(const std::filesystem::path& path,
                                            const ReadOptions& options = {});
 /// throws Error when a grasp has no pose, or runs are not in their order

@@ -158,7 +158,7 @@ void CfgReader::read_chain(int number) {
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
   if (chain.last_joint() + 1 < joints)
     cache_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
-                              transform.place(), number, chain.last_joint() + 1));
+                            transform.place(), number, chain.last_joint() + 1));
 }
 
 void CfgReader::read_joint(ChainLinks& chain, int number) {
@@ -243,7 +243,7 @@ void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name
     last = line.integer(1, fmt::format("link {}: last joint", number), before, joints - 1);
   } else {
     cache_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
-                              line.place(), number, last));
+                            line.place(), number, last));
   }
   if (last >= joints)
     line.fail("link {}: expected a joint to move it, got {} joints for {} links", number, joints,
@@ -285,8 +285,7 @@ void CfgReader::read_tracker() {
   TrackerSpec tracker;
   // some files leave the number out
   if (lines_.skip_to_full() && begins_transform(lines_.peek())) {
-    cache_.note(
-        fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
+    cache_.note(fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
   } else {
     const Line line = expected("a bird number");
     tracker.number = repairs_.count(line.word(0), line.place() + ": FlockOfBirds");
@@ -328,8 +327,8 @@ void CfgReader::read_optional_blocks() {
     else {
       const std::vector<std::string> keywords = {"EigenGrasps", "FlockOfBirds", "Approach",
                                                  "VirtualContacts", "CyberGlove"};
-      cache_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(),
-                                in_quotes(key), did_you_mean(key, keywords)));
+      cache_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(), in_quotes(key),
+                              did_you_mean(key, keywords)));
     }
   }
 }

@@ -228,7 +228,7 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   }
   if (chain.last_joint() + 1 < chain.joints())
     cache_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
-                              element.place(), number, chain.last_joint() + 1));
+                            element.place(), number, chain.last_joint() + 1));
   read_tactile(
       element, number, [&](const XmlElement& e, ChainPlace place) { return part(e, place); },
       warn(), repairs_, robot_);

@@ -7,7 +7,8 @@
 
 namespace clench {
 
-/// throws Error  "mug.wld:12: ..." where a line is not as expected, or a file that it names cannot be
+/// throws Error  "mug.wld:12: ..." where a line is not as expected, or a file that it names cannot
+///               be
 /// read
 WorldSpec read_world_wld(const std::filesystem::path& path, FileCache& cache);
 

@@ -58,7 +58,7 @@ WorldSpec XmlWorldReader::read() {
 Pose XmlWorldReader::pose(const XmlElement& element) const {
   if (!element.child("transform"))
     cache_.note(fmt::format("{}: {}: no <transform>; it stands at the origin", element.place(),
-                              element.name()));
+                            element.name()));
   const Pose X = read_transform_of(element, cache_.options().listeners());
   check_place(X, fmt::format("{}: {}", element.place(), element.name()));
   return X;
@@ -79,9 +79,8 @@ void XmlWorldReader::read_body(const XmlElement& element, Role role) {
   const XmlElement own = element.child("body"), name = element.child("filename");
   if (own) {
     if (name && lower_case(name.text()) != "unspecified")
-      cache_.repaired(
-          fmt::format("{}: {}: expected <filename> or <body>, got both; <body> is used",
-                      name.place(), element.name()));
+      cache_.repaired(fmt::format("{}: {}: expected <filename> or <body>, got both; <body> is used",
+                                  name.place(), element.name()));
     placed.body = inline_body(own);
   } else {
     const XmlElement file = element.expected("filename");
@@ -105,7 +104,7 @@ void XmlWorldReader::read_robot(const XmlElement& element) {
     read_dof_values(values.as_line(text), placed, cache_.options().listeners());
   } else if (!placed.robot.dofs.empty()) {
     cache_.note(fmt::format("{}: robot: no <dofValues>; its DOFs start at their defaults",
-                              element.place()));
+                            element.place()));
   }
   placed.X_WB = pose(element);
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});

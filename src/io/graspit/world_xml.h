@@ -5,7 +5,8 @@
 
 namespace clench {
 
-/// throws Error  "mug.xml:12: ..." where an element is not as expected, or a file that it names cannot
+/// throws Error  "mug.xml:12: ..." where an element is not as expected, or a file that it names
+///               cannot
 /// be read
 WorldSpec read_world_xml(const std::filesystem::path& path, FileCache& cache);
 

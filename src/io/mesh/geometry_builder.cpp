@@ -83,9 +83,9 @@ void weld_places(Surface& s, bool always, const Progress& progress) {
   if (always || welded.faults.open_edges < s.faults.open_edges) s = std::move(welded);
 }
 
-/// Seams of round shapes end in points that differ in their last bits: joins them where that repairs
-/// edges. The tolerance is a few units in the last place of the 32-bit numbers that the points
-/// were.
+/// Seams of round shapes end in points that differ in their last bits: joins them where that
+/// repairs edges. The tolerance is a few units in the last place of the 32-bit numbers that the
+/// points were.
 void weld_seams(Surface& s, const Progress& progress) {
   const Bounds bounds = s.mesh.bounds();
   const double largest =
@@ -122,8 +122,8 @@ void drop_flat_triangles(Surface& s, const Progress& progress) {
   drop_if_better(s, flat, progress);
 }
 
-/// Of triangles over the same vertices two that face opposite ways are a fold without inside, and go
-/// both; of those that are left one stays.
+/// Of triangles over the same vertices two that face opposite ways are a fold without inside, and
+/// go both; of those that are left one stays.
 void drop_doubled_triangles(Surface& s, const Progress& progress) {
   const auto& triangles = s.mesh.triangles;
   std::vector<std::pair<Triangle, int>> sorted;  // lowest vertex first, and the triangle

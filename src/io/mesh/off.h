@@ -1,4 +1,5 @@
-// Geometry from OFF files of the Geomview kind: OFF, COFF, NOFF, STOFF and what these make together.
+// Geometry from OFF files of the Geomview kind: OFF, COFF, NOFF, STOFF and what these make
+// together.
 #pragma once
 #include "clench/io/mesh/geometry_builder.h"
 #include "clench/io/mesh/mesh_input.h"

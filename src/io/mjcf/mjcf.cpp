@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 void tell_world_geoms(const Worldbody& world, const FileCache& cache) {
   if (world.geoms.empty()) return;
   const size_t count = world.geoms.size();
-  cache.warn(fmt::format("{}: {} of the world itself, on no body, {} no part of the robot and "
-                           "not used",
-                           world.geoms.front().node->element.place(),
-                           count == 1 ? "a geom" : fmt::format("{} geoms", count),
-                           count == 1 ? "is" : "are"));
+  cache.warn(fmt::format(
+      "{}: {} of the world itself, on no body, {} no part of the robot and "
+      "not used",
+      world.geoms.front().node->element.place(),
+      count == 1 ? "a geom" : fmt::format("{} geoms", count), count == 1 ? "is" : "are"));
 }
 
 /// The body with the most joints is the robot; others that move freely are things beside it. One
@@ -34,8 +34,8 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
   std::erase_if(bodies, [&](const TopBody& body) {
     if (body.node == kept || !body.free) return false;
     cache.warn(fmt::format("{}: body '{}' moves freely beside the robot; it is not read",
-                             body.node->element.place(),
-                             excerpt(body.node->element.attribute("name").value_or(""))));
+                           body.node->element.place(),
+                           excerpt(body.node->element.attribute("name").value_or(""))));
     return true;
   });
   MjcfTreeReader reader(model.document(), model.geoms(), cache, "robot");

@@ -9,7 +9,8 @@ namespace clench {
 
 /// throws Error  "hand.xml:31: joint: range: expected 2 numbers, got 3"
 RobotSpec read_robot_mjcf(const std::filesystem::path& path, FileCache& cache);
-/// One of the robots that read_world_mjcf finds: that whose tree of joints begins with a body of that name.
+/// One of the robots that read_world_mjcf finds: that whose tree of joints begins with a body of
+/// that name.
 /// throws Error  that lists the names when there is none
 RobotSpec read_robot_mjcf(const std::filesystem::path& path, const std::string& body,
                           FileCache& cache);

@@ -84,7 +84,8 @@ class Couplings {
   std::set<std::string> unknown_laws_;
 };
 
-/// Does it concern this robot? What names joints of others alone does not; what names none is told once.
+/// Does it concern this robot? What names joints of others alone does not; what names none is told
+/// once.
 bool Couplings::concerns(const XmlValues& values) const {
   bool others = false;
   for (const char* attribute : {"joint", "jointinparent", "joint1", "joint2"}) {
@@ -217,8 +218,8 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
     tied.min = tied.max = tied.start = tied.zero + c[0];
     tied.endless = false;
     cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}, as the equality says",
-                              element.place(), excerpt(tied.name), tied.start,
-                              tied.kind == JointKind::revolute ? "rad" : "m"));
+                            element.place(), excerpt(tied.name), tied.start,
+                            tied.kind == JointKind::revolute ? "rad" : "m"));
     return;
   }
   if (c[2] != 0 || c[3] != 0 || c[4] != 0)
@@ -291,7 +292,7 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
     joint.start = std::clamp(joint.start, low, high);
     if (low == high)
       cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
-                                element.place(), excerpt(joint.name), low));
+                              element.place(), excerpt(joint.name), low));
   } else if (range[0] < range[1]) {
     warn(element, fmt::format("position: ctrlrange has nothing in common with the range of joint "
                               "'{}'; not used",
@@ -315,8 +316,8 @@ void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, 
   if (element.name() == "position") take_control_range(element, values, joint, gear);
 }
 
-/// A motor on a tendon moves its joints together: nothing else is said of how they share its length,
-/// so each takes its part in proportion to its coefficient.
+/// A motor on a tendon moves its joints together: nothing else is said of how they share its
+/// length, so each takes its part in proportion to its coefficient.
 void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
   if (tendon.elsewhere && !tendon.joints.empty())
     warn(element, fmt::format("{}: drives a tendon that joins two robots; of each it moves its own "
@@ -344,12 +345,14 @@ void Couplings::drive_tendon(const XmlElement& element, const Tendon& tendon) {
   }
 }
 
-/// What a DOF feels of an actuator that pulls it to where its control says, and damps it; those of several add up.
+/// What a DOF feels of an actuator that pulls it to where its control says, and damps it; those of
+/// several add up.
 void Couplings::take_gains(const ActuatorSpec& servo, const Tendon* tendon) {
   const int leader = leader_of(servo.dof);
   if (!servo.law_known || leader < 0) return;
   const auto ratio = [&](int number) { return number == leader ? 1 : tree_.joints[number].ratio; };
-  double reach = tendon ? 0 : servo.gear * ratio(servo.dof);  // of its length, for a unit of the DOF
+  double reach =
+      tendon ? 0 : servo.gear * ratio(servo.dof);  // of its length, for a unit of the DOF
   if (tendon)
     for (const auto& [number, c] : tendon->joints)
       if (leader_of(number) == leader) reach += servo.gear * c * ratio(number);
@@ -358,7 +361,8 @@ void Couplings::take_gains(const ActuatorSpec& servo, const Tendon* tendon) {
   joint.kd += std::max(0.0, -servo.bias[2]) * reach * reach;
   joint.damping_ratio = std::max(joint.damping_ratio, servo.damping_ratio);
   if (tendon && servo.force_range)
-    joint.effort = std::max(std::abs((*servo.force_range)[0]), std::abs((*servo.force_range)[1])) * std::abs(reach);
+    joint.effort = std::max(std::abs((*servo.force_range)[0]), std::abs((*servo.force_range)[1])) *
+                   std::abs(reach);
 }
 
 /// As a file says it, with how its force follows from control, length and velocity.
@@ -398,7 +402,8 @@ ActuatorSpec Couplings::actuator_spec(const XmlElement& element, const XmlValues
       const auto given = values.numbers("biasprm", 1, 100);
       for (size_t i = 0; i < std::min<size_t>(3, given.size()); ++i) out.bias[i] = given[i];
       // of a servo's a positive number is a ratio
-      if (out.bias[2] > 0 && out.gain == -out.bias[1]) out.damping_ratio = std::exchange(out.bias[2], 0);
+      if (out.bias[2] > 0 && out.gain == -out.bias[1])
+        out.damping_ratio = std::exchange(out.bias[2], 0);
     }
     out.law_known = (bias == "none" || bias == "affine") &&
                     values.text("gaintype", "fixed") == "fixed" &&
@@ -419,8 +424,8 @@ void Couplings::read_actuator(const XmlElement& element) {
   if (!concerns(values)) return;
   values.tell_unused(document_.unused(),
                      {"name", "class", "joint", "jointinparent", "tendon", "ctrlrange",
-                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "dampratio", "gear", "gaintype",
-                      "gainprm", "biastype", "biasprm", "dyntype"});
+                      "ctrllimited", "forcerange", "forcelimited", "kp", "kv", "dampratio", "gear",
+                      "gaintype", "gainprm", "biastype", "biasprm", "dyntype"});
   int moved = -1;
   const Tendon* pulled = nullptr;
   if (on_joint) {
@@ -460,7 +465,7 @@ void Couplings::mark_passive() {
       names += fmt::format("{}'{}'", count > 1 ? ", " : "", excerpt(joint.name));
   if (count > 0)
     cache_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
-                              document_.file(), names, count > 6 ? " and others" : ""));
+                            document_.file(), names, count > 6 ? " and others" : ""));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What ties joints of an MJCF model to each other and to motors: equalities, fixed tendons, actuators.
+// What ties joints of an MJCF model to each other and to motors: equalities, fixed tendons,
+// actuators.
 #pragma once
 #include <set>
 

@@ -114,7 +114,7 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
     if (const auto [at, is_new] = class_numbers_.emplace(name, 0); !is_new && at->second != 0)
       node.element.fail("default: there is another class '{}'", excerpt(name));
     cache_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
-                              node.element.place(), in_quotes(name)));
+                            node.element.place(), in_quotes(name)));
   } else if (!name.empty() && name != "main") {
     const auto [at, is_new] = class_numbers_.emplace(name, static_cast<int>(classes_.size()));
     number = at->second;

@@ -23,7 +23,8 @@ struct MjcfNode {
 
 class MjcfDocument {
  public:
-  /// throws  Error for malformed XML, circles of includes, unknown classes, settings we cannot follow
+  /// throws  Error for malformed XML, circles of includes, unknown classes, settings we cannot
+  ///         follow
   MjcfDocument(const std::filesystem::path& path, FileCache& cache);
 
   const MjcfNode& root() const { return root_; }

@@ -80,10 +80,9 @@ std::shared_ptr<const Geometry> MjcfGeoms::inline_mesh(const Asset& asset) {
 std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
   if (asset.geometry) return asset.geometry;
   const XmlValues& values = asset.values;
-  auto geometry =
-      values.has("vertex")
-          ? inline_mesh(asset)
-          : geometry_.file(document_.mesh_file(values.text("file"), cache_.options()));
+  auto geometry = values.has("vertex")
+                      ? inline_mesh(asset)
+                      : geometry_.file(document_.mesh_file(values.text("file"), cache_.options()));
   const Eigen::Vector3d scale = values.vec3("scale", {1, 1, 1}),
                         origin = values.vec3("refpos", {0, 0, 0});
   if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "expected factors other than 0");
@@ -188,7 +187,7 @@ void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
   for (auto& p : mesh.vertices) p.z() -= plane_thickness / 2;
   geom.piece.geometry = geometry_.made(fmt::format("plane {} {}", x, y), std::move(mesh));
   cache_.note(fmt::format("{}: geom: a plane has no end; a plate of {} x {} x {} m stands for it",
-                            values.element().place(), 2 * x, 2 * y, plane_thickness));
+                          values.element().place(), 2 * x, 2 * y, plane_thickness));
 }
 
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,
@@ -197,10 +196,10 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   const XmlValues values = document_.values(element, child_class);
   if (scene_)
     values.tell_unused(document_.unused(),
-                       {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler",
-                        "xyaxes", "zaxis", "fromto", "mesh", "material", "rgba", "contype",
-                        "conaffinity", "group", "mass", "density", "friction", "condim",
-                        "priority"});
+                       {"name",      "class",    "type",    "size",        "pos",    "quat",
+                        "axisangle", "euler",    "xyaxes",  "zaxis",       "fromto", "mesh",
+                        "material",  "rgba",     "contype", "conaffinity", "group",  "mass",
+                        "density",   "friction", "condim",  "priority"});
   else
     values.tell_unused(document_.unused(),
                        {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler",
@@ -216,9 +215,9 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
     return std::nullopt;
   };
   if ((type == "plane" && !of_world) || type == "hfield" || type == "sdf")
-    return skip(of_world ? fmt::format("no obstacle is made of a {} here", type)
-                         : fmt::format("a {} is no part of a {} here", type,
-                                       scene_ ? "body" : "robot"));
+    return skip(of_world
+                    ? fmt::format("no obstacle is made of a {} here", type)
+                    : fmt::format("a {} is no part of a {} here", type, scene_ ? "body" : "robot"));
   MjcfGeom geom;
   if (scene_) {
     if (values.has("friction"))
@@ -237,7 +236,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   if (type == "mesh" || (values.has("mesh") && !values.has("size") && !values.has("fromto"))) {
     if (type != "mesh")
       cache_.warn(fmt::format("{}: geom: a {} is to be fitted to a mesh; the mesh is used itself",
-                                element.place(), type));
+                              element.place(), type));
     geom.piece.geometry = mesh(values, geom.collides());
     if (!geom.piece.geometry) return {};
   } else if (type == "plane") {

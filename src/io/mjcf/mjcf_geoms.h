@@ -10,8 +10,8 @@
 
 namespace clench {
 
-/// What a geom says of friction. Of two that touch, the one of the higher priority counts; of the same
-/// priority the larger coefficient, and none where both are frictionless.
+/// What a geom says of friction. Of two that touch, the one of the higher priority counts; of the
+/// same priority the larger coefficient, and none where both are frictionless.
 struct MjcfFriction {
   double mu = 1;
   int priority = 0;
@@ -26,7 +26,7 @@ struct MjcfGeom {
   unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
   double mass = 0;                  ///< [kg]
 
-  MjcfFriction friction;            ///< of a scene's geoms
+  MjcfFriction friction;  ///< of a scene's geoms
 
   bool collides() const { return type != 0 || affinity != 0; }
 };

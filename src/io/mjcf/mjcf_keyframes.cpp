@@ -41,13 +41,12 @@ Pose KeyReader::pose_at(const std::vector<double>& numbers, size_t at,
           {numbers[at], numbers[at + 1], numbers[at + 2]}};
 }
 
-/// Angles about x, y and z, one after the other: R = Rx(a) Ry(b) Rz(c). Where b is a right angle, a and c turn about
-/// one axis, and a is 0.
+/// Angles about x, y and z, one after the other: R = Rx(a) Ry(b) Rz(c). Where b is a right angle, a
+/// and c turn about one axis, and a is 0.
 Eigen::Vector3d three_turns(const Eigen::Quaterniond& q) {
   constexpr double aligned = 1e-12;  // cosine of b
   const Eigen::Matrix3d R = q.toRotationMatrix();
-  const double a =
-      std::hypot(R(1, 2), R(2, 2)) < aligned ? 0 : std::atan2(-R(1, 2), R(2, 2));
+  const double a = std::hypot(R(1, 2), R(2, 2)) < aligned ? 0 : std::atan2(-R(1, 2), R(2, 2));
   // what is left when Rx(a) is undone is Ry(b) Rz(c), and its second row is (sin c, cos c, 0)
   const double cos_a = std::cos(a), sin_a = std::sin(a);
   return {a, std::atan2(R(0, 2), cos_a * R(2, 2) - sin_a * R(1, 2)),
@@ -66,14 +65,13 @@ void KeyReader::add_robot(const SceneBody& body, const Pose& X_WB, const double*
       dofs.push_back(dof_is_endless(robot, dof) ? q[j] : std::clamp(q[j], low, high));
       if (std::abs(dofs.back() - q[j]) > 1e-6)
         cache_.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
-                                      values_.subject("qpos"), excerpt(joint.name), q[j], low,
-                                      high));
+                                    values_.subject("qpos"), excerpt(joint.name), q[j], low, high));
     } else if (std::abs(joint.ratio * q[joint.leader] + joint.offset - q[j]) > settled) {
-      cache_.warn(fmt::format("{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
-                                "follows",
-                                values_.subject("qpos"), excerpt(joint.name),
-                                excerpt(body.joints[joint.leader].name), q[j],
-                                joint.ratio * q[joint.leader] + joint.offset));
+      cache_.warn(fmt::format(
+          "{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
+          "follows",
+          values_.subject("qpos"), excerpt(joint.name), excerpt(body.joints[joint.leader].name),
+          q[j], joint.ratio * q[joint.leader] + joint.offset));
     }
   }
   out_.robots.push_back({body.robot, X_WB, std::move(dofs)});
@@ -146,16 +144,17 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
     std::string name = values.text("name", fmt::format("{}", number));
     if (const auto wrong = name_fault(name); !wrong.empty()) {
       name = repaired_name(name);
-      cache.repaired(fmt::format("{}: {}; it becomes '{}'", values.subject("name"), wrong,
-                                   excerpt(name)));
+      cache.repaired(
+          fmt::format("{}: {}; it becomes '{}'", values.subject("name"), wrong, excerpt(name)));
     }
-    const int got =
-        values.has("qpos") ? static_cast<int>(values.numbers("qpos", 1, max_key_numbers).size())
-                           : expected;
+    const int got = values.has("qpos")
+                        ? static_cast<int>(values.numbers("qpos", 1, max_key_numbers).size())
+                        : expected;
     if (got != expected && lossy) {
-      cache.warn(fmt::format("{}: keyframe '{}' has {} numbers, and the bodies that are read take "
-                               "{}; it is not used",
-                               values.subject("qpos"), excerpt(name), got, expected));
+      cache.warn(
+          fmt::format("{}: keyframe '{}' has {} numbers, and the bodies that are read take "
+                      "{}; it is not used",
+                      values.subject("qpos"), excerpt(name), got, expected));
       continue;
     }
     if (got != expected) values.fail("qpos", "expected {} numbers, got {}", expected, got);

@@ -14,10 +14,10 @@ struct SceneBody {
   std::string name;
   Pose X_WB;  ///< as the file places it
   bool free = false, mocap = false;
-  int robot = -1;                             ///< into WorldSpec::robots
-  std::vector<Part> bodies;                   ///< of objects and obstacles
-  std::vector<std::vector<QposSlot>> slots;   ///< of a robot: of each link's joints
-  std::vector<TreeJoint> joints;              ///< of a robot; leaders are its DOFs, in their order
+  int robot = -1;                            ///< into WorldSpec::robots
+  std::vector<Part> bodies;                  ///< of objects and obstacles
+  std::vector<std::vector<QposSlot>> slots;  ///< of a robot: of each link's joints
+  std::vector<TreeJoint> joints;             ///< of a robot; leaders are its DOFs, in their order
 };
 
 /// lossy  are there bodies that are not read, whose numbers qpos has, too?

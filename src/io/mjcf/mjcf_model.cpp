@@ -28,8 +28,8 @@ void MjcfModel::leave_out(const MjcfNode& section) {
   if (section.name() != "keyframe") return document_.unused().element(section.element);
   if (section.children.empty()) return;
   cache_.warn(section.element.place() +
-                ": <keyframe> is not used for a robot alone; clench.load takes it with the option "
-                "'keyframe'");
+              ": <keyframe> is not used for a robot alone; clench.load takes it with the option "
+              "'keyframe'");
 }
 
 std::vector<const TopBody*> MjcfModel::joint_trees() const {
@@ -59,8 +59,7 @@ MjcfRobot MjcfModel::scene_robot(const TopBody& body, bool first) {
   std::set<std::string> elsewhere;
   for (const TopBody* other : trees)
     if (other->node != body.node) find_joints(*other->node, elsewhere);
-  MjcfRobot out =
-      make(read_tree(body), trees.size() == 1 ? name_ : body.name, elsewhere, first);
+  MjcfRobot out = make(read_tree(body), trees.size() == 1 ? name_ : body.name, elsewhere, first);
   out.robot.files.body = body.name;
   return out;
 }
@@ -127,7 +126,10 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
     }
   dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), cache_, true);
   if (whole_ != std::string_view("world"))
-    cache_.note(fmt::format("{}: read as a robot, its links count as plastic; as a scene, by clench.load, they have the friction of their geoms", document_.file()));
+    cache_.note(
+        fmt::format("{}: read as a robot, its links count as plastic; as a scene, by clench.load, "
+                    "they have the friction of their geoms",
+                    document_.file()));
   resolve_leaders(model);
   MjcfRobot out;
   out.tree.model.joints = model.joints;

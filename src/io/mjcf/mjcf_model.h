@@ -9,7 +9,7 @@ namespace clench {
 /// A tree as a robot, with what others need to know of it.
 struct MjcfRobot {
   RobotSpec robot;
-  MjcfTree tree;                  ///< its model is what remains: joints after couplings, no links
+  MjcfTree tree;  ///< its model is what remains: joints after couplings, no links
   std::map<std::string, int> parts;  ///< links of the robot by the names of bodies; -1: the base
 };
 

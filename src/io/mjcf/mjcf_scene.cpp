@@ -102,9 +102,10 @@ void SceneReader::set_friction() {
       world_.friction.push_back({a->second, b->second, mu, mu});
     }
   if (!mixed_.empty())
-    cache_.warn(fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
-                              "highest priority, then the largest counts for all: {}",
-                              model_.document().file(), some_names(mixed_)));
+    cache_.warn(
+        fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
+                    "highest priority, then the largest counts for all: {}",
+                    model_.document().file(), some_names(mixed_)));
 }
 
 // --- bodies ---
@@ -115,7 +116,8 @@ ScenePart SceneReader::part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, 
   return out;
 }
 
-/// An object or obstacle, whose shape is made when all are known.   returns  its number in the world
+/// An object or obstacle, whose shape is made when all are known.   returns  its number in the
+/// world
 int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
                            const std::vector<MjcfGeom>& geoms, const BodySpec* weighed) {
   const int number = static_cast<int>(world_.bodies.size());
@@ -194,8 +196,9 @@ std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) 
     const BodySpec& body = tree.model.links[i].body;
     const Eigen::Matrix3d R = X[i].matrix();
     const Eigen::Vector3d off = X[i] * *body.com - com;
-    inertia += body.mass * (R * *body.inertia_per_mass * R.transpose() +
-                            off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
+    inertia +=
+        body.mass * (R * *body.inertia_per_mass * R.transpose() +
+                     off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
   }
   BodySpec out;
   if (X.size() == 1) {
@@ -227,8 +230,7 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
                                weighed ? &*weighed : nullptr);
   scene.bodies.push_back({number, Pose{}});
   scene.free = true;
-  for (const auto& [name, link] : tree.links)
-    by_name_[name] = {WorldEntry::Kind::body, number, -1};
+  for (const auto& [name, link] : tree.links) by_name_[name] = {WorldEntry::Kind::body, number, -1};
 }
 
 /// A fixed body, and those on it, each as an obstacle, as far as they have geoms.
@@ -241,9 +243,9 @@ void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
     for (const MjcfGeom& geom : tree.geoms[i]) add_piece(pieces, geom, Pose{});
     if (pieces.collision.empty() && pieces.visual.empty()) continue;
     const std::string& name = tree.model.links[i].body.name;
-    const int number = add_thing(name, Role::obstacle, scene.X_WB * X[i], std::move(pieces),
-                                 tree.geoms[i],
-                                 tree.pieces[i].has_inertial ? &tree.model.links[i].body : nullptr);
+    const int number =
+        add_thing(name, Role::obstacle, scene.X_WB * X[i], std::move(pieces), tree.geoms[i],
+                  tree.pieces[i].has_inertial ? &tree.model.links[i].body : nullptr);
     scene.bodies.push_back({number, X[i]});
     by_name_[name] = {WorldEntry::Kind::body, number, -1};
   }
@@ -295,8 +297,8 @@ void SceneReader::add_body(const TopBody& body) {
 /// Shapes and looks of all that is no robot.
 void SceneReader::dress_things() {
   if (things_.links.empty()) return;
-  dress_links(things_, thing_pieces_, model_.geoms().geometry(), model_.document().file(),
-              cache_, true);
+  dress_links(things_, thing_pieces_, model_.geoms().geometry(), model_.document().file(), cache_,
+              true);
   for (size_t i = 0; i < things_.links.size(); ++i) {
     BodySpec& body = things_.links[i].body;
     repair_names(body, thing_pieces_[i].place, cache_.options());
@@ -322,13 +324,13 @@ void SceneReader::exclude() {
       const auto found = by_name_.find(name);
       if (found == by_name_.end())
         cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
-                                  node->element.place(), in_quotes(name)));
+                                node->element.place(), in_quotes(name)));
       else
         pair[i] = found->second;
       known = known && found != by_name_.end();
     }
-    const bool one_robot = pair[0].kind == WorldEntry::Kind::robot && pair[0].kind == pair[1].kind &&
-                           pair[0].index == pair[1].index;
+    const bool one_robot = pair[0].kind == WorldEntry::Kind::robot &&
+                           pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
     const bool one = pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
     if (known && !one && !one_robot) world_.never_meet.push_back(pair);
   }
@@ -348,10 +350,10 @@ void SceneReader::never_meet() {
       world_.never_meet.push_back({a.ref, b.ref});
     }
   if (apart > 0)
-    cache_.note(fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
-                              "conaffinity say",
-                              model_.document().file(), apart, apart == 1 ? "" : "s",
-                              apart == 1 ? "s" : ""));
+    cache_.note(
+        fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
+                    "conaffinity say",
+                    model_.document().file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
 }
 
 // --- what holds for all ---
@@ -364,12 +366,13 @@ void SceneReader::read_options() {
     model_.document().unused().attributes(node.element, {"gravity", "timestep"});
     if (values.has("timestep")) {
       world_.time_step = values.number("timestep", 0);
-      if (const auto wrong = fault(time_step_rule, *world_.time_step); !wrong.empty()) values.fail("timestep", "{}", wrong);
+      if (const auto wrong = fault(time_step_rule, *world_.time_step); !wrong.empty())
+        values.fail("timestep", "{}", wrong);
     }
     for (const MjcfNode& child : node.children) {
       const XmlValues flags(child.element);
-      if (child.name() == "flag" && flags.word("gravity", {"enable", "disable"}, "enable") ==
-                                        std::string_view("disable"))
+      if (child.name() == "flag" &&
+          flags.word("gravity", {"enable", "disable"}, "enable") == std::string_view("disable"))
         world_.gravity = Eigen::Vector3d::Zero();
       else
         model_.document().unused().element(child.element);
@@ -386,18 +389,20 @@ void SceneReader::read_options() {
 void SceneReader::fail_empty() {
   const auto& types = model_.geoms().unused_types();
   fail("{}: expected bodies or geoms in <worldbody>, got {}", model_.document().file(),
-       types.empty() ? "none"
-                     : "only geoms that are not used, of type " + name_list(types));
+       types.empty() ? "none" : "only geoms that are not used, of type " + name_list(types));
 }
 
 WorldSpec SceneReader::read() {
   const Worldbody& worldbody = model_.worldbody();
   const ReadOptions& options = cache_.options();
   const size_t trees = model_.joint_trees().size();
-  if (trees != 1 && (!options.closing.empty() || !options.closing_by_number.empty() || options.approach))
-    fail("{}: {}: expected a file of one robot, got {}; world:add_robot with the option 'body' "
-         "takes one of them",
-         model_.document().file(), options.closing.empty() && options.closing_by_number.empty() ? "approach" : "close", trees);
+  if (trees != 1 &&
+      (!options.closing.empty() || !options.closing_by_number.empty() || options.approach))
+    fail(
+        "{}: {}: expected a file of one robot, got {}; world:add_robot with the option 'body' "
+        "takes one of them",
+        model_.document().file(),
+        options.closing.empty() && options.closing_by_number.empty() ? "approach" : "close", trees);
   for (const auto& [is_body, number] : worldbody.order) {
     if (is_body)
       add_body(worldbody.bodies[number]);

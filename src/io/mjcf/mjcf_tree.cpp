@@ -56,19 +56,20 @@ bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const FileCache&
     return true;
   }
   if (name == "attach") {
-    warn(fmt::format("<attach> is not used: the {} lacks the body {} of model {} and all that "
-                     "hangs on it; save the model expanded by MuJoCo",
-                     whole, in_quotes(node.element.attribute("body").value_or("")),
-                     in_quotes(node.element.attribute("model").value_or(""))));
+    warn(
+        fmt::format("<attach> is not used: the {} lacks the body {} of model {} and all that "
+                    "hangs on it; save the model expanded by MuJoCo",
+                    whole, in_quotes(node.element.attribute("body").value_or("")),
+                    in_quotes(node.element.attribute("model").value_or(""))));
     return true;
   }
   document.unused().element(node.element);
   return false;
 }
 
-static void find_in_world(const MjcfNode& node, const std::string& child_class,
-                          const Pose& X_frame, MjcfDocument& document, const FileCache& cache,
-                          const char* whole, Worldbody& into) {
+static void find_in_world(const MjcfNode& node, const std::string& child_class, const Pose& X_frame,
+                          MjcfDocument& document, const FileCache& cache, const char* whole,
+                          Worldbody& into) {
   if (node.name() == "body") {
     const auto name = node.element.attribute("name").value_or("");
     const int number = static_cast<int>(into.bodies.size());
@@ -101,7 +102,7 @@ Worldbody read_worldbody(MjcfDocument& document, const FileCache& cache, const c
 
 /// The name, or another where an element before has it.
 std::string MjcfTreeReader::own_name(const XmlElement& element, const std::string& name,
-                                 const std::map<std::string, int>& taken) {
+                                     const std::map<std::string, int>& taken) {
   if (!taken.contains(name)) return name;
   const std::string own = unused_name(name, taken);
   document_.repairs().add(std::string(element.name()),
@@ -112,7 +113,7 @@ std::string MjcfTreeReader::own_name(const XmlElement& element, const std::strin
 }
 
 int MjcfTreeReader::add_link(const XmlElement& element, const std::string& name, int parent,
-                         const Pose& X_PL) {
+                             const Pose& X_PL) {
   const int number = static_cast<int>(tree_.model.links.size());
   if (number >= max_links) element.fail("expected at most {} bodies", max_links);
   TreeLink link;
@@ -132,9 +133,8 @@ int MjcfTreeReader::add_link(const XmlElement& element, const std::string& name,
 void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::string& child_class,
                                const Pose& X_frame, bool base, const std::string& name) {
   const XmlElement& element = node.element;
-  document_.unused().attributes(
-      element, {"name", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis", "childclass",
-                "mocap"});
+  document_.unused().attributes(element, {"name", "pos", "quat", "axisangle", "euler", "xyaxes",
+                                          "zaxis", "childclass", "mocap"});
   const XmlValues values(element);
   const std::string inherited = values.text("childclass", child_class);
   document_.check_class(element, inherited);
@@ -143,13 +143,13 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
   const int link = add_link(element, name, parent, base ? Pose{} : X);
   if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
     cache_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
-                              element.place(), excerpt(tree_.model.links[link].body.name)));
+                            element.place(), excerpt(tree_.model.links[link].body.name)));
   read_contents(node, link, inherited, Pose{});
   if (!tree_.pieces[link].has_inertial || document_.inertia_from_geoms()) weigh_geoms(link);
 }
 
 void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::string& child_class,
-                               const Pose& X_frame) {
+                                   const Pose& X_frame) {
   for (const MjcfNode& child : node.children) {
     const std::string name = child.name();
     if (name == "body") {
@@ -199,8 +199,9 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   if (limited == "false" || !has_range) {
     const double far = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - far, joint.max = joint.zero + far, joint.endless = true;
-    cache_.note(fmt::format("{}: joint '{}' has no limits; planners try values up to {:.4g} {} from where it is",
-                              joint.place, excerpt(joint.name), far, turns ? "rad" : "m"));
+    cache_.note(fmt::format(
+        "{}: joint '{}' has no limits; planners try values up to {:.4g} {} from where it is",
+        joint.place, excerpt(joint.name), far, turns ? "rad" : "m"));
     return;
   }
   const auto range = values.range("range", document_.repairs());
@@ -208,11 +209,12 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
     cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place,
-                              excerpt(joint.name), joint.min, turns ? "rad" : "m"));
+                            excerpt(joint.name), joint.min, turns ? "rad" : "m"));
 }
 
 void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
-  if (tree_.model.joints.size() >= max_joints) element.fail("expected at most {} joints", max_joints);
+  if (tree_.model.joints.size() >= max_joints)
+    element.fail("expected at most {} joints", max_joints);
   const int number = static_cast<int>(tree_.model.joints.size());
   joint.name = own_name(element, joint.name, tree_.joints);
   tree_.joints[joint.name] = number;
@@ -222,7 +224,7 @@ void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int l
 }
 
 void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::string& child_class,
-                            const Pose& X_frame) {
+                                const Pose& X_frame) {
   const XmlValues values = document_.values(element, child_class);
   values.tell_unused(document_.unused(),
                      {"name", "class", "type", "pos", "axis", "range", "limited", "ref",
@@ -265,15 +267,14 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
     add_joint(std::move(joint), element, link);
     return;
   }
-  // a ball is three turns, about the body's x, y and z, whatever frame it stands in; its range is the
-  // most that it leans
+  // a ball is three turns, about the body's x, y and z, whatever frame it stands in; its range is
+  // the most that it leans
   double most = endless_turn / 2;
   if (given_range(values) && values.text("limited", "auto") != "false")
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
   if (!(most > 0)) values.fail("range", "expected a largest angle > 0");
-  cache_.note(
-      fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
-                  joint.place, excerpt(joint.name), most));
+  cache_.note(fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
+                          joint.place, excerpt(joint.name), most));
   tree_.slots[link].push_back({QposSlot::Kind::ball, static_cast<int>(tree_.model.joints.size())});
   for (int i = 0; i < 3; ++i) {
     TreeJoint turn = joint;
@@ -340,9 +341,8 @@ void MjcfTreeReader::weigh_geoms(int link) {
 
 void MjcfTreeReader::read_body(const TopBody& body, bool base) {
   read_body(*body.node, tree_.model.links.empty() ? -1 : 0, body.child_class, body.X_frame, base,
-            whole_ == std::string_view("robot")
-                ? body.node->element.attribute("name").value_or("")
-                : body.name);
+            whole_ == std::string_view("robot") ? body.node->element.attribute("name").value_or("")
+                                                : body.name);
 }
 
 }  // namespace clench

@@ -4,7 +4,8 @@
 
 namespace clench {
 
-/// What a row of numbers in a keyframe's qpos stands for: a free joint takes 7, a ball 4, any other 1.
+/// What a row of numbers in a keyframe's qpos stands for: a free joint takes 7, a ball 4, any other
+/// 1.
 struct QposSlot {
   enum class Kind { joint, ball, free } kind = Kind::joint;
   int joint = -1;  ///< of a ball: the first of its three turns
@@ -14,10 +15,10 @@ struct QposSlot {
 
 struct MjcfTree {
   TreeModel model;
-  std::vector<LinkPieces> pieces;              ///< one per link
-  std::vector<std::vector<MjcfGeom>> geoms;    ///< likewise
-  std::vector<std::vector<QposSlot>> slots;    ///< likewise, of its joints
-  std::map<std::string, int> links, joints;    ///< by name
+  std::vector<LinkPieces> pieces;            ///< one per link
+  std::vector<std::vector<MjcfGeom>> geoms;  ///< likewise
+  std::vector<std::vector<QposSlot>> slots;  ///< likewise, of its joints
+  std::map<std::string, int> links, joints;  ///< by name
   InertialFaults faults;
 };
 
@@ -63,7 +64,8 @@ class MjcfTreeReader {
 
   /// A frame that bodies stand on.
   void add_world() { add_link(document_.root().element, "world", -1, {}); }
-  /// The body and all that hangs on it. As the base it is the tree's first link, whose own pose is left out.
+  /// The body and all that hangs on it. As the base it is the tree's first link, whose own pose is
+  /// left out.
   void read_body(const TopBody& body, bool base);
   MjcfTree take() { return std::move(tree_); }
 

@@ -47,7 +47,8 @@ class Scanner {
     const size_t end = std::min(text_.find_first_of(ends_, at_), text_.size());
     CsvCell cell{.text = std::string(text_.substr(at_, end - at_))};
     if (cell.text.find('"') != std::string::npos)
-      fail("{}:{}: a quote within {}, which does not begin with one", file_, line_, in_quotes(cell.text));
+      fail("{}:{}: a quote within {}, which does not begin with one", file_, line_,
+           in_quotes(cell.text));
     at_ = end;
     return cell;
   }

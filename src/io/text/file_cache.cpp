@@ -23,7 +23,7 @@ const RobotSpec& FileCache::robot(const fs::path& path, const std::string& body)
 }
 
 BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer,
-                             const std::string& place) {
+                               const std::string& place) {
   try {
     BodySpec out = body(find_model(name, referrer, ModelKind::body, place, options_));
     out.source = name;
@@ -34,7 +34,7 @@ BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer
 }
 
 RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referrer,
-                               const std::string& place) {
+                                 const std::string& place) {
   try {
     const size_t at = name.rfind('#');
     const bool part = at != std::string::npos && at > 0;
@@ -49,7 +49,7 @@ RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referr
 }
 
 fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
-                            const std::string& place) const {
+                              const std::string& place) const {
   // in the folder iv/ beside the robot's file, or of the folder that the call names
   std::vector<fs::path> folders = {robot.parent_path() / "iv"};
   if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");

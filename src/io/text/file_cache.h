@@ -12,7 +12,8 @@ class FileCache;
 /// How a file that was found becomes a spec. What else it names is asked of the cache.
 struct Loaders {
   BodySpec (*body)(const std::filesystem::path& path, FileCache& cache);
-  /// body  of a scene: the body that the robot's tree of joints begins with; empty: the robot of the file
+  /// body  of a scene: the body that the robot's tree of joints begins with; empty: the robot of
+  ///       the file
   RobotSpec (*robot)(const std::filesystem::path& path, const std::string& body, FileCache& cache);
 };
 

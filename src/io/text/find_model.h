@@ -1,4 +1,5 @@
-// Where the body or robot that a file names is, also when the files around it are of another generation.
+// Where the body or robot that a file names is, also when the files around it are of another
+// generation.
 #pragma once
 #include "clench/io/text/find_file.h"
 
@@ -13,10 +14,10 @@ std::filesystem::path find_converted(const std::string& name, const std::filesys
                                      ModelKind kind, const std::string& place,
                                      const ReadOptions& options);
 
-/// As find_converted, for names that count from the root; where that fails, below the folders beside
-/// the root (without one, beside the folder above the referrer's) whose names begin with the same
-/// word, as graspit beside graspit-xml: the generations of a model library often lie side by side.
-/// That is told as repaired. No other folder outside the root is looked through.
+/// As find_converted, for names that count from the root; where that fails, below the folders
+/// beside the root (without one, beside the folder above the referrer's) whose names begin with the
+/// same word, as graspit beside graspit-xml: the generations of a model library often lie side by
+/// side. That is told as repaired. No other folder outside the root is looked through.
 std::filesystem::path find_model(const std::string& name, const std::filesystem::path& referrer,
                                  ModelKind kind, const std::string& place,
                                  const ReadOptions& options);

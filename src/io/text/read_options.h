@@ -1,4 +1,5 @@
-// What a call that reads files is told: where to look, whom to tell, what to make of what files leave open.
+// What a call that reads files is told: where to look, whom to tell, what to make of what files
+// leave open.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -41,7 +42,8 @@ struct ReadOptions {
   /// how DOFs close, by name or number from 1: 1 up, -1 down, 0 not; the
   /// rest is as the file says, else guessed
   std::map<std::string, double> closing = {};
-  std::map<int, double> closing_by_number = {};  ///< the same, from 1; where names are digits a number is no name
+  /// the same, from 1; where names are digits a number is no name
+  std::map<int, double> closing_by_number = {};
   /// of a scene: the body that the robot's tree of joints begins with; empty: the file's one robot
   std::string body = {};
   /// approach frame in the base; absent: what the file says, else guessed

@@ -24,8 +24,8 @@ class Repairs {
   double not_zero(double value, double absent, const std::string& subject);
   /// The nearest of low..high: "hand.xml:9: color: rgba: 1.5 is not in 0..1; 1 is used".
   double within(double value, double low, double high, const std::string& subject);
-  /// Of a number of something, 0 when it is none: "hand.xml:304: flockOfBirds: number: expected a whole
-  /// number from 0 on, got 't'; 0 is used".
+  /// Of a number of something, 0 when it is none: "hand.xml:304: flockOfBirds: number: expected a
+  /// whole number from 0 on, got 't'; 0 is used".
   int count(std::string_view word, const std::string& subject);
   /// `way`: what many places may have wrong alike
   void add(const std::string& way, const std::string& sentence);

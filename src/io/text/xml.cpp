@@ -17,8 +17,8 @@ namespace {
 constexpr int deepest_nesting = 64;   // the parser calls itself for each
 constexpr int max_attributes = 1000;  // the parser compares each with all
 
-/// Where '&' stands alone, which the parser garbles behind an entity. Those that a file declares itself
-/// it leaves as they stand: "&name;" would be a text.
+/// Where '&' stands alone, which the parser garbles behind an entity. Those that a file declares
+/// itself it leaves as they stand: "&name;" would be a text.
 void check_entities(const std::string& file, std::string_view text, size_t from, size_t end,
                     std::vector<size_t>& alone) {
   constexpr std::string_view read[] = {"amp", "lt", "gt", "quot", "apos"};

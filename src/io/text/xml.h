@@ -1,5 +1,5 @@
-// XML files taken apart: elements, what stands in them, and numbers that are numbers. Whatever is wrong
-// is told with the place "file:line", what was expected and what was got.
+// XML files taken apart: elements, what stands in them, and numbers that are numbers. Whatever is
+// wrong is told with the place "file:line", what was expected and what was got.
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
@@ -104,7 +104,8 @@ class XmlFile {
   std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 
-/// Name of the outermost element of a text that may be XML; empty when there is none. Reads no further.
+/// Name of the outermost element of a text that may be XML; empty when there is none. Reads no
+/// further.
 std::string_view xml_root_name(std::string_view text);
 
 /// A text as XML writes it: & < > and quotes by their names.

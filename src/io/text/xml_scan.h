@@ -6,7 +6,8 @@ namespace clench {
 
 int line_at(std::string_view text, size_t at);  ///< from 1
 
-/// Past the end of what begins at `at` and is no element's tag: comment, CDATA, declaration; else 0.
+/// Past the end of what begins at `at` and is no element's tag: comment, CDATA, declaration; else
+/// 0.
 size_t skip_other(std::string_view text, size_t at);
 
 struct Tag {

@@ -66,7 +66,8 @@ class TreeBuilder : public YAML::EventHandler {
   void open(const YAML::Mark& at, YAML::anchor_t anchor, Kind kind) {
     if (anchor) refuse_anchor(at);
     if (open_.size() == max_depth)
-      fail("{}:{}: expected lists and maps at most {} deep, got more", file_, at.line + 1, max_depth);
+      fail("{}:{}: expected lists and maps at most {} deep, got more", file_, at.line + 1,
+           max_depth);
     open_.push_back({{.kind = kind, .line = at.line + 1}});
   }
   void close() {
@@ -110,7 +111,8 @@ class TextBuffer : public std::streambuf {
 }  // namespace
 
 YamlNode parse_yaml(const std::string& file, std::string_view text) {
-  // yaml-cpp takes a quote that is open where lines end for one that is closed, unless the text ends there
+  // yaml-cpp takes a quote that is open where lines end for one that is closed, unless the text
+  // ends there
   text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
   TextBuffer buffer(text);
   std::istream stream(&buffer);

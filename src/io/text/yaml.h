@@ -1,4 +1,5 @@
-// YAML, and JSON, which is a part of it, as a tree that knows its lines. Anchors and several documents are refused.
+// YAML, and JSON, which is a part of it, as a tree that knows its lines. Anchors and several
+// documents are refused.
 #pragma once
 #include <string>
 #include <string_view>
@@ -17,8 +18,8 @@ struct YamlNode {
   std::string text = {};  ///< of a scalar, without its quotes
   bool quoted = false;
   int line = 0;
-  std::vector<YamlNode> items = {};      ///< of a list, or the values of a map
-  std::vector<std::string> keys = {};    ///< of a map, in their order
+  std::vector<YamlNode> items = {};    ///< of a list, or the values of a map
+  std::vector<std::string> keys = {};  ///< of a map, in their order
 
   /// null: the map has no such key, or this is no map
   const YamlNode* find(std::string_view key) const;

@@ -24,8 +24,8 @@ void set_closing(RobotSpec& robot, int dof, double sense) {
 
 void slow_distal_joints(RobotSpec& robot) {
   constexpr int none = -1, several = -2;
-  // what closes on the way to a link, its own joints included: no DOF, one, or several; parents come
-  // before their children
+  // what closes on the way to a link, its own joints included: no DOF, one, or several; parents
+  // come before their children
   std::vector<int> before(robot.links.size(), none);
   std::vector<bool> first(robot.dofs.size());  // has the DOF a joint behind no other?
   for (size_t l = 0; l < robot.links.size(); ++l) {
@@ -58,7 +58,8 @@ void choose_closing(RobotSpec& robot, const std::string& file, const ReadOptions
     set_closing(robot, static_cast<int>(found - names.begin()), sense);
   };
   for (const auto& [key, sense] : options.closing) choose(key, sense, true);
-  for (const auto& [number, sense] : options.closing_by_number) choose(std::to_string(number), sense, false);
+  for (const auto& [number, sense] : options.closing_by_number)
+    choose(std::to_string(number), sense, false);
   if (options.approach) robot.X_BA = options.approach;
 }
 

@@ -9,9 +9,9 @@ namespace clench {
 /// meant to, else 1 rad/s or 5 cm/s.
 void set_closing(RobotSpec& robot, int dof, double sense);
 
-/// DOFs whose joints all stand behind another one that closes, in the same finger, close half as fast
-/// as they did: so a finger goes to the object from its root and wraps around it, where it would else
-/// curl up before it gets there.
+/// DOFs whose joints all stand behind another one that closes, in the same finger, close half as
+/// fast as they did: so a finger goes to the object from its root and wraps around it, where it
+/// would else curl up before it gets there.
 void slow_distal_joints(RobotSpec& robot);
 
 /// Follows options.closing and options.approach. `file` is the name shown in errors.

@@ -38,9 +38,8 @@ void InertialFaults::tell(const FileCache& cache) const {
                     "geometry: {}",
                     places_[1], some_names(links_[1])));
   if (!links_[2].empty())
-    cache.note(
-        fmt::format("{}: a mass without an inertia, which is computed from the geometry: {}",
-                    places_[2], some_names(links_[2])));
+    cache.note(fmt::format("{}: a mass without an inertia, which is computed from the geometry: {}",
+                           places_[2], some_names(links_[2])));
 }
 
 /// False for an open surface, which has none.   `pieces`  of the shape
@@ -99,7 +98,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
                     some_names(ghosts)));
   if (!weightless.empty())
     cache.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
-                             file, some_names(weightless)));
+                           file, some_names(weightless)));
   if (!open.empty())
     cache.note(
         fmt::format("{}: links without a mass whose surface is open, and so bounds no "

@@ -1,4 +1,5 @@
-// What the readers of URDF and MJCF share about links: mass properties, and which geometry collides.
+// What the readers of URDF and MJCF share about links: mass properties, and which geometry
+// collides.
 #pragma once
 #include "clench/io/text/file_cache.h"
 #include "clench/io/tree/tree_geometry.h"
@@ -15,10 +16,9 @@ struct LinkPieces {
 };
 
 /// Gives each link its shape and looks. Bodies collide with the collision pieces alone; where no
-/// link of the robot has any, all collide with the visual ones. Links without mass in the file weigh
-/// what water of their volume does, frames without geometry and open surfaces a gram. Tells what it guesses.
-/// `pieces`  one per link
-/// `friction_known`  does the file say it?
+/// link of the robot has any, all collide with the visual ones. Links without mass in the file
+/// weigh what water of their volume does, frames without geometry and open surfaces a gram. Tells
+/// what it guesses. `pieces`  one per link `friction_known`  does the file say it?
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const FileCache& cache, bool friction_known = false);
 

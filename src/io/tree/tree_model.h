@@ -44,15 +44,16 @@ struct TreeModel {
   std::string name, class_name;
   std::vector<TreeLink> links;  ///< [0] is the root, and becomes the base
   std::vector<TreeJoint> joints;
-  std::vector<ActuatorSpec> actuators;  ///< `dof`: the joint that each moves
+  std::vector<ActuatorSpec> actuators;          ///< `dof`: the joint that each moves
   std::vector<std::pair<int, int>> never_meet;  ///< links whose collisions the file switches off
 };
 
 /// How far searches go from where a joint without limits is: a full turn [rad]; so far [m].
 inline constexpr double endless_turn = 6.283185307179586, endless_slide = 1;
 
-/// In a URDF, which has no word for none, a limit of effort or velocity, or of where a joint slides, that we write, and read, as none
-/// [N m, N, rad/s, m/s or m]. Other readers take 0 for a joint that cannot move.
+/// In a URDF, which has no word for none, a limit of effort or velocity, or of where a joint
+/// slides, that we write, and read, as none [N m, N, rad/s, m/s or m]. Other readers take 0 for a
+/// joint that cannot move.
 inline constexpr double unlimited = 1e9;
 
 /// Frame after a joint at q, in the frame before it.
@@ -62,9 +63,9 @@ Pose joint_pose(const TreeJoint& joint, double q);
 /// throws  Error "hand.urdf:31: joint 'a' follows itself by way of 'b'"
 void resolve_leaders(TreeModel& tree);
 
-/// Orders branches so that of the joints of a DOF one comes first that slides or turns as the leader
-/// does: by its first joint a DOF counts in lengths or angles. A leader behind its follower in one
-/// branch stays there.   `tree`  each link after its parent, leaders resolved
+/// Orders branches so that of the joints of a DOF one comes first that slides or turns as the
+/// leader does: by its first joint a DOF counts in lengths or angles. A leader behind its follower
+/// in one branch stays there.   `tree`  each link after its parent, leaders resolved
 void order_branches(TreeModel& tree);
 
 }  // namespace clench

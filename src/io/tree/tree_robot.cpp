@@ -58,7 +58,9 @@ void RobotMaker::number_dofs() {
   }
 }
 
-std::string limits_text(double low, double high) { return fmt::format("[{:.6g}, {:.6g}]", low, high); }
+std::string limits_text(double low, double high) {
+  return fmt::format("[{:.6g}, {:.6g}]", low, high);
+}
 
 void RobotMaker::widen_followers() {
   std::map<int, std::pair<double, double>> ranges;  // by leader: what its followers leave
@@ -85,10 +87,11 @@ void RobotMaker::widen_followers() {
       continue;
     }
     cache_.warn(
-        slips ? fmt::format("{}: joint '{}' follows '{}' from {:.6g} to {:.6g}, and its own limits {} would stop "
+        slips ? fmt::format("{}: joint '{}' follows '{}' from {:.6g} to {:.6g}, and its own limits "
+                            "{} would stop "
                             "that; they are not used",
-                            joint.place, excerpt(joint.name), excerpt(leader.name),
-                            low, high, limits_text(joint.min, joint.max))
+                            joint.place, excerpt(joint.name), excerpt(leader.name), low, high,
+                            limits_text(joint.min, joint.max))
               : fmt::format("{}: joint '{}' follows '{}', and its own limits {} have no value in "
                             "common with those of others that follow it; they are not used",
                             joint.place, excerpt(joint.name), excerpt(leader.name),

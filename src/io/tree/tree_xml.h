@@ -1,5 +1,5 @@
-// What the formats of robot trees need of XML beside elements: attributes as typed values that other
-// elements may stand behind, and a record of what nobody used.
+// What the formats of robot trees need of XML beside elements: attributes as typed values that
+// other elements may stand behind, and a record of what nobody used.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -18,7 +18,8 @@ namespace clench {
 class UnusedXml;
 
 /// Attributes of an element and, behind it, of others that say what it leaves open: the nearest
-/// that has an attribute gives it. All throw Error with place, element, attribute, expected and got.
+/// that has an attribute gives it. All throw Error with place, element, attribute, expected and
+/// got.
 class XmlValues {
  public:
   XmlValues() = default;

@@ -380,7 +380,8 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
     joint.effort = limit("effort");
     joint.velocity = limit("velocity");
     const bool given = from.type != "continuous" && (values.has("lower") || values.has("upper"));
-    const double low = given ? values.number("lower", 0) : -unlimited, high = given ? values.number("upper", 0) : unlimited;
+    const double low = given ? values.number("lower", 0) : -unlimited,
+                 high = given ? values.number("upper", 0) : unlimited;
     if (low > -unlimited || high < unlimited) {
       joint.min = low, joint.max = high, joint.endless = false;
       repairs_.order(joint.min, joint.max,
@@ -390,7 +391,8 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
     }
   }
   note(from.element,
-       fmt::format("joint '{}' {}; planners try values up to {:.4g} {} from where it is", excerpt(joint.name),
+       fmt::format("joint '{}' {}; planners try values up to {:.4g} {} from where it is",
+                   excerpt(joint.name),
                    from.type == "continuous" ? "turns without end" : "has no limits", far, unit));
 }
 

@@ -103,7 +103,8 @@ int ClenchReader::part(const XmlValues& values, const char* attribute) const {
 }
 
 void ClenchReader::read_dof(const XmlElement& element) {
-  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "damping_ratio", "breakaway", "handle", "start", "driven"});
+  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "damping_ratio", "breakaway",
+                        "handle", "start", "driven"});
   const XmlValues values(element);
   DofSpec& dof = robot_.dofs[this->dof(values, "joint")];
   once(element, dof.name);
@@ -140,8 +141,8 @@ void ClenchReader::read_joint(const XmlElement& element) {
 }
 
 void ClenchReader::read_link(const XmlElement& element) {
-  expect_only(element,
-              {"name", "material", "elastic_modulus", "soft_layer", "poisson_ratio", "restitution", "tracker"});
+  expect_only(element, {"name", "material", "elastic_modulus", "soft_layer", "poisson_ratio",
+                        "restitution", "tracker"});
   const XmlValues values(element);
   BodySpec& body = this->body(part(values, "name"));
   once(element, body.name);

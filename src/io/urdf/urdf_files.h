@@ -1,4 +1,5 @@
-// Where the mesh files are that robot descriptions name: package://, model://, file://, plain names.
+// Where the mesh files are that robot descriptions name: package://, model://, file://, plain
+// names.
 #pragma once
 #include <filesystem>
 #include <string>

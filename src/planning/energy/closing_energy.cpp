@@ -42,9 +42,8 @@ bool hand_collides(World& world, Id<Robot> hand) {
 // Backs off along the approach direction until nothing collides, then comes to the first touch.
 bool find_first_contact(World& world, Id<Robot> hand, double reach) {
   constexpr int most = 20;
-  const Vector3d back =
-      -turned((world.pose(world.robot(hand).base) * world.robot(hand).X_BA).rotation,
-              Vector3d::UnitZ());
+  const Vector3d back = -turned(
+      (world.pose(world.robot(hand).base) * world.robot(hand).X_BA).rotation, Vector3d::UnitZ());
   for (int i = 0; hand_collides(world, hand); ++i) {
     if (i == most) return false;
     const Pose X = world.pose(world.robot(hand).base);

@@ -5,8 +5,9 @@
 
 namespace clench {
 
-/// Minus what the closed grasp is worth: volume_weight * volume + epsilon_weight * epsilon, and task_weight times the largest
-/// multiple of all task wrenches that it resists. `nothing` where all of them are 0.
+/// Minus what the closed grasp is worth: volume_weight * volume + epsilon_weight * epsilon, and
+/// task_weight times the largest multiple of all task wrenches that it resists. `nothing` where all
+/// of them are 0.
 class ClosingEnergy : public Energy {
  public:
   struct Options {
@@ -31,16 +32,17 @@ class ClosingEnergy : public Energy {
   Options options_;
 };
 
-/// A contact energy, and where two sites are near and face the object, less what the closed grasp is worth.
+/// A contact energy, and where two sites are near and face the object, less what the closed grasp
+/// is worth.
 class GuidedClosingEnergy : public Energy {
  public:
   struct Options {
     SiteKind contacts = SiteKind::preset;
     Facing facing = Facing::nearest;
-    double near = 0.02;          ///< such a site is no farther [m]
-    double min_facing = 0.7;     ///< and this is its cosine at least
+    double near = 0.02;       ///< such a site is no farther [m]
+    double min_facing = 0.7;  ///< and this is its cosine at least
     double volume_weight = 1000;
-    int min_contacts = 4;        ///< that a closed grasp needs to count
+    int min_contacts = 4;  ///< that a closed grasp needs to count
   };
   GuidedClosingEnergy(const World& world, const HandAndObject& who, const Options& options);
   double bounded_value(World& world, double bound) override;
@@ -51,9 +53,10 @@ class GuidedClosingEnergy : public Energy {
   Options options_;
 };
 
-/// Of hands with springs: closes on the object from its first touch along the approach direction, and asks whether the
-/// contacts balance the joints at full effort. -200 + the unbalanced force [N] where they do; 1 where they do not, where
-/// fewer than two touch, or where epsilon is below min_epsilon.
+/// Of hands with springs: closes on the object from its first touch along the approach direction,
+/// and asks whether the contacts balance the joints at full effort. -200 + the unbalanced force [N]
+/// where they do; 1 where they do not, where fewer than two touch, or where epsilon is below
+/// min_epsilon.
 class CompliantEnergy : public Energy {
  public:
   struct Options {

@@ -46,8 +46,7 @@ double KeepOutBox::bounded_value(World& world, double) {
     if (!world.body(id).shape) continue;
     const Bounds box = world.body(id).shape->bounds_at(X_KW_ * world.pose(id));
     // the shortest way out
-    const double depth =
-        std::min((box.high - low_).minCoeff(), (high_ - box.low).minCoeff());
+    const double depth = std::min((box.high - low_).minCoeff(), (high_ - box.low).minCoeff());
     deepest = std::max(deepest, depth);
   }
   return energy_length * deepest;
@@ -100,8 +99,7 @@ static std::vector<Vector3d> spread_points(const std::vector<Vector3d>& vertices
   return out;
 }
 
-PenetrationEnergy::PenetrationEnergy(const World& world, Id<Robot> hand, int points)
-    : hand_(hand) {
+PenetrationEnergy::PenetrationEnergy(const World& world, Id<Robot> hand, int points) : hand_(hand) {
   if (points < 1 || points > 10000) fail("energy: points: expected 1 to 10000, got {}", points);
   for (const Id<Body> id : world.bodies_of(hand)) {
     const ShapePtr& shape = world.body(id).shape;

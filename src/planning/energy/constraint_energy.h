@@ -35,7 +35,8 @@ class KeepOutBox : public Energy {
   Eigen::Vector3d low_, high_;
 };
 
-/// How much nearer than a distance the hand is to bodies that are not its own and not what it grasps [mm].
+/// How much nearer than a distance the hand is to bodies that are not its own and not what it
+/// grasps [mm].
 class ClearanceEnergy : public Energy {
  public:
   ClearanceEnergy(const HandAndObject& who, double distance);
@@ -48,7 +49,8 @@ class ClearanceEnergy : public Energy {
   double distance_;
 };
 
-/// How much farther than a radius the approach frame's origin is from a point: what an arm reaches [mm].
+/// How much farther than a radius the approach frame's origin is from a point: what an arm reaches
+/// [mm].
 class ReachEnergy : public Energy {
  public:
   ReachEnergy(Id<Robot> hand, const Eigen::Vector3d& p_W, double radius);
@@ -62,8 +64,9 @@ class ReachEnergy : public Energy {
   double radius_;
 };
 
-/// How deep the hand is in what it may not enter: over the pairs of bodies that collide the depth of the deepest of some
-/// points on either surface, and a thousandth for each pair, so that it is 0 only where nothing collides [mm].
+/// How deep the hand is in what it may not enter: over the pairs of bodies that collide the depth
+/// of the deepest of some points on either surface, and a thousandth for each pair, so that it is 0
+/// only where nothing collides [mm].
 class PenetrationEnergy : public Energy {
  public:
   /// points  on each body of the hand, >= 1

@@ -88,9 +88,9 @@ double PotentialQuality::bounded_value(World& world, double) {
     if (at.facing() < options_.min_facing || at.distance > options_.reach) continue;
     const double share = std::cos(std::numbers::pi * at.distance / options_.reach) + 1;
     counted += share > options_.min_share;
-    UnitWrenches wrenches = unit_wrenches(
-        {.p_O = at.p, .n_O = at.n.normalized(), .mu = sites_.site(i).mu},
-        {.edges = 8, .rho = object.max_radius(), .p_OM = object.com});
+    UnitWrenches wrenches =
+        unit_wrenches({.p_O = at.p, .n_O = at.n.normalized(), .mu = sites_.site(i).mu},
+                      {.edges = 8, .rho = object.max_radius(), .p_OM = object.com});
     wrenches.edges *= share;
     pushing.push_back(std::move(wrenches));
   }

@@ -1,4 +1,5 @@
-// Energies of places that should touch: how far they are and how they face the object, without closing the hand.
+// Energies of places that should touch: how far they are and how they face the object, without
+// closing the hand.
 // source  Ciocarlie & Allen (2009), Hand posture subspaces for dexterous robotic grasping, sec. 5
 #pragma once
 #include "clench/planning/energy/contact_sites.h"
@@ -9,7 +10,7 @@ namespace clench {
 enum class Facing {
   nearest,  ///< the way to the nearest point
   surface,  ///< the surface there, against its outward normal
-  away,     ///< the way back from the nearest point: the sign of GraspIt!'s GUIDED_AUTO_GRASP_QUALITY
+  away,  ///< the way back from the nearest point: the sign of GraspIt!'s GUIDED_AUTO_GRASP_QUALITY
 };
 
 /// Mean over the sites of distance + weight * (1 - cosine of the angle), the distance in mm.
@@ -41,17 +42,18 @@ class ContactEnergy : public Energy {
   std::vector<double> min_rest_;  ///< the terms from each on come to no less
 };
 
-/// What the sites could hold if they touched: each counts by (cos(pi d / reach) + 1) where it faces the object and is within
-/// reach. Minus epsilon of the forces that they exert; 1 where these do not surround the origin.
+/// What the sites could hold if they touched: each counts by (cos(pi d / reach) + 1) where it faces
+/// the object and is within reach. Minus epsilon of the forces that they exert; 1 where these do
+/// not surround the origin.
 class PotentialQuality : public Energy {
  public:
   struct Options {
     SiteKind contacts = SiteKind::preset;
-    double reach = 0.05;       ///< > 0 [m]
-    double min_facing = 0.7;   ///< cosine of the largest angle
-    double min_share = 0.25;   ///< of a site that counts
-    int min_count = 3;         ///< of them
-    bool torques = false;      ///< wrenches, not forces alone
+    double reach = 0.05;      ///< > 0 [m]
+    double min_facing = 0.7;  ///< cosine of the largest angle
+    double min_share = 0.25;  ///< of a site that counts
+    int min_count = 3;        ///< of them
+    bool torques = false;     ///< wrenches, not forces alone
   };
   /// throws  Error as ContactSites, or when an option is out of range
   PotentialQuality(const World& world, const HandAndObject& who, const Options& options);
@@ -64,13 +66,16 @@ class PotentialQuality : public Energy {
   Options options_;
 };
 
-/// The first where it is at most 0, else the second: one that leads to where the first says something.
+/// The first where it is at most 0, else the second: one that leads to where the first says
+/// something.
 class GuidedEnergy : public Energy {
  public:
   GuidedEnergy(EnergyPtr first, EnergyPtr second)
       : first_(std::move(first)), second_(std::move(second)) {}
   double bounded_value(World& world, double bound) override;
-  double lower_bound() const override { return std::min(first_->lower_bound(), second_->lower_bound()); }
+  double lower_bound() const override {
+    return std::min(first_->lower_bound(), second_->lower_bound());
+  }
   EnergyPtr clone() const override {
     return std::make_unique<GuidedEnergy>(first_->clone(), second_->clone());
   }

@@ -23,7 +23,10 @@ ContactSites::ContactSites(const World& world, const HandAndObject& who, SiteKin
   if (object.robot) refuse("the object is a part of a robot");
   if (kind == SiteKind::preset) {
     for (const VirtualContactSpec& c : virtual_contacts(world, who.hand))
-      sites_.push_back({.body = hand.body_of(c.link), .X_LC = c.X_LC, .mu = c.mu, .edges = c.edges,
+      sites_.push_back({.body = hand.body_of(c.link),
+                        .X_LC = c.X_LC,
+                        .mu = c.mu,
+                        .edges = c.edges,
                         .n_L = turned(c.X_LC.rotation, Vector3d::UnitZ())});
     if (sites_.empty()) refuse("the hand has no virtual contacts");
     places_.resize(sites_.size());

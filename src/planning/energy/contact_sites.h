@@ -22,11 +22,11 @@ struct ContactSite {
 
 /// How a site lies to the object, in the object's frame.
 struct SiteDistance {
-  Eigen::Vector3d p, n;   ///< where it is, and its outward normal
-  Eigen::Vector3d q;      ///< the nearest point of the object
-  Eigen::Vector3d u;      ///< unit, from p to q; the normal where they are one
-  int triangle = -1;      ///< of the object, that q lies on
-  double distance = 0;    ///< [m]
+  Eigen::Vector3d p, n;  ///< where it is, and its outward normal
+  Eigen::Vector3d q;     ///< the nearest point of the object
+  Eigen::Vector3d u;     ///< unit, from p to q; the normal where they are one
+  int triangle = -1;     ///< of the object, that q lies on
+  double distance = 0;   ///< [m]
 
   /// of the angle between the normal and the way to the object
   double facing() const { return n.dot(u); }

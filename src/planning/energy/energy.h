@@ -17,15 +17,17 @@ struct HandAndObject {
   Id<Body> object;
 };
 
-/// Lengths count in millimetres here, as in the energies of GraspIt!, so that its numbers, weights and temperatures hold.
+/// Lengths count in millimetres here, as in the energies of GraspIt!, so that its numbers, weights
+/// and temperatures hold.
 inline constexpr double energy_length = 1e3;
 
-/// A term of an energy, or a tree of them. It remembers where it looked last, which changes no bit of an answer; each thread
-/// has a copy of its own.
+/// A term of an energy, or a tree of them. It remembers where it looked last, which changes no bit
+/// of an answer; each thread has a copy of its own.
 class Energy {
  public:
   virtual ~Energy() = default;
-  /// Exact where it is at most the bound; otherwise anything above it, found sooner. The world stands on return as it did.
+  /// Exact where it is at most the bound; otherwise anything above it, found sooner. The world
+  /// stands on return as it did.
   double value(World& world, double bound = infinite) { return bounded_value(world, bound); }
   /// No state has less; -infinite: not known.
   virtual double lower_bound() const { return -infinite; }
@@ -72,7 +74,8 @@ class EnergyWithin : public Energy {
   double low_, high_;
 };
 
-/// A function as a term, a script's for instance.   throws what the function throws, and Error when it gives no number
+/// A function as a term, a script's for instance.   throws what the function throws, and Error when
+/// it gives no number
 class EnergyFunction : public Energy {
  public:
   explicit EnergyFunction(std::function<double()> function) : function_(std::move(function)) {}

@@ -12,9 +12,9 @@ namespace clench {
 
 namespace {
 
-constexpr int max_draws = 100;       // of a variable, until it lies in its range
-constexpr int max_stuck = 10'000;    // tries in a row without a legal neighbour
-constexpr double coldest = 1e-100;   // a temperature of 0 has no neighbours
+constexpr int max_draws = 100;      // of a variable, until it lies in its range
+constexpr int max_stuck = 10'000;   // tries in a row without a legal neighbour
+constexpr double coldest = 1e-100;  // a temperature of 0 has no neighbours
 
 double temperature(double t0, double decay, double dimensions, double step) {
   return std::max(t0 * std::exp(-decay * std::pow(step, 1 / dimensions)), coldest);
@@ -101,8 +101,8 @@ Annealing::Verdict Annealing::place(const HandState& state) {
   return Verdict::legal;
 }
 
-// A value near this one. With a target, one between it and the target more likely than others: the more so, the more the
-// target is trusted.
+// A value near this one. With a target, one between it and the target more likely than others: the
+// more so, the more the target is trusted.
 double Annealing::jump(const Variable& v, double value, double temperature, double reach) {
   double x;
   if (v.target && v.confidence > 0) {
@@ -124,9 +124,8 @@ double Annealing::jump(const Variable& v, double value, double temperature, doub
 }
 
 std::optional<Values> Annealing::neighbour() {
-  const double temperature =
-      options_.schedule.neighbour_scale *
-      options_.schedule.neighbour_temperature(static_cast<double>(k_));
+  const double temperature = options_.schedule.neighbour_scale *
+                             options_.schedule.neighbour_temperature(static_cast<double>(k_));
   const double farthest = reach(temperature);
   Values out = values_;
   for (int i = 0; i < out.size(); ++i) {
@@ -160,8 +159,8 @@ bool Annealing::take_step() {
   if (!legal) return ++counts_.stuck, false;
 
   // how much worse a state may be is drawn first: what is worse need not be known
-  const double warmth = options_.schedule.error_temperature(static_cast<double>(k_)) /
-                        options_.schedule.error_scale;
+  const double warmth =
+      options_.schedule.error_temperature(static_cast<double>(k_)) / options_.schedule.error_scale;
   const double bound = energy_value_ - warmth * std::log(1 - random_.uniform());
   const double energy = energy_->value(world_, bound);
   ++k_, ++counts_.steps;

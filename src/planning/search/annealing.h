@@ -29,23 +29,24 @@ AnnealingSchedule annealing_schedule(const std::string& name);
 struct AnnealingOptions {
   AnnealingSchedule schedule = {};
   uint64_t seed = 0;
-  int max_tries = 11;  ///< of neighbours, for a legal one, >= 1
+  int max_tries = 11;      ///< of neighbours, for a legal one, >= 1
   bool collisions = true;  ///< is a hand that collides illegal?
   BestListOptions best = {};
 };
 
 /// What became of the steps.
 struct AnnealingCounts {
-  int64_t steps = 0;         ///< with a legal neighbour
+  int64_t steps = 0;  ///< with a legal neighbour
   int64_t accepted = 0;
-  int64_t improved = 0;      ///< accepted ones that lowered the energy
-  int64_t stuck = 0;         ///< tries of steps that found no legal neighbour; they do not count as steps
+  int64_t improved = 0;  ///< accepted ones that lowered the energy
+  int64_t stuck = 0;  ///< tries of steps that found no legal neighbour; they do not count as steps
   int64_t in_collision = 0;  ///< neighbours
   int64_t avoided = 0;       ///< neighbours near a state of the avoid list
-  int64_t outside = 0;       ///< neighbours that 100 draws did not bring into the range of a variable
+  int64_t outside = 0;  ///< neighbours that 100 draws did not bring into the range of a variable
 };
 
-/// A chain of its own world: each thread one. It stands at a state, and the best it met are in its list.
+/// A chain of its own world: each thread one. It stands at a state, and the best it met are in its
+/// list.
 class Annealing {
  public:
   /// world   is moved by every step; the hand is carried by nobody

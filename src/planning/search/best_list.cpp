@@ -10,8 +10,7 @@ namespace clench {
 BestList::BestList(const BestListOptions& options) : options_(options) {
   if (options.size < 1 || options.size > 1'000'000)
     fail("best list: size: expected 1 to 1000000, got {}", options.size);
-  if (!(options.distance >= 0))
-    fail("best list: distance must be >= 0, got {}", options.distance);
+  if (!(options.distance >= 0)) fail("best list: distance must be >= 0, got {}", options.distance);
   if (!(options.radius > 0)) fail("best list: radius must be > 0 [m], got {}", options.radius);
 }
 

@@ -57,8 +57,7 @@ void find_ellipsoid(const Pose& X_RA, const Vector3d& semi, Eigen::Ref<Values> o
   const Vector3d p = -n.cwiseProduct(semi.cwiseAbs2()) / n.cwiseProduct(semi).norm();
   out[0] = std::asin(std::clamp(p.z() / semi.z(), -1.0, 1.0));
   out[1] = std::atan2(p.y() / semi.y(), p.x() / semi.x());
-  const Vector3d x =
-      turned(frame_about(n).conjugate(), turned(X_RA.rotation, Vector3d::UnitX()));
+  const Vector3d x = turned(frame_about(n).conjugate(), turned(X_RA.rotation, Vector3d::UnitX()));
   out[2] = std::atan2(x.y(), x.x());
   out[3] = (p - X_RA.position).dot(n);
 }
@@ -93,7 +92,8 @@ SearchSpace::SearchSpace(const Robot& hand, const HandState& start, const SpaceO
   for (const double axis : options.semi_axes)
     if (!(std::isfinite(axis) && axis > 0))
       fail("search space: semi-axes: expected lengths > 0 [m], got {}", axis);
-  for (int d = 0; d < start_.dofs.size(); ++d) limits_.push_back(range_around(hand, d, start_.dofs[d]));
+  for (int d = 0; d < start_.dofs.size(); ++d)
+    limits_.push_back(range_around(hand, d, start_.dofs[d]));
   for (int d = 0; d < static_cast<int>(hand.dofs.size()); ++d)
     dof_names_.push_back(dof_name(hand, d));
   add_posture();
@@ -128,7 +128,8 @@ void SearchSpace::add_posture() {
 void SearchSpace::add_position() {
   const auto add = [&](const char* name, double min, double max, double value, double jump,
                        bool circular = false) {
-    variables_.push_back({.name = name, .min = min, .max = max, .value = value, .jump = jump, .circular = circular});
+    variables_.push_back(
+        {.name = name, .min = min, .max = max, .value = value, .jump = jump, .circular = circular});
   };
   switch (options_.position) {
     case PositionKind::complete:
@@ -259,8 +260,8 @@ double SearchSpace::posture_distance(const HandState& a, const HandState& b) con
 double SearchSpace::distance(const HandState& a, const HandState& b, double radius,
                              bool posture) const {
   const Eigen::Vector3d p_a = a.X_RH * X_HA_.position, p_b = b.X_RH * X_HA_.position;
-  const double place = std::max((p_a - p_b).norm() / radius,
-                                0.5 * (a.X_RH.inverse() * b.X_RH).angle() / pi);
+  const double place =
+      std::max((p_a - p_b).norm() / radius, 0.5 * (a.X_RH.inverse() * b.X_RH).angle() / pi);
   return posture ? std::max(place, posture_distance(a, b)) : place;
 }
 

@@ -1,5 +1,7 @@
-// Search spaces of grasps: a few variables that say where a hand stands about a reference, and in which posture.
-// source  Ciocarlie & Allen (2009), Hand posture subspaces for dexterous robotic grasping; spaces as GraspIt! has them
+// Search spaces of grasps: a few variables that say where a hand stands about a reference, and in
+// which posture.
+// source  Ciocarlie & Allen (2009), Hand posture subspaces for dexterous robotic grasping; spaces
+//         as GraspIt! has them
 #pragma once
 #include "clench/model/robot.h"
 #include "clench/motion/eigengrasps.h"
@@ -7,7 +9,8 @@
 
 namespace clench {
 
-/// How variables say where the hand's base stands; R is the reference, A the approach frame in the base.
+/// How variables say where the hand's base stands; R is the reference, A the approach frame in the
+/// base.
 enum class PositionKind {
   complete,    ///< Tx Ty Tz, Qw Qx Qy Qz: X_RH = T(t) R(q), q brought to unit length
   axis_angle,  ///< Tx Ty Tz, theta phi alpha: X_RH = T(t) R(alpha about (theta, phi)) X_HA^-1
@@ -51,15 +54,18 @@ class SearchSpace {
   Values start() const;  ///< value of each variable
   /// values  one per variable; those outside are brought inside, as are DOFs that they lead outside
   HandState state(const Values& values) const;
-  /// The values whose state is nearest, those of the user's own variables as they start: a pose that the space does not
-  /// hold (off the ellipsoid's normals, tilted otherwise than two wrists can) comes as near as it can.
+  /// The values whose state is nearest, those of the user's own variables as they start: a pose
+  /// that the space does not hold (off the ellipsoid's normals, tilted otherwise than two wrists
+  /// can) comes as near as it can.
   Values values(const HandState& state) const;
 
-  /// How different two states are: the largest of the distance of the approach frames' origins by the radius, half the
-  /// rotation by pi, and, where it counts, the largest difference of a DOF by its range.
+  /// How different two states are: the largest of the distance of the approach frames' origins by
+  /// the radius, half the rotation by pi, and, where it counts, the largest difference of a DOF by
+  /// its range.
   double distance(const HandState& a, const HandState& b, double radius, bool posture) const;
   /// Is that below a limit? Found sooner.
-  bool alike(const HandState& a, const HandState& b, double radius, bool posture, double limit) const;
+  bool alike(const HandState& a, const HandState& b, double radius, bool posture,
+             double limit) const;
 
  private:
   double posture_distance(const HandState& a, const HandState& b) const;

@@ -15,7 +15,8 @@ struct Variable {
   bool circular = false;    ///< max and min are the same place
   bool fixed = false;
   std::optional<double> target = {};  ///< where a guess of it lies, and how far to trust it
-  double confidence = 0;              ///< in [0, 1): neighbours are drawn around the target the closer the higher it is
+  /// in [0, 1): neighbours are drawn around the target the closer the higher it is
+  double confidence = 0;
 };
 
 using Values = Eigen::VectorXd;  ///< one per variable
@@ -23,7 +24,8 @@ using Values = Eigen::VectorXd;  ///< one per variable
 /// The value within the range: circular ones come round, others stop at its ends.
 double inside(const Variable& variable, double value);
 
-/// throws Error "search variable 'Tx': min 0.2 exceeds max 0.1" when its numbers do not fit together
+/// throws Error "search variable 'Tx': min 0.2 exceeds max 0.1" when its numbers do not fit
+/// together
 void check_variable(const Variable& variable);
 
 /// Number of the variable.   throws  Error with the nearest name, and all when they are few

@@ -143,9 +143,7 @@ float end_of(const ChartScale& scale, double value) {
 // above the columns, unless one is too wide
 void write_values(Pen& pen, const ChartScale& scale, const std::vector<double>& values,
                   const ChartColumns& columns) {
-  const auto width = [&](const std::string& text) {
-    return pen.font.width(text, letter_height);
-  };
+  const auto width = [&](const std::string& text) { return pen.font.width(text, letter_height); };
   std::vector<std::string> numbers;
   for (const double value : values)
     numbers.push_back(std::isfinite(value) ? fmt::format("{:.3g}", value) : "");
@@ -177,7 +175,7 @@ void draw_columns(Pen& pen, const ChartPanel& panel, const ChartSeries& series,
     }
     const float y = end_of(scale, value);
     pen.rectangle({x - half, std::min(y, zero)}, {x + half, std::max(y, zero)},
-                     value == best ? best_color : column_color);
+                  value == best ? best_color : column_color);
   }
   pen.rectangle({panel.left, zero - 0.5f}, {panel.right, zero + 0.5f}, ink);
   if (panel.name >= value_room) write_values(pen, scale, series.values, columns);
@@ -228,8 +226,9 @@ Drawing draw_chart(const Chart& chart, const ChartOptions& options, const Font& 
     draw_columns(pen, {top, std::max(top + 1, top + room - gap), left, right, name},
                  chart.series[i], columns);
   }
-  labels.draw(pen, static_cast<float>(height) - below + 8,
-              [&](size_t i) { return columns.centre(i); }, ink);
+  labels.draw(
+      pen, static_cast<float>(height) - below + 8, [&](size_t i) { return columns.centre(i); },
+      ink);
   return drawing;
 }
 

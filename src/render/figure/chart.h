@@ -24,10 +24,10 @@ struct ChartOptions {
 };
 
 /// Each panel has its own scale, which begins at 0, or below where values are negative; its best
-/// value is the darkest column, and values stand at the columns where they fit. Texts are UTF-8; long
-/// ones lose their middle. It needs no graphics hardware.
-/// throws  Error without series or items, with more than anybody can see, where counts differ, and on a
-///         size out of range
+/// value is the darkest column, and values stand at the columns where they fit. Texts are UTF-8;
+/// long ones lose their middle. It needs no graphics hardware.
+/// throws  Error without series or items, with more than anybody can see, where counts differ, and
+///         on a size out of range
 Drawing draw_chart(const Chart& chart, const ChartOptions& options = {}, const Font& font = Font());
 
 /// Ends of an axis that holds all finite values and 0, and the step of its lines: 1, 2 or 5 times a

@@ -86,9 +86,10 @@ struct SvgWriter {
             ? fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", text.at.x(), text.at.y())
             : "";
     const std::string rim =
-        text.rim ? fmt::format(" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" "
-                               "paint-order=\"stroke\"",
-                               rim_width)
+        text.rim ? fmt::format(
+                       " stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" "
+                       "paint-order=\"stroke\"",
+                       rim_width)
                  : "";
     out += fmt::format(
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"DejaVu Sans, sans-serif\" "

@@ -9,8 +9,8 @@
 
 namespace clench {
 
-/// Places are in pixels, x to the right and y down, from the upper left corner; colours are as a screen shows them, each
-/// part in 0..1. Items lie over those before them.
+/// Places are in pixels, x to the right and y down, from the upper left corner; colours are as a
+/// screen shows them, each part in 0..1. Items lie over those before them.
 struct Drawing {
   using Color = Eigen::Vector3f;
   /// with round ends and joints; one point is a disc

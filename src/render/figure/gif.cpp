@@ -18,7 +18,8 @@ void check_done(bool done, const char* what) {
 }
 
 int append_bytes(GifFileType* file, const GifByteType* bytes, int count) {
-  static_cast<std::string*>(file->UserData)->append(reinterpret_cast<const char*>(bytes), static_cast<size_t>(count));
+  static_cast<std::string*>(file->UserData)
+      ->append(reinterpret_cast<const char*>(bytes), static_cast<size_t>(count));
   return count;
 }
 
@@ -58,7 +59,8 @@ Part part_of(std::vector<int> list, const std::vector<Shade>& all) {
   Part part{.list = std::move(list)};
   for (const int shade : part.list) part.count += all[shade].count;
   for (int c = 0; c < 3; ++c) {
-    const auto [low, high] = std::ranges::minmax(part.list, {}, [c](int shade) { return channel_of(shade, c); });
+    const auto [low, high] =
+        std::ranges::minmax(part.list, {}, [c](int shade) { return channel_of(shade, c); });
     const int width = channel_of(high, c) - channel_of(low, c);
     if (width > part.width) part.channel = c, part.width = width;
   }
@@ -68,10 +70,13 @@ Part part_of(std::vector<int> list, const std::vector<Shade>& all) {
 // of two halves with about as many pixels each
 std::array<Part, 2> cut(Part part, const std::vector<Shade>& all) {
   const int c = part.channel;
-  std::ranges::sort(part.list, [c](int a, int b) { return std::pair(channel_of(a, c), a) < std::pair(channel_of(b, c), b); });
+  std::ranges::sort(part.list, [c](int a, int b) {
+    return std::pair(channel_of(a, c), a) < std::pair(channel_of(b, c), b);
+  });
   uint64_t seen = 0;
   size_t at = 0;
-  while (at + 1 < part.list.size() && (at == 0 || 2 * seen < part.count)) seen += all[part.list[at++]].count;
+  while (at + 1 < part.list.size() && (at == 0 || 2 * seen < part.count))
+    seen += all[part.list[at++]].count;
   const auto middle = part.list.begin() + static_cast<std::ptrdiff_t>(at);
   return {part_of({part.list.begin(), middle}, all), part_of({middle, part.list.end()}, all)};
 }
@@ -90,7 +95,8 @@ Palette find_palette(std::span<const Picture> frames) {
   std::vector<Part> parts = {part_of(std::move(used), all)};
   while (parts.size() < max_colors) {
     // the part whose pixels are farthest off
-    const auto worst = std::ranges::max_element(parts, {}, [](const Part& p) { return p.count * static_cast<uint64_t>(p.width); });
+    const auto worst = std::ranges::max_element(
+        parts, {}, [](const Part& p) { return p.count * static_cast<uint64_t>(p.width); });
     if (worst->width == 0) break;
     auto halves = cut(std::move(*worst), all);
     *worst = std::move(halves[0]);
@@ -105,7 +111,8 @@ Palette find_palette(std::span<const Picture> frames) {
       for (int c = 0; c < 3; ++c) sum[c] += all[shade].sum[c];
     }
     auto& color = out.colors.emplace_back();
-    for (int c = 0; c < 3; ++c) color[c] = static_cast<uint8_t>((sum[c] + parts[i].count / 2) / parts[i].count);
+    for (int c = 0; c < 3; ++c)
+      color[c] = static_cast<uint8_t>((sum[c] + parts[i].count / 2) / parts[i].count);
   }
   return out;
 }
@@ -114,20 +121,23 @@ void check_frames(std::span<const Picture> frames, std::span<const int> delays) 
   if (frames.empty()) fail("an animated GIF: expected at least one picture, got none");
   const int width = frames[0].width, height = frames[0].height;
   if (width < 1 || height < 1 || width > 65535 || height > 65535)
-    fail("an animated GIF: expected pictures of 1 to 65535 pixels a side, got {} x {}", width, height);
+    fail("an animated GIF: expected pictures of 1 to 65535 pixels a side, got {} x {}", width,
+         height);
   for (size_t i = 0; i < frames.size(); ++i)
     if (frames[i].width != width || frames[i].height != height)
-      fail("an animated GIF: picture {}: expected {} x {} pixels as the first, got {} x {}", i + 1, width, height,
-           frames[i].width, frames[i].height);
-  if (delays.size() != frames.size()) fail("an animated GIF: expected {} delays, got {}", frames.size(), delays.size());
+      fail("an animated GIF: picture {}: expected {} x {} pixels as the first, got {} x {}", i + 1,
+           width, height, frames[i].width, frames[i].height);
+  if (delays.size() != frames.size())
+    fail("an animated GIF: expected {} delays, got {}", frames.size(), delays.size());
 }
 
 void put_repeat_forever(GifFileType* file) {
   constexpr GifByteType endless[] = {1, 0, 0};
   check_done(EGifPutExtensionLeader(file, APPLICATION_EXT_FUNC_CODE) == GIF_OK &&
-            EGifPutExtensionBlock(file, 11, "NETSCAPE2.0") == GIF_OK && EGifPutExtensionBlock(file, 3, endless) == GIF_OK &&
-            EGifPutExtensionTrailer(file) == GIF_OK,
-        "writing");
+                 EGifPutExtensionBlock(file, 11, "NETSCAPE2.0") == GIF_OK &&
+                 EGifPutExtensionBlock(file, 3, endless) == GIF_OK &&
+                 EGifPutExtensionTrailer(file) == GIF_OK,
+             "writing");
 }
 
 }  // namespace
@@ -149,12 +159,14 @@ std::string gif_bytes(std::span<const Picture> frames, std::span<const int> dela
   put_repeat_forever(file.get());
   std::vector<GifByteType> row(static_cast<size_t>(width));
   for (size_t i = 0; i < frames.size(); ++i) {
-    const GraphicsControlBlock control{DISPOSE_DO_NOT, false, std::clamp(delays[i], 0, 65535), NO_TRANSPARENT_COLOR};
+    const GraphicsControlBlock control{DISPOSE_DO_NOT, false, std::clamp(delays[i], 0, 65535),
+                                       NO_TRANSPARENT_COLOR};
     GifByteType bytes[4];
     EGifGCBToExtension(&control, bytes);
-    check_done(EGifPutExtension(file.get(), GRAPHICS_EXT_FUNC_CODE, sizeof bytes, bytes) == GIF_OK &&
-                   EGifPutImageDesc(file.get(), 0, 0, width, height, false, nullptr) == GIF_OK,
-               "writing");
+    check_done(
+        EGifPutExtension(file.get(), GRAPHICS_EXT_FUNC_CODE, sizeof bytes, bytes) == GIF_OK &&
+            EGifPutImageDesc(file.get(), 0, 0, width, height, false, nullptr) == GIF_OK,
+        "writing");
     const uint8_t* pixel = frames[i].pixels.data();
     for (int y = 0; y < height; ++y) {
       for (GifByteType& color : row) color = palette.index[shade_of(pixel)], pixel += 3;

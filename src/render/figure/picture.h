@@ -6,7 +6,8 @@
 
 namespace clench {
 
-/// RGB, 8 bits a channel, rows from the top; and, where it lets through what it is laid on, how much it covers.
+/// RGB, 8 bits a channel, rows from the top; and, where it lets through what it is laid on, how
+/// much it covers.
 struct Picture {
   int width = 0, height = 0;
   std::vector<uint8_t> pixels;

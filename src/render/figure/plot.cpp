@@ -23,7 +23,7 @@ constexpr float text_height = 10, heading_height = 13, border = 14, gap = 8;  //
 constexpr float line_width = 2, point_width = 6, frame_width = 1, sample_length = 24;
 constexpr double tick_room_x = 90, tick_room_y = 45;  // between two lines of an axis [pixels]
 constexpr double margin_of_data = 0.04;               // beside the outermost numbers
-constexpr double group_width = 0.8;   // of a category's bars together, of the distance to the next
+constexpr double group_width = 0.8;    // of a category's bars together, of the distance to the next
 constexpr float longest_label = 0.3f;  // of an upright category, of the figure's height
 constexpr int min_plot_size = 64, max_plot_size = 8192;
 constexpr size_t max_points = 200'000;
@@ -114,7 +114,8 @@ void check_plot(const Plot& plot) {
 
 // of a bar of a category
 double bar_width(const Plot& plot) {
-  return group_width / static_cast<double>(std::ranges::count(plot.series, PlotKind::bars, &PlotSeries::kind));
+  return group_width /
+         static_cast<double>(std::ranges::count(plot.series, PlotKind::bars, &PlotSeries::kind));
 }
 
 // categories stand at 1, 2, 3 ..., and bars of several series beside one another around them
@@ -165,7 +166,8 @@ Range with_margin(const Range& data, bool low_end, bool high_end) {
           data[1] + (high_end ? margin_of_data * size : 0)};
 }
 
-// numbers of a logarithmic axis as powers of ten, which all else counts in; what is not > 0 has none
+// numbers of a logarithmic axis as powers of ten, which all else counts in; what is not > 0 has
+// none
 void take_logarithms(const PlotAxis& axis, std::vector<double>& values) {
   if (!axis.logarithmic) return;
   for (double& value : values) value = value > 0 ? std::log10(value) : NAN;
@@ -277,15 +279,16 @@ void Figure::set_scales(float top) {
   x_.from = left, x_.to = std::max(right, left + 1);
   if (plot_.categories.empty()) return;
   // upright names leave less height, in which there are no more lines than before
-  labels_.emplace(plot_.categories, x_.at(2) - x_.at(1), longest_label * height, text_height, font_);
+  labels_.emplace(plot_.categories, x_.at(2) - x_.at(1), longest_label * height, text_height,
+                  font_);
   set_y(labels_->room());
 }
 
 void Figure::draw_axes() {
   const float low = y_.from, high = y_.to;
   if (labels_)
-    labels_->draw(pen_, low + gap,
-                  [&](size_t i) { return x_.at(static_cast<double>(i + 1)); }, dark);
+    labels_->draw(
+        pen_, low + gap, [&](size_t i) { return x_.at(static_cast<double>(i + 1)); }, dark);
   for (const double value : labels_ ? std::vector<double>{} : x_.lines()) {
     const float x = x_.at(value);
     line({{x, low}, {x, high}}, frame_width, grid);
@@ -314,7 +317,8 @@ void Figure::draw_bars(const PlotSeries& series, const Drawing::Color& color) {
   };
   for (size_t i = 0; i < series.y.size(); ++i) {
     if (!shown(series.y[i])) continue;
-    const double left = within(x_.range, series.x[i]), right = within(x_.range, right_edge(plot_, series, i));
+    const double left = within(x_.range, series.x[i]),
+                 right = within(x_.range, right_edge(plot_, series, i));
     const double low = within(y_.range, std::min(0.0, series.y[i])),
                  high = within(y_.range, std::max(0.0, series.y[i]));
     if (!(left < right) || !(low < high)) continue;

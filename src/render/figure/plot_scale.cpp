@@ -26,7 +26,8 @@ static std::vector<double> decades(const Range& range, const std::vector<double>
 }
 std::vector<double> PlotScale::lines() const {
   if (logarithmic && step <= 1) {
-    if (const auto some = decades(range, {1, 2, 5}); some.size() >= 2 && some.size() <= 8) return some;
+    if (const auto some = decades(range, {1, 2, 5}); some.size() >= 2 && some.size() <= 8)
+      return some;
     if (const auto some = decades(range, {1}); some.size() >= 2) return some;
   }
   std::vector<double> out;
@@ -48,7 +49,8 @@ std::string PlotScale::text(double value) const {
 }
 
 PlotScale make_scale(const Range& range, double pixels, double room, bool logarithmic) {
-  const double count = std::max(1.0, pixels / room), step = round_step((range[1] - range[0]) / count);
+  const double count = std::max(1.0, pixels / room),
+               step = round_step((range[1] - range[0]) / count);
   // of powers of ten, whole ones
   return {range, logarithmic && range[1] - range[0] > 2 ? std::max(1.0, std::ceil(step)) : step,
           logarithmic};

@@ -11,10 +11,10 @@ struct SheetOptions {
   int gap = 12;                            ///< between pictures, and around all [pixels]
 };
 
-/// Cells are as large as the largest picture, with smaller ones in their middle, on white. Captions that are too long lose
-/// their middle.
-/// throws  Error without pictures, with another number of captions, with numbers out of range, and when the sheet
-///         would be larger than 16384 pixels a side
+/// Cells are as large as the largest picture, with smaller ones in their middle, on white. Captions
+/// that are too long lose their middle.
+/// throws  Error without pictures, with another number of captions, with numbers out of range, and
+///         when the sheet would be larger than 16384 pixels a side
 Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOptions& options,
                       const Font& font);
 

@@ -7,8 +7,8 @@ namespace clench {
 
 namespace {
 
-constexpr int reach_along = 12;                       // of a step that is followed [pixels]
-constexpr int min_contrast = 12;                      // that is smoothed, of 255
+constexpr int reach_along = 12;                         // of a step that is followed [pixels]
+constexpr int min_contrast = 12;                        // that is smoothed, of 255
 constexpr float part_contrast = 0.1f, max_spot = 0.6f;  // of the brightest; of a single pixel
 
 struct Brightness {
@@ -43,10 +43,9 @@ Mix mix_at(const Brightness& b, int x, int y) {
     return {};
   const int ne = b.at(x + 1, y - 1), nw = b.at(x - 1, y - 1), se = b.at(x + 1, y + 1),
             sw = b.at(x - 1, y + 1);
-  const bool level = 2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e) +
-                         std::abs(nw + sw - 2 * w) >=
-                     2 * std::abs(e + w - 2 * m) + std::abs(ne + nw - 2 * n) +
-                         std::abs(se + sw - 2 * s);
+  const bool level =
+      2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e) + std::abs(nw + sw - 2 * w) >=
+      2 * std::abs(e + w - 2 * m) + std::abs(ne + nw - 2 * n) + std::abs(se + sw - 2 * s);
 
   // the steeper side is where the edge lies
   const int before = level ? n : w, after = level ? s : e;
@@ -73,7 +72,8 @@ Mix mix_at(const Brightness& b, int x, int y) {
     all += distance;
   }
   // only on that side of the step that the edge cuts
-  if (std::abs(end) >= steep && (end < 0) != (static_cast<float>(m) - middle < 0)) mix.part = 0.5f - nearest / all;
+  if (std::abs(end) >= steep && (end < 0) != (static_cast<float>(m) - middle < 0))
+    mix.part = 0.5f - nearest / all;
   const float around = static_cast<float>(2 * (n + s + e + w) + ne + nw + se + sw) / 12;
   // a third beside a level edge, which is as it should be
   const float unlike = std::abs(around - static_cast<float>(m)) / static_cast<float>(range);
@@ -83,14 +83,17 @@ Mix mix_at(const Brightness& b, int x, int y) {
   return mix;
 }
 
-// between each pixel of a row and its four neighbours. Bytes alone, so that many are found at once: few are worth more
+// between each pixel of a row and its four neighbours. Bytes alone, so that many are found at once:
+// few are worth more
 void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts) {
   const uint8_t* row = &b.values[static_cast<size_t>(y) * b.width];
   const uint8_t *above = row - b.width, *below = row + b.width;
   uint8_t* out = contrasts.data();
   for (int x = 1; x + 1 < b.width; ++x) {
-    const uint8_t high = std::max(std::max(std::max(above[x], below[x]), std::max(row[x - 1], row[x + 1])), row[x]);
-    const uint8_t low = std::min(std::min(std::min(above[x], below[x]), std::min(row[x - 1], row[x + 1])), row[x]);
+    const uint8_t high =
+        std::max(std::max(std::max(above[x], below[x]), std::max(row[x - 1], row[x + 1])), row[x]);
+    const uint8_t low =
+        std::min(std::min(std::min(above[x], below[x]), std::min(row[x - 1], row[x + 1])), row[x]);
     out[x] = static_cast<uint8_t>(high - low);
   }
 }
@@ -100,7 +103,8 @@ void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts)
 void smooth_edges(Picture& picture) {
   const Brightness b = brightness_of(picture);
   const Picture from = picture;
-  const auto mixed = [](const std::vector<uint8_t>& values, size_t here, size_t across, float part) {
+  const auto mixed = [](const std::vector<uint8_t>& values, size_t here, size_t across,
+                        float part) {
     const float sum = (1 - part) * values[here] + part * values[across];
     return static_cast<uint8_t>(sum + 0.5f);
   };

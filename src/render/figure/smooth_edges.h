@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// Mixes pixels at edges with those across, by where along a step of the edge they lie. Colours are multiplied by alpha
-/// where there is alpha.
+/// Mixes pixels at edges with those across, by where along a step of the edge they lie. Colours are
+/// multiplied by alpha where there is alpha.
 /// source  Lottes (2009), FXAA
 void smooth_edges(Picture& picture);
 

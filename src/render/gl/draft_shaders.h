@@ -61,7 +61,8 @@ float lit(vec3 p, vec3 n, bool asked) {
 }
 )";
 
-/// bodies; with MARKS friction cones and arrows, whatever the light; with GLASS what shines through, on which no shadow falls
+/// bodies; with MARKS friction cones and arrows, whatever the light; with GLASS what shines
+/// through, on which no shadow falls
 inline constexpr const char* draft_fragment = R"(
 uniform vec3 eye;
 // what a varnish returns of the lamp and of the room

@@ -26,7 +26,8 @@ Programs::Programs() {
   draft_glass = gl::make_program("#define GLASS\n", draft_vertex, draft_body);
   draft_marks = gl::make_program("#define MARKS\n", draft_vertex, draft_body);
   draft_floor = gl::make_program("", draft_vertex, backdrop + shown + draft_floor_fragment);
-  draft_behind = gl::make_program("", cover_vertex, backdrop + draft_curve_part + draft_behind_fragment);
+  draft_behind =
+      gl::make_program("", cover_vertex, backdrop + draft_curve_part + draft_behind_fragment);
   draft_shadow = gl::make_program("", draft_shadow_vertex, depth_fragment);
   draft_outline = gl::make_program("", draft_vertex, draft_seen_fragment);
 }

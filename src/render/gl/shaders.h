@@ -235,7 +235,8 @@ vec3 backdrop() {
 }
 )";
 
-/// lines around bodies, where the surface seen in one pixel does not go on in its neighbours, and along edges
+/// lines around bodies, where the surface seen in one pixel does not go on in its neighbours, and
+/// along edges
 inline constexpr const char* outline_fragment = R"(
 uniform sampler2D places;
 uniform sampler2D facings;

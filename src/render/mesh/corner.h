@@ -17,8 +17,8 @@ struct Corner {
 };
 static_assert(sizeof(Corner) == 32);
 
-/// The part of light that a surface returns whose colour on a screen is this, 0..1. Nothing is so black that its shape
-/// is lost.
+/// The part of light that a surface returns whose colour on a screen is this, 0..1. Nothing is so
+/// black that its shape is lost.
 Eigen::Vector3f linear_rgb(const Eigen::Vector3f& color);
 
 /// color: as on a screen

@@ -14,7 +14,7 @@ namespace clench {
 namespace {
 
 constexpr double crease = 35 * std::numbers::pi / 180;
-constexpr float solid_from = 0.999f;   // opacity above which nothing shines through
+constexpr float solid_from = 0.999f;  // opacity above which nothing shines through
 // across which light is interpolated [scene units]: of what is solid, and of what is seen through
 constexpr float longest_edge = 0.07f, longest_clear_edge = 0.2f;
 // of one piece, by splitting; what comes with more keeps them
@@ -141,7 +141,8 @@ std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye) {
     for (int at = batch.first; at < batch.first + batch.count; at += 3) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int k = 0; k < 3; ++k) sum += list.corners[list.indices[at + k]].p;
-      order.push_back({eye.ortho_height > 0 ? away.dot(sum) : -(sum / 3 - from).squaredNorm(), static_cast<uint32_t>(at)});
+      order.push_back({eye.ortho_height > 0 ? away.dot(sum) : -(sum / 3 - from).squaredNorm(),
+                       static_cast<uint32_t>(at)});
     }
   };
   for (const Batch& batch : list.clear) add(batch);

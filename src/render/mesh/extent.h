@@ -15,8 +15,8 @@ struct Extent {
   double scale = 1;
 };
 
-/// About the centre of the bounds of all points that `each` gives to a function it is given, and through the farthest;
-/// none where there is no point. Squares do not overflow.
+/// About the centre of the bounds of all points that `each` gives to a function it is given, and
+/// through the farthest; none where there is no point. Squares do not overflow.
 /// throws  Error when it is larger than numbers can be
 template <class Each>
 std::optional<Extent> ball_around(Each&& each) {
@@ -27,14 +27,17 @@ std::optional<Extent> ball_around(Each&& each) {
   const double half = (0.5 * bounds.high - 0.5 * bounds.low).maxCoeff();
   double most = 0;
   if (const double unit = 1 / half; std::isfinite(unit))
-    each([&](const Eigen::Vector3d& p) { most = std::max(most, (unit * (p - centre)).squaredNorm()); });
+    each([&](const Eigen::Vector3d& p) {
+      most = std::max(most, (unit * (p - centre)).squaredNorm());
+    });
   const double scale = half * std::sqrt(most);
   if (!std::isfinite(scale)) fail("picture: the scene is larger than numbers can be");
   // a single point is seen from a distance that its coordinates can resolve
   return Extent{centre, std::max(scale, 1e-9 * std::max(1.0, centre.cwiseAbs().maxCoeff()))};
 }
 
-/// It holds every vertex of meshes, cones and arrows, but not of backgrounds unless there is nothing else; world [m].
+/// It holds every vertex of meshes, cones and arrows, but not of backgrounds unless there is
+/// nothing else; world [m].
 /// throws  Error when a mesh is moved beyond all numbers, too
 Extent extent_of(const Scene& scene);
 

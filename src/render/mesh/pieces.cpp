@@ -97,8 +97,9 @@ Piece cone_piece(const DrawCone& c) {
   for (int r = 0; r <= dot_rings; ++r)
     for (int i = 0; i < dot_sides; ++i) {
       const double polar = std::numbers::pi * r / dot_rings;
-      piece.p_W.push_back(c.apex + 0.10 * c.height *
-                                       (std::cos(polar) * c.axis + std::sin(polar) * around(i, dot_sides)));
+      piece.p_W.push_back(c.apex +
+                          0.10 * c.height *
+                              (std::cos(polar) * c.axis + std::sin(polar) * around(i, dot_sides)));
     }
   for (int r = 0; r < dot_rings; ++r)
     for (int i = 0; i < dot_sides; ++i) {

@@ -20,9 +20,9 @@
 namespace clench {
 namespace {
 
-constexpr int max_draft_map = 2048;       // [pixels]
-constexpr double draft_reach = 1.03;      // of the map: the scene's ball and a margin
-constexpr float draft_solid = 0.999f;     // opacity above which nothing shines through
+constexpr int max_draft_map = 2048;    // [pixels]
+constexpr double draft_reach = 1.03;   // of the map: the scene's ball and a margin
+constexpr float draft_solid = 0.999f;  // opacity above which nothing shines through
 
 // one mesh of the scene, where it stands
 struct Placed {
@@ -30,14 +30,13 @@ struct Placed {
   Eigen::Matrix4d to_scene;
   Eigen::Vector4f paint;
   bool background;
-  double distance;  // of its centre from the eye, scene units
+  double distance;        // of its centre from the eye, scene units
   bool one_side = false;  // is all that can be seen
 };
 
 Eigen::Matrix4d moved_by(const DrawMesh& mesh, const StoredMesh& stored, const Extent& extent) {
   Eigen::Matrix4d out = Eigen::Matrix4d::Identity();
-  out.topLeftCorner<3, 3>() =
-      mesh.X_WM.rotation.toRotationMatrix() * (stored.scale / extent.scale);
+  out.topLeftCorner<3, 3>() = mesh.X_WM.rotation.toRotationMatrix() * (stored.scale / extent.scale);
   out.topRightCorner<3, 1>() = (mesh.X_WM * stored.centre - extent.centre) / extent.scale;
   return out;
 }
@@ -99,7 +98,10 @@ class Draft {
 
 Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
              const RenderOptions& options)
-    : programs_(programs), options_(options), extent_(extent_of(scene)), eye_(eye),
+    : programs_(programs),
+      options_(options),
+      extent_(extent_of(scene)),
+      eye_(eye),
       map_size_(draft_map_size(options)) {
   eye_.eye = (eye.eye - extent_.centre) / extent_.scale;
   eye_.target = (eye.target - extent_.centre) / extent_.scale;
@@ -150,7 +152,8 @@ void Draft::load_floor(const Scene& scene) {
   if (std::abs(ground_) > floor_reach || shading_eye(eye_).z() <= ground_) return;
   const auto z = static_cast<float>(ground_), r = static_cast<float>(floor_reach);
   std::vector<Corner> corners;
-  for (const auto& [x, y] : {std::pair(-r, -r), std::pair(r, -r), std::pair(r, r), std::pair(-r, r)})
+  for (const auto& [x, y] :
+       {std::pair(-r, -r), std::pair(r, -r), std::pair(r, r), std::pair(-r, r)})
     corners.push_back({{x, y, z}, {0, 0, 1}, {}});
   floor_ = store_corners(corners, {0, 1, 2, 0, 2, 3});
 }
@@ -198,8 +201,7 @@ void Draft::draw_triangles(const StoredMesh& mesh, bool one_side) const {
   if (one_side) glDisable(GL_CULL_FACE);
 }
 
-void Draft::draw_depth(const Placed& placed, const Eigen::Matrix4d& clip,
-                       bool one_side) const {
+void Draft::draw_depth(const Placed& placed, const Eigen::Matrix4d& clip, bool one_side) const {
   gl::set(programs_.draft_shadow, "to_clip",
           Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
   draw_triangles(*placed.mesh, one_side);
@@ -291,7 +293,8 @@ void Draft::paint(const Tile& tile, Picture& out) {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
-  for (const unsigned program : {unsigned(programs_.draft), unsigned(programs_.draft_glass), unsigned(programs_.draft_marks)}) {
+  for (const unsigned program : {unsigned(programs_.draft), unsigned(programs_.draft_glass),
+                                 unsigned(programs_.draft_marks)}) {
     give_light(program);
     gl::set(program, "eye", shading_eye(eye_));
   }

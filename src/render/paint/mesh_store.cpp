@@ -33,7 +33,8 @@ void share_corners(const std::vector<Eigen::Vector3d>& vertices,
       const int v = triangles[i][k];
       const Corner corner{vertices[v].cast<float>(), normals[i][k], paint};
       int at = first[v];
-      while (at >= 0 && std::memcmp(&corners[base + at], &corner, sizeof corner) != 0) at = next[at];
+      while (at >= 0 && std::memcmp(&corners[base + at], &corner, sizeof corner) != 0)
+        at = next[at];
       if (at < 0) {
         at = static_cast<int>(next.size());
         next.push_back(first[v]);
@@ -45,8 +46,7 @@ void share_corners(const std::vector<Eigen::Vector3d>& vertices,
   }
 }
 
-StoredMesh store_corners(const std::vector<Corner>& corners,
-                         const std::vector<uint32_t>& indices) {
+StoredMesh store_corners(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices) {
   StoredMesh out;
   out.array = gl::make_vertex_array();
   out.corners = gl::make_buffer(corners.data(), corners.size() * sizeof(Corner));

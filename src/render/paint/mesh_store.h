@@ -41,8 +41,8 @@ class MeshStore {
   std::list<Entry> entries_;  // the last asked for first
 };
 
-/// Triangles as corners, each distinct one of a vertex once; triangles without area are left out. `colors`: one, or
-/// one per triangle.
+/// Triangles as corners, each distinct one of a vertex once; triangles without area are left out.
+/// `colors`: one, or one per triangle.
 void share_corners(const std::vector<Eigen::Vector3d>& vertices,
                    const std::vector<Triangle>& triangles,
                    const std::vector<Eigen::Vector3f>& colors, std::vector<Corner>& corners,

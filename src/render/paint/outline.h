@@ -7,7 +7,8 @@
 
 namespace clench {
 
-/// Textures of what is seen: places, unit normals, and whether there is anything (alpha of the third).
+/// Textures of what is seen: places, unit normals, and whether there is anything (alpha of the
+/// third).
 struct SeenTextures {
   unsigned places, facings, paints;
 };
@@ -16,7 +17,8 @@ struct SeenTextures {
 class Outline {
  public:
   Outline(unsigned program, const Eye& eye, const RenderOptions& options);
-  /// Over the framebuffer that is bound. `soft`: lines have soft sides, where there is one sample a pixel.
+  /// Over the framebuffer that is bound. `soft`: lines have soft sides, where there is one sample a
+  /// pixel.
   void draw(const SeenTextures& seen, float cover, bool soft) const;
 
  private:

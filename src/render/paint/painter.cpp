@@ -131,7 +131,8 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
   glBindVertexArray(loaded_.array);
   for (const auto* batches : {&list_.solid, &list_.behind})
     for (const Batch& batch : *batches) {
-      const bool one_side = heavy_ && batch.closed && hides_inside(batch.centre, batch.radius, eye_);
+      const bool one_side =
+          heavy_ && batch.closed && hides_inside(batch.centre, batch.radius, eye_);
       (one_side ? glEnable : glDisable)(GL_CULL_FACE);
       draw(batch);
     }
@@ -252,14 +253,13 @@ void Painter::paint(const Tile& tile, Picture& out) {
     options_.progress.tell((done_ + double(s) / options_.samples * tile.width * tile.height) /
                                (double(out.width) * out.height),
                            "drawing");
-    shadows_.cast(list_, loaded_, std::span(lamp_).subspan(static_cast<size_t>(s) * lamps_, lamps_));
+    shadows_.cast(list_, loaded_,
+                  std::span(lamp_).subspan(static_cast<size_t>(s) * lamps_, lamps_));
     glViewport(0, 0, tile.drawn_width(), tile.drawn_height());
-    const Eigen::Matrix4f clip =
-        (crop_to(tile, options_, shifts_[s]) * projection_).cast<float>();
+    const Eigen::Matrix4f clip = (crop_to(tile, options_, shifts_[s]) * projection_).cast<float>();
     find_first(layers, clip);
     shade(layers, tile);
-    if (options_.outline > 0)
-      lines.draw({layers.places, layers.facings, layers.paints}, 1, false);
+    if (options_.outline > 0) lines.draw({layers.places, layers.facings, layers.paints}, 1, false);
     // found before they hide themselves
     const std::span marks(&list_.marks, 1);
     find(marks, clip);

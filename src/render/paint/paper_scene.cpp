@@ -9,14 +9,15 @@ namespace clench {
 namespace {
 
 constexpr int room_lights_per_sample = 16, min_room_lights = 24, max_room_lights = 512;
-constexpr int room_map_size = 256;        // [pixels]
-constexpr double max_cast = 12e6;        // triangles in all maps of the room
-constexpr int heavy_lamp = 4;             // lights of a lamp at what is seen through
+constexpr int room_map_size = 256;  // [pixels]
+constexpr double max_cast = 12e6;   // triangles in all maps of the room
+constexpr int heavy_lamp = 4;       // lights of a lamp at what is seen through
 
 // a small picture shows less of what many lights do
 int room_lights(const RenderOptions& options, size_t casters) {
   const double fine = std::clamp(std::max(options.width, options.height) / 640.0, 0.25, 1.0);
-  const double afford = max_cast * options.samples / 8 / static_cast<double>(std::max<size_t>(casters, 1));
+  const double afford =
+      max_cast * options.samples / 8 / static_cast<double>(std::max<size_t>(casters, 1));
   const double count = std::min(options.samples * room_lights_per_sample * fine, afford);
   return static_cast<int>(std::clamp<double>(count, min_room_lights, max_room_lights));
 }

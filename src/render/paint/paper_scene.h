@@ -1,4 +1,5 @@
-// A scene on the graphics card with the light that was gathered for it: what pictures from several sides share.
+// A scene on the graphics card with the light that was gathered for it: what pictures from several
+// sides share.
 #pragma once
 #include <memory>
 #include <optional>
@@ -19,12 +20,15 @@ class PaperScene {
   const LoadedList& loaded() const { return loaded_; }
   size_t bytes() const;
 
-  /// Triangles that throw shadows, so many that fewer lights and one side of what is closed must do?
+  /// Triangles that throw shadows, so many that fewer lights and one side of what is closed must
+  /// do?
   bool heavy() const { return casters_ > 100000; }
-  /// Light of a room that suits a picture of this size and smoothness, kept until another is asked for.
+  /// Light of a room that suits a picture of this size and smoothness, kept until another is asked
+  /// for.
   /// throws  Stopped, and keeps what it had
   void light_room(const RenderOptions& options);
-  /// That of a lamp as it stands for these axes of a view, at what is seen through.   throws Stopped
+  /// That of a lamp as it stands for these axes of a view, at what is seen through.   throws
+  /// Stopped
   void light_lamp(const Eigen::Matrix3d& axes, const Progress& progress);
   /// What all lights of the room return from a white floor with nothing in between.
   float open_room() const { return open_room_; }

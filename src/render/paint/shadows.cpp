@@ -76,8 +76,7 @@ Shadows::Shadows(const Programs& programs, int size, int count)
       maps_(gl::make_shadow_maps(size, count)),
       framebuffer_(gl::make_framebuffer({}, 0)) {}
 
-void Shadows::cast(const DrawList& list, const LoadedList& loaded,
-                   std::span<const Light> lights) {
+void Shadows::cast(const DrawList& list, const LoadedList& loaded, std::span<const Light> lights) {
   const unsigned program = programs_.shadow;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, size_, size_);
@@ -161,7 +160,8 @@ gl::Object gather(const Programs& programs, const DrawList& list, const LoadedLi
     if (list.corners.size() > 100000)
       glFinish();  // or a stop would wait for all that was drawn before
     progress.check();
-    shadows.cast(list, loaded, std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));
+    shadows.cast(list, loaded,
+                 std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));
     shadows.give(program);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, gathered_width, rows);

@@ -29,12 +29,14 @@ class Cover {
 
 class Shadows {
  public:
-  static constexpr int most = lights_at_once;  ///< lights at a time; those that are not cast are dark
+  /// lights at a time; those that are not cast are dark
+  static constexpr int most = lights_at_once;
 
   /// `size` of the maps in pixels, `count` of them
   Shadows(const Programs& programs, int size, int count = most);
 
-  /// Draws the maps of these lights, at most `count`. Bodies that are seen through stop a part of the lights.
+  /// Draws the maps of these lights, at most `count`. Bodies that are seen through stop a part of
+  /// the lights.
   void cast(const DrawList& list, const LoadedList& loaded, std::span<const Light> lights);
   /// The lights just cast, for a program that has `light_part`; takes texture unit 0.
   void give(unsigned program) const;

@@ -8,7 +8,8 @@
 
 namespace clench {
 
-/// A part of the picture, from its lower left corner, and a border around it that is drawn but not kept [pixels].
+/// A part of the picture, from its lower left corner, and a border around it that is drawn but not
+/// kept [pixels].
 struct Tile {
   int x, y, width, height, border = 0;
   int drawn_width() const { return width + 2 * border; }
@@ -25,7 +26,8 @@ Eigen::Matrix4d crop_to(const Tile& tile, const RenderOptions& options,
 /// Depths between which all of a scene and its floor lie, seen from an eye in scene units.
 Eigen::Vector2d depth_range(const Eye& eye);
 
-/// Where rays come from, for shading: a perspective eye, or a point far behind an orthographic one; scene units.
+/// Where rays come from, for shading: a perspective eye, or a point far behind an orthographic one;
+/// scene units.
 Eigen::Vector3f shading_eye(const Eye& eye);
 
 /// Of the framebuffer that is bound, which holds the tile: red, green, blue, alpha.

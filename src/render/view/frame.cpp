@@ -84,7 +84,8 @@ using Points = std::vector<Eigen::Vector3d>;
 // of a scene, about the centre of what must be in the frame and divided by its radius
 struct Sight {
   Points framed;  // all that must be in the frame, to its last vertex
-  Points solid, aside, clear, marks;  // some of what hides; of what need not be seen; of what should
+  Points solid, aside, clear,
+      marks;  // some of what hides; of what need not be seen; of what should
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
 };
@@ -152,9 +153,8 @@ Sight sight_of(const Scene& scene) {
   for (const DrawCone& cone : scene.cones) append(sight.marks, cone_piece(cone).p_W);
   for (const DrawArrow& arrow : scene.arrows) append(sight.marks, arrow_piece(arrow).p_W);
   // only a floor: that is what there is to see
-  const bool only_floor = sight.marks.empty() && std::ranges::all_of(meshes, [](const auto* m) {
-    return m->background;
-  });
+  const bool only_floor = sight.marks.empty() &&
+                          std::ranges::all_of(meshes, [](const auto* m) { return m->background; });
   std::vector<Points> placed;
   std::vector<bool> must;
   for (const DrawMesh* mesh : meshes) {
@@ -210,8 +210,7 @@ Eye fit(const Points& corners, const Eigen::Vector3d& direction, double aspect, 
   const Eigen::Array2d half = (high + low) / 2;
   const double back = std::max((half / slope).maxCoeff(), nearest + 0.05);
   const Eigen::Vector2d across = (high - low) / 2;
-  if (ortho)
-    eye.ortho_height = std::max(2 / used * std::max(half.y(), half.x() / aspect), 1e-6);
+  if (ortho) eye.ortho_height = std::max(2 / used * std::max(half.y(), half.x() / aspect), 1e-6);
   eye.eye = axes * Eigen::Vector3d(across.x(), across.y(), back);
   eye.target = axes * Eigen::Vector3d(across.x(), across.y(), (nearest + farthest) / 2);
   return eye;
@@ -288,7 +287,8 @@ double beside(const Sight& sight, const Eigen::Vector3d& direction) {
   return off.norm() > 1e-9 ? off.normalized().dot(direction.normalized()) : 0;
 }
 
-// how much of contacts, of what is grasped, and of the frame a view shows, less what is beside the matter
+// how much of contacts, of what is grasped, and of the frame a view shows, less what is beside the
+// matter
 double worth(const Sight& sight, const Eye& eye, double aspect) {
   Overview view(eye, aspect);
   view.hide(sight.solid, false);
@@ -314,9 +314,8 @@ Eye frame(const Scene& scene, double aspect, bool ortho) {
     const Pose turn =
         Pose::turn(2 * std::numbers::pi * (k % around) / around, Eigen::Vector3d::UnitZ());
     const Eigen::Vector3d direction = turn * (k < around ? default_back : steeper_back);
-    const double value =
-        worth(sight, fit(some, direction, aspect, ortho), aspect) + (k == 0 ? 0.15 : 0) -
-                         0.5 * beside(sight, direction);
+    const double value = worth(sight, fit(some, direction, aspect, ortho), aspect) +
+                         (k == 0 ? 0.15 : 0) - 0.5 * beside(sight, direction);
     if (value > most) best = direction, most = value;
   }
   Eye eye = fit(sight.framed, best, aspect, ortho);

@@ -6,10 +6,11 @@
 
 namespace clench {
 
-/// The nearest view from above and the side that holds every vertex of the meshes that must be in the frame, of
-/// cones and of arrows, with a margin; world. Of twelve sides and two heights the first, unless another shows clearly
-/// more of contacts and of what is seen through, and less of what need not be in the frame. `aspect` is width over
-/// height. An empty scene: a view of a square of size 1.
+/// The nearest view from above and the side that holds every vertex of the meshes that must be in
+/// the frame, of cones and of arrows, with a margin; world. Of twelve sides and two heights the
+/// first, unless another shows clearly more of contacts and of what is seen through, and less of
+/// what need not be in the frame. `aspect` is width over height. An empty scene: a view of a square
+/// of size 1.
 /// throws  Error on an aspect that is not > 0
 Eye frame(const Scene& scene, double aspect, bool ortho = false);
 
@@ -19,8 +20,8 @@ Eye frame(const Scene& scene, double aspect, bool ortho = false);
 ///         of range
 Eigen::Matrix3d view_axes(const Eye& eye);
 
-/// To clip coordinates of OpenGL: x and y of what is seen in [-w, w], depth from near to far, which may lie behind an
-/// orthographic eye.
+/// To clip coordinates of OpenGL: x and y of what is seen in [-w, w], depth from near to far, which
+/// may lie behind an orthographic eye.
 /// throws  Error as `view_axes` does
 Eigen::Matrix4d view_projection(const Eye& eye, double aspect, double near, double far);
 

@@ -37,6 +37,7 @@ struct PlacedText {
 /// without room are left out. `letters`: height of all capital letters [pixels]; 0: a part of the
 /// picture's. Nothing is written on pictures of less than 120 pixels either way.
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye,
-                                    const Eigen::Vector2f& picture, const Font& font, float letters = 0);
+                                    const Eigen::Vector2f& picture, const Font& font,
+                                    float letters = 0);
 
 }  // namespace clench

@@ -4,7 +4,8 @@
 
 namespace clench {
 
-/// Paper: soft shadows, light from all around, smooth edges. Draft: one shadow, and a fraction of the time.
+/// Paper: soft shadows, light from all around, smooth edges. Draft: one shadow, and a fraction of
+/// the time.
 enum class Quality { paper, draft };
 
 /// A studio; or nothing but the shadow on the floor, on white or on nothing at all.
@@ -12,11 +13,14 @@ enum class Backdrop { studio, white, transparent };
 
 struct RenderOptions {
   int width = 1280, height = 960;  ///< pixels, 16..8192
-  int samples = 8;  ///< a pixel: smoothness of edges and shadows against time, 1..256; drafts have one, with edges smoothed
+  /// a pixel: smoothness of edges and shadows against time, 1..256; drafts have one, with edges
+  /// smoothed
+  int samples = 8;
   Quality quality = Quality::paper;
   Backdrop backdrop = Backdrop::studio;
   double outline = 0;  ///< width of lines around bodies and along their edges, 0..32 [pixels]
-  double letters = 0;  ///< height of capital letters [pixels], up to 200; 0: a part of the picture's
+  /// height of capital letters [pixels], up to 200; 0: a part of the picture's
+  double letters = 0;
   Progress progress = {};
 };
 

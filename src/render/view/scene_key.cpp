@@ -33,8 +33,8 @@ SceneKey::SceneKey(const Scene& scene)
     : meshes(scene.meshes), cones(scene.cones), arrows(scene.arrows), ground(scene.ground) {}
 
 bool SceneKey::matches(const Scene& scene) const {
-  return ground == scene.ground && all_same(cones, scene.cones) &&
-         all_same(arrows, scene.arrows) && all_same(meshes, scene.meshes);
+  return ground == scene.ground && all_same(cones, scene.cones) && all_same(arrows, scene.arrows) &&
+         all_same(meshes, scene.meshes);
 }
 
 }  // namespace clench

@@ -1,4 +1,5 @@
-// Is what a scene shows the same as before? Then what was prepared for it is good for the next picture.
+// Is what a scene shows the same as before? Then what was prepared for it is good for the next
+// picture.
 #pragma once
 #include <vector>
 

@@ -1,4 +1,5 @@
-// What the bindings share: the types that scripts hold, their classes and libraries, and how these are read and pushed.
+// What the bindings share: the types that scripts hold, their classes and libraries, and how these
+// are read and pushed.
 #pragma once
 #include <memory>
 #include <optional>
@@ -79,8 +80,8 @@ extern const Library log_library;
 enum class LogLevel { debug, info, warning, error, quiet };
 
 /// Tells the script's log, if its level lets the message through. May be called under the engine's
-/// functions.
-/// `about`  what a message of a file's reader tells: of what was "inferred", "ignored", "repaired" or "suspicious"; null: of nothing such
+/// functions. `about`  what a message of a file's reader tells: of what was "inferred", "ignored",
+/// "repaired" or "suspicious"; null: of nothing such
 /// throws  Raised when the script's own sink fails
 void log(lua_State* L, LogLevel level, const std::string& message, const char* about = nullptr);
 
@@ -144,7 +145,8 @@ inline size_t owned_bytes(const ShapePtr& shape) {
   return shape.use_count() == 1 ? shape->bytes() : 0;
 }
 
-// --- patch: the surfaces of two bodies around a soft contact, and the torsional friction that it transmits. ---
+// --- patch: the surfaces of two bodies around a soft contact, and the torsional friction that it
+// transmits. ---
 
 struct PatchHandle {
   std::shared_ptr<const SoftPatch> patch;
@@ -188,7 +190,8 @@ inline const Class& class_of<ContactHandle>() {
 /// A list of contacts.
 int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts);
 
-// --- What bodies and robots have in common: material, mass, surface, colour; a robot has those of its base. ---
+// --- What bodies and robots have in common: material, mass, surface, colour; a robot has those of
+// its base. ---
 
 extern const Class entity_class;
 
@@ -197,7 +200,8 @@ extern const Class entity_class;
 /// What a move came to: {fraction, touched, stopped_by, queries}.
 int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result);
 
-// --- hand: what a robot has for grasping: eigengrasps, virtual contacts, a glove, sensors, tendons. ---
+// --- hand: what a robot has for grasping: eigengrasps, virtual contacts, a glove, sensors,
+// tendons. ---
 
 /// fields and methods of every robot
 extern const Class hand_class;
@@ -268,8 +272,9 @@ inline size_t owned_bytes(const VirtualContactHandle& handle) {
 int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
                           const std::vector<VirtualContactSpec>& contacts);
 
-/// The virtual contact that a value stands for: one of any hand's, a contact of the robot, or a table
-/// {link = body | name | number, chain = number, frame = pose | point = , normal = , mu = , edges = }.
+/// The virtual contact that a value stands for: one of any hand's, a contact of the robot, or a
+/// table {link = body | name | number, chain = number, frame = pose | point = , normal = , mu = ,
+/// edges = }.
 /// throws  Error that names what is wrong
 VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
                                         const RobotHandle& robot);
@@ -340,7 +345,8 @@ inline size_t owned_bytes(const GraspHandle& handle) {
 /// The world that the grasp stands in.   throws Error when it stands in none
 const World& world_of(lua_State* L, const GraspHandle& grasp);
 
-/// A number > 0, or a list of one per contact, whose values whoever takes them checks; none when absent.
+/// A number > 0, or a list of one per contact, whose values whoever takes them checks; none when
+/// absent.
 PerContact read_per_contact(Table& options, const char* key);
 
 extern const Class grasp_class;
@@ -390,7 +396,9 @@ inline const Class& class_of<Picture>() {
   return picture_class;
 }
 
-inline size_t owned_bytes(const Picture& picture) { return picture.pixels.capacity() + picture.alpha.capacity(); }
+inline size_t owned_bytes(const Picture& picture) {
+  return picture.pixels.capacity() + picture.alpha.capacity();
+}
 
 // --- plot: numbers over numbers as a figure. ---
 

@@ -70,7 +70,8 @@ std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const 
     std::vector<Id<Body>> out;
     for (lua_Integer k = 1; k <= static_cast<lua_Integer>(lua_rawlen(L, i)); ++k) {
       lua_rawgeti(L, i, k);
-      if (lua_istable(L, -1)) fail_expected({L, {}, name}, "bodies and robots in the list", lua_gettop(L));
+      if (lua_istable(L, -1))
+        fail_expected({L, {}, name}, "bodies and robots in the list", lua_gettop(L));
       for (const auto id : check_bodies(L, lua_gettop(L), name, world)) out.push_back(id);
       lua_pop(L, 1);
     }

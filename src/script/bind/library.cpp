@@ -11,35 +11,35 @@ namespace clench {
 
 std::span<const Library* const> all_libraries() {
   static const Library* const libraries[] = {
-      &units_library,        &vec3_library,        &pose_library,     &random_library,
-      &catalog_library,      &convert_library,     &entries_library,  &json_library,
-      &log_library,          &world_library,       &grasp_library,    &measures_library,
-      &wrench_space_library, &eigengrasps_library, &files_library, &arrays_library, &film_library,    &render_library,
-      &chart_library,        &plot_library,        &progress_library, &grasps_library,
-      &energy_library,       &annealing_library,   &parallel_library,
+      &units_library,        &vec3_library,        &pose_library,    &random_library,
+      &catalog_library,      &convert_library,     &entries_library, &json_library,
+      &log_library,          &world_library,       &grasp_library,   &measures_library,
+      &wrench_space_library, &eigengrasps_library, &files_library,   &arrays_library,
+      &film_library,         &render_library,      &chart_library,   &plot_library,
+      &progress_library,     &grasps_library,      &energy_library,  &annealing_library,
+      &parallel_library,
   };
   return libraries;
 }
 
 std::span<const Class* const> all_classes() {
   static const Class* const classes[] = {
-      &vec3_class,        &pose_class,
-      &random_class,      &world_class,
-      &snapshot_class,    &entity_class,
-      &body_class,        &mesh_class,
-      &hand_class,        &kinematics_class,
-      &dofs_class,        &robot_class,
-      &eigengrasps_class, &virtual_contact_class,
-      &contact_class,     &forces_class,
-      &measures_class,    &patch_class,
-      &grasp_class,       &wrench_space_class,
-      &projection_class,  &picture_class,
-      &plot_class,        &progress_class,
-      &grasps_class,      &energy_class,
-      &annealing_class,
-      &world_settings_class, &world_queries_class,
-      &world_dynamics_class, &world_control_class,
-      &motion_class,
+      &vec3_class,           &pose_class,
+      &random_class,         &world_class,
+      &snapshot_class,       &entity_class,
+      &body_class,           &mesh_class,
+      &hand_class,           &kinematics_class,
+      &dofs_class,           &robot_class,
+      &eigengrasps_class,    &virtual_contact_class,
+      &contact_class,        &forces_class,
+      &measures_class,       &patch_class,
+      &grasp_class,          &wrench_space_class,
+      &projection_class,     &picture_class,
+      &plot_class,           &progress_class,
+      &grasps_class,         &energy_class,
+      &annealing_class,      &world_settings_class,
+      &world_queries_class,  &world_dynamics_class,
+      &world_control_class,  &motion_class,
       &joint_dynamics_class, &robot_dynamics_class,
   };
   return classes;

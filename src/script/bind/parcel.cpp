@@ -25,8 +25,10 @@ WorldPtr Parcel::clone_of(Packing& packing, const WorldPtr& world) {
 Parcel::Node Parcel::pack(Packing& packing, int index, const std::string& what, int depth) {
   lua_State* L = packing.L;
   switch (lua_type(L, index)) {
-    case LUA_TNIL: return {};
-    case LUA_TBOOLEAN: return {static_cast<bool>(lua_toboolean(L, index))};
+    case LUA_TNIL:
+      return {};
+    case LUA_TBOOLEAN:
+      return {static_cast<bool>(lua_toboolean(L, index))};
     case LUA_TNUMBER:
       if (lua_isinteger(L, index)) return {lua_tointeger(L, index)};
       return {lua_tonumber(L, index)};
@@ -35,9 +37,12 @@ Parcel::Node Parcel::pack(Packing& packing, int index, const std::string& what, 
       const char* text = lua_tolstring(L, index, &size);
       return {std::string(text, size)};
     }
-    case LUA_TTABLE: return pack_table(packing, index, what, depth);
-    case LUA_TUSERDATA: return pack_object(packing, index, what);
-    default: fail("{}: a {} cannot be handed over", what, lua_typename(L, lua_type(L, index)));
+    case LUA_TTABLE:
+      return pack_table(packing, index, what, depth);
+    case LUA_TUSERDATA:
+      return pack_object(packing, index, what);
+    default:
+      fail("{}: a {} cannot be handed over", what, lua_typename(L, lua_type(L, index)));
   }
 }
 
@@ -80,7 +85,8 @@ Parcel::Node Parcel::pack_object(Packing& packing, int index, const std::string&
     return copied(std::move(alone));
   }
   if (const auto* w = to<WorldHandle>(L, index))
-    return {Object([world = clone_of(packing, w->world)](lua_State* to) { push_world(to, world); })};
+    return {
+        Object([world = clone_of(packing, w->world)](lua_State* to) { push_world(to, world); })};
   if (const auto* b = to<BodyHandle>(L, index))
     return copied(BodyHandle{clone_of(packing, b->world), b->id});
   if (const auto* r = to<RobotHandle>(L, index))

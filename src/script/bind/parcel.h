@@ -13,8 +13,9 @@
 
 namespace clench {
 
-/// Plain data, and copies of what scripts hold: worlds as clones with their bodies and robots, snapshots, meshes, poses,
-/// vectors, random numbers, and grasps, which stand in no world afterwards, as those of files.
+/// Plain data, and copies of what scripts hold: worlds as clones with their bodies and robots,
+/// snapshots, meshes, poses, vectors, random numbers, and grasps, which stand in no world
+/// afterwards, as those of files.
 class Parcel {
  public:
   Parcel() = default;
@@ -22,7 +23,8 @@ class Parcel {
   /// throws  Error "clench.parallel.map: items[3].close: a function cannot be handed over"
   Parcel(lua_State* L, int index, const std::string& what);
 
-  /// Leaves the value on the stack, with the worlds that were cloned for it; nil for an empty parcel.
+  /// Leaves the value on the stack, with the worlds that were cloned for it; nil for an empty
+  /// parcel.
   void unpack(lua_State* L) const { unpack(L, root_); }
   const std::vector<WorldPtr>& worlds() const { return worlds_; }
 

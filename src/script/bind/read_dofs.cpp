@@ -22,7 +22,8 @@ static std::vector<std::optional<double>> read_named_dofs(lua_State* L, int i, c
     if (lua_type(L, -2) != LUA_TSTRING)
       fail("{}: expected names of DOFs, or a list of all values, got a table of both", what.text());
     const std::string name(string_at(L, -2));
-    out[static_cast<size_t>(dof_named(name, robot, what))] = read_number(L, lua_gettop(L), {L, what.subject, name});
+    out[static_cast<size_t>(dof_named(name, robot, what))] =
+        read_number(L, lua_gettop(L), {L, what.subject, name});
   }
   return out;
 }

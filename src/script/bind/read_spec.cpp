@@ -144,7 +144,8 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
       for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
     spec.shape = Shape::make(std::move(mesh), name);
   } else {
-    fail_expected({L, {}, "body"}, "a file name, a mesh of a body, or one {vertices = ..., triangles = ...}", i);
+    fail_expected({L, {}, "body"},
+                  "a file name, a mesh of a body, or one {vertices = ..., triangles = ...}", i);
   }
   override_spec(L, spec, options);
   return spec;

@@ -11,7 +11,8 @@ namespace clench {
 // raise(sentence, kind): an error at the script's line, "input" unless a kind is given
 static int raise(lua_State* L) {
   // a name that a script gave may have zero bytes
-  const std::string sentence = lua_type(L, 1) == LUA_TSTRING ? std::string(string_at(L, 1)) : check_string(L, 1);
+  const std::string sentence =
+      lua_type(L, 1) == LUA_TSTRING ? std::string(string_at(L, 1)) : check_string(L, 1);
   throw Error(sentence, given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
 }
 
@@ -21,7 +22,8 @@ static int script_line(lua_State* L) {
   return 1;
 }
 
-// suggest(name, known): "; did you mean 'count'?", or "" when none is near; nothing is near what is no string
+// suggest(name, known): "; did you mean 'count'?", or "" when none is near; nothing is near what is
+// no string
 static int suggest(lua_State* L) {
   std::vector<std::string> known;
   const bool named = lua_type(L, 1) == LUA_TSTRING && lua_istable(L, 2);
@@ -33,8 +35,10 @@ static int suggest(lua_State* L) {
 }
 
 void add_natives(lua_State* L) {
-  static constexpr luaL_Reg natives[] = {
-      {"clench.raise", guarded<raise>}, {"clench.script_line", script_line}, {"clench.suggest", guarded<suggest>}, {nullptr, nullptr}};
+  static constexpr luaL_Reg natives[] = {{"clench.raise", guarded<raise>},
+                                         {"clench.script_line", script_line},
+                                         {"clench.suggest", guarded<suggest>},
+                                         {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);
   lua_pop(L, 1);

@@ -1,4 +1,5 @@
-// clench.parallel.map: a function for each item of a list, in as many states of Lua as there are threads.
+// clench.parallel.map: a function for each item of a list, in as many states of Lua as there are
+// threads.
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -50,7 +51,8 @@ struct Worker {
 
   State state;
   Parcel shared;
-  std::vector<std::pair<WorldPtr, std::shared_ptr<const Snapshot>>> moments;  // of the shared worlds
+  std::vector<std::pair<WorldPtr, std::shared_ptr<const Snapshot>>>
+      moments;  // of the shared worlds
 };
 
 void set_path(lua_State* L, const char* field, const std::string& path) {
@@ -67,7 +69,8 @@ int prepare(lua_State* L) {
   set_path(L, "path", task.path);
   set_path(L, "cpath", task.cpath);
   if (task.module.empty()) {
-    const int status = luaL_loadbufferx(L, task.compiled.data(), task.compiled.size(), task.name.c_str(), "b");
+    const int status =
+        luaL_loadbufferx(L, task.compiled.data(), task.compiled.size(), task.name.c_str(), "b");
     if (status != LUA_OK) fail("{}", string_at(L, -1));
     // its one upvalue is _ENV, whatever it was outside
     lua_pushglobaltable(L);
@@ -77,7 +80,8 @@ int prepare(lua_State* L) {
     lua_pushlstring(L, task.module.data(), task.module.size());
     protected_call(L, 1, 1);
     if (!lua_isfunction(L, -1))
-      fail("module '{}': expected one that returns a function, got {}", task.module, described(L, -1));
+      fail("module '{}': expected one that returns a function, got {}", task.module,
+           described(L, -1));
   }
   worker.shared.unpack(L);
   for (const WorldPtr& world : worker.shared.worlds())
@@ -189,7 +193,8 @@ class Crew {
   /// Waits at most so long for the outcome of item i.   returns null when it is not there
   Outcome* wait(size_t i, std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, time, [&] { return outcomes_[i] || broken() || idle_ == workers_.size(); });
+    changed_.wait_for(lock, time,
+                      [&] { return outcomes_[i] || broken() || idle_ == workers_.size(); });
     if (broken()) fail("{}", broken_);
     return outcomes_[i] ? &*outcomes_[i] : nullptr;
   }
@@ -250,8 +255,11 @@ void read_function(lua_State* L, Task& task) {
   for (int i = 1; const char* name = lua_getupvalue(L, 1, i); ++i) {
     lua_pop(L, 1);
     if (std::string_view(name) != "_ENV" || i > 1)
-      fail("{}: function: it uses '{}' of the lines around it, which other states do not have; give that in `shared`, "
-           "or as a part of each item", subject(L), name);
+      fail(
+          "{}: function: it uses '{}' of the lines around it, which other states do not have; give "
+          "that in `shared`, "
+          "or as a part of each item",
+          subject(L), name);
   }
   lua_pushvalue(L, 1);
   if (lua_dump(L, write_chunk, &task.compiled, 0) != 0)
@@ -301,7 +309,8 @@ int map(lua_State* L) {
   Table options(L, 3);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.integer("threads", cores);
-  if (threads < 1 || threads > 1024) fail("{}: threads: expected 1 to 1024, got {}", subject, threads);
+  if (threads < 1 || threads > 1024)
+    fail("{}: threads: expected 1 to 1024, got {}", subject, threads);
   const bool told = options.push_function("each");
   const int each = lua_gettop(L);
   options.push("shared");
@@ -343,13 +352,15 @@ int map(lua_State* L) {
         if (watching.progress().stop_asked()) crew.end();
         if (crew.is_over() && !(outcome = crew.wait(i, {}))) break;
         if (!watching.progress().stop_asked())
-          watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count), subject);
+          watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count),
+                                   subject);
       }
       failed += !outcome || !outcome->failure.words.empty();
       push_outcome(L, outcome);
       lua_rawseti(L, results, static_cast<lua_Integer>(i) + 1);
       if (!told || !outcome) continue;
-      // Ctrl-C breaks off one of these calls; it is made again, and the rest of what is done is told before the error goes on
+      // Ctrl-C breaks off one of these calls; it is made again, and the rest of what is done is
+      // told before the error goes on
       const bool asked = watching.progress().stop_asked();
       if (tell(i)) continue;
       if (!asked || interrupted) raise();
@@ -392,6 +403,7 @@ Threads that this machine runs at once.
 
 }  // namespace
 
-extern const Library parallel_library = {"clench.parallel", "Work in many threads.", functions, fields};
+extern const Library parallel_library = {"clench.parallel", "Work in many threads.", functions,
+                                         fields};
 
 }  // namespace clench

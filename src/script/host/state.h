@@ -32,7 +32,8 @@ class State {
   /// From now on require looks for the user's modules in the folder of this file first; until then
   /// in none.
   void set_script(const std::string& path);
-  /// Runs a file, "-" for stdin, as the script, with the global `arg` and `...` as the command's arguments.
+  /// Runs a file, "-" for stdin, as the script, with the global `arg` and `...` as the command's
+  /// arguments.
   Result run_file(const std::string& path, const std::vector<std::string>& arguments);
   /// Runs a chunk that messages call by its name.
   Result run_code(const std::string& code, const std::string& name);
@@ -56,8 +57,9 @@ class State {
   /// What scripts of this Lua may have, be it a State's or a host's [bytes].
   static size_t memory_of(lua_State* L);
 
-  /// Makes the running chunk fail with "interrupted", coroutines too. What catches that error has half a second to end;
-  /// then, or when called again, nothing can catch it. May be called from a signal handler.
+  /// Makes the running chunk fail with "interrupted", coroutines too. What catches that error has
+  /// half a second to end; then, or when called again, nothing can catch it. May be called from a
+  /// signal handler.
   void interrupt();
 
   /// For a state in a thread of its own: from now on it looks by itself whether `end` was called.

@@ -1,6 +1,6 @@
 // Positional arguments of a running entry: check_number(L, 1, "degrees"). Messages name entry and
-// argument: "clench.rad: degrees: expected a number, got 'abc'". In a setter the value is argument 2
-// and has no name of its own.
+// argument: "clench.rad: degrees: expected a number, got 'abc'". In a setter the value is argument
+// 2 and has no name of its own.
 #pragma once
 #include "clench/script/lua/object.h"
 #include "clench/script/lua/read.h"
@@ -36,7 +36,8 @@ inline std::vector<double> check_numbers(lua_State* L, int i, const char* name =
 }
 
 /// A userdata of one class.
-/// throws  Error "...: expected a robot, got a table"  "...: expected a snapshot, got one that was closed"
+/// throws  Error "...: expected a robot, got a table"  "...: expected a snapshot, got one that was
+///         closed"
 template <class T>
 T& check_object(lua_State* L, int i, const char* name = "") {
   if (T* object = to<T>(L, i)) return *object;

@@ -7,8 +7,8 @@ struct lua_State;
 
 namespace clench {
 
-/// luaL_loadfilex and luaL_loadbufferx for text; of a compiled chunk they say "mine.lua: bytecode is
-/// not run; expected Lua text".
+/// luaL_loadfilex and luaL_loadbufferx for text; of a compiled chunk they say "mine.lua: bytecode
+/// is not run; expected Lua text".
 /// path  null: stdin
 int load_text_file(lua_State* L, const char* path);
 int load_text(lua_State* L, const char* text, size_t size, const char* name);

@@ -2,7 +2,8 @@
 //
 // How to add a binding
 //  1. A value or handle that scripts hold is a Class; functions live in a Library. Each is one
-//     constant in a bind_<noun>.cpp, in the folder of its kind, that ends in tables of entries, is declared in bind.h, and has
+//     constant in a bind_<noun>.cpp, in the folder of its kind, that ends in tables of entries, is
+//     declared in bind.h, and has
 //     one line in library.cpp. Several libraries may share a name: their entries add up.
 //  2. A function is `static int f(lua_State* L)`, named in its table as guarded<f> (guard.h). It
 //     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
@@ -62,7 +63,8 @@ struct Class {
   const Class* parent = nullptr;  ///< its fields and methods are had too
 };
 
-/// Upvalues of every closure of an entry: the entry, its class or library, and how many arguments it takes; -1: any.
+/// Upvalues of every closure of an entry: the entry, its class or library, and how many arguments
+/// it takes; -1: any.
 enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3, at_max_arguments = 4 };
 
 /// Of a function or method: its `@param` lines, self not among them; -1 where one of them is `...`.

@@ -23,7 +23,8 @@ void set_error_metatable(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &erro
 void push_error_value(lua_State* L, const char* sentence, const char* kind) {
   push_script_place(L);
   lua_pushstring(L, sentence);
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key) != LUA_TTABLE) return lua_pop(L, 1), lua_concat(L, 2);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key) != LUA_TTABLE)
+    return lua_pop(L, 1), lua_concat(L, 2);
   lua_createtable(L, 0, 3);
   lua_rotate(L, -4, 1);  // value, place, sentence, metatable
   lua_setmetatable(L, -4);
@@ -143,7 +144,8 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
     lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
   } else {
     const bool stopped = failure == Failure::stopped;
-    push_error_value(L, stopped ? "interrupted" : message.text, stopped ? "stopped" : name_of(kind));
+    push_error_value(L, stopped ? "interrupted" : message.text,
+                     stopped ? "stopped" : name_of(kind));
   }
   return -1;
 }

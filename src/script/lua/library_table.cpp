@@ -98,7 +98,8 @@ static void push_library_lookup(lua_State* L, lua_CFunction lookup, const char* 
   lua_pushcclosure(L, lookup, 4);
 }
 
-// leaves a library's table, which knows nothing yet but what to answer to misspelt names and assignments
+// leaves a library's table, which knows nothing yet but what to answer to misspelt names and
+// assignments
 static void push_empty_library(lua_State* L, const char* name) {
   lua_newtable(L);  // the library
   lua_newtable(L);  // its metatable

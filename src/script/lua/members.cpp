@@ -19,15 +19,15 @@ static void push_closure(lua_State* L, lua_CFunction function, const Entry& entr
 }
 
 void set_functions(lua_State* L, std::span<const Entry> entries, const Class* kind,
-                          const Library* library) {
+                   const Library* library) {
   for (const Entry& entry : entries) {
     push_closure(L, entry.function, entry, max_arguments(entry), kind, library);
     lua_setfield(L, -2, entry.name);
   }
 }
 
-void set_hidden(lua_State* L, std::span<const Entry> entries, const Class* kind,
-                       bool setters, const Library* library) {
+void set_hidden(lua_State* L, std::span<const Entry> entries, const Class* kind, bool setters,
+                const Library* library) {
   for (const Entry& entry : entries) {
     const lua_CFunction function = setters ? entry.setter : entry.function;
     if (!function) continue;

@@ -1,4 +1,5 @@
-// What the lookups in classes and in libraries share: closures of entries in tables, and names that are not there.
+// What the lookups in classes and in libraries share: closures of entries in tables, and names that
+// are not there.
 #pragma once
 #include <lua.hpp>
 #include <span>
@@ -9,8 +10,8 @@
 
 namespace clench {
 
-/// Upvalues of every lookup: tables of getters or setters and of methods or functions, a fallback or nil, the
-/// owner's name.
+/// Upvalues of every lookup: tables of getters or setters and of methods or functions, a fallback
+/// or nil, the owner's name.
 enum Lookup { in_fields = 1, in_methods = 2, in_fallback = 3, owner = 4 };
 
 /// Into the table on top: what a script calls itself, with as many arguments as its doc says.

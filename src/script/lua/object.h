@@ -1,5 +1,5 @@
-// C++ values as Lua userdata: made by push_object, read by to, check_object (check.h) and self.
-// Lua sees a userdata alone and not what its value owns besides: that is counted here, and collected by
+// C++ values as Lua userdata: made by push_object, read by to, check_object (check.h) and self. Lua
+// sees a userdata alone and not what its value owns besides: that is counted here, and collected by
 // the guard (guard.h) where it has become much.
 #pragma once
 #include <algorithm>
@@ -51,8 +51,8 @@ T* to(lua_State* L, int index) {
   return box->kind == &class_of<T>() && box->alive ? box->value() : nullptr;
 }
 
-/// Bytes that a value owns besides its userdata, about; overloaded beside the classes whose values own
-/// much. Shared parts count with whoever is sure to drop them last, or modestly.
+/// Bytes that a value owns besides its userdata, about; overloaded beside the classes whose values
+/// own much. Shared parts count with whoever is sure to drop them last, or modestly.
 template <class T>
 size_t owned_bytes(const T&) {
   return 0;

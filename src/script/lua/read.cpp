@@ -52,7 +52,8 @@ std::string described(lua_State* L, int index) {
       return quoted(L, index);
     case LUA_TTABLE: {
       const std::string name = class_name(L, index);
-      if (name == "clench" || name.starts_with("clench.")) return name + ", whose functions are called with '.' and not ':'";
+      if (name == "clench" || name.starts_with("clench."))
+        return name + ", whose functions are called with '.' and not ':'";
       const auto size = lua_rawlen(L, index);
       return size ? fmt::format("a table of {}", size) : "a table";
     }

@@ -20,9 +20,10 @@ class CallingState {
   lua_State* before_;
 };
 
-/// The function at the index, which gives a number. It lives as long as the result, or a copy of it, does, and may be called
-/// where a CallingState is.
-/// throws  when called: Raised, where the function fails; Error when it gives no number, or nobody waits
+/// The function at the index, which gives a number. It lives as long as the result, or a copy of
+/// it, does, and may be called where a CallingState is.
+/// throws  when called: Raised, where the function fails; Error when it gives no number, or nobody
+///         waits
 std::function<double()> script_number(lua_State* L, int index);
 
 }  // namespace clench

@@ -29,7 +29,8 @@ int Table::push(const char* key) {
 void Table::push_required(const char* key) {
   if (push(key) != LUA_TNIL || !index_) return;
   for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1))
-    if (lua_type(L_, -2) == LUA_TSTRING && !did_you_mean(string_at(L_, -2), {key}).empty()) refuse(lua_absindex(L_, -2));
+    if (lua_type(L_, -2) == LUA_TSTRING && !did_you_mean(string_at(L_, -2), {key}).empty())
+      refuse(lua_absindex(L_, -2));
 }
 
 bool Table::has(const char* key) {

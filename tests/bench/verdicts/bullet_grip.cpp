@@ -24,7 +24,9 @@ btQuaternion turn_to_bullet(const Eigen::Matrix3d& R) {
   const Eigen::Quaterniond q(R);
   return {q.x(), q.y(), q.z(), q.w()};
 }
-btTransform to_bullet(const Isometry3d& X) { return btTransform(turn_to_bullet(X.linear()), to_bullet(Vector3d(X.translation()))); }
+btTransform to_bullet(const Isometry3d& X) {
+  return btTransform(turn_to_bullet(X.linear()), to_bullet(Vector3d(X.translation())));
+}
 Isometry3d from_bullet(const btTransform& X) {
   const btQuaternion q = X.getRotation();
   Isometry3d out = Isometry3d::Identity();
@@ -51,8 +53,14 @@ Principal principal(const GripBody& body) {
 
 class BulletGrip : public Grip {
  public:
-  BulletGrip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options, const BulletOptions& bullet)
-      : scene_(scene), grasp_(grasp), kp_(options.kp), options_(bullet), dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  BulletGrip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options,
+             const BulletOptions& bullet)
+      : scene_(scene),
+        grasp_(grasp),
+        kp_(options.kp),
+        options_(bullet),
+        dispatcher_(&configuration_),
+        world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     world_.setGravity(btVector3(0, 0, 0));
     world_.getSolverInfo().m_numIterations = bullet.iterations;
     world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
@@ -73,7 +81,8 @@ class BulletGrip : public Grip {
       const GripLink& link = scene_.links[joints_[j].link];
       const int i = joints_[j].index;
       const double scale = link.turns ? 1 : 100;
-      double torque = scale * (kp_ * (joints_[j].target - hand_->getJointPos(i)) - options_.kd * hand_->getJointVel(i));
+      double torque = scale * (kp_ * (joints_[j].target - hand_->getJointPos(i)) -
+                               options_.kd * hand_->getJointVel(i));
       torque -= scene_.dofs[link.dof].damping * hand_->getJointVel(i);
       if (!grasp_.torques.empty()) torque += share * grasp_.torques[link.dof] / link.ratio;
       hand_->addJointTorque(i, torque);
@@ -81,21 +90,26 @@ class BulletGrip : public Grip {
     object_->applyCentralForce(to_bullet(force));
     world_.stepSimulation(options_.step, 0);
   }
-  Isometry3d pose() const override { return from_bullet(object_->getWorldTransform()) * object_frame_.inverse(); }
+  Isometry3d pose() const override {
+    return from_bullet(object_->getWorldTransform()) * object_frame_.inverse();
+  }
 
   int contacts() override {
     int count = 0;
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
       const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(m);
-      for (int p = 0; p < manifold->getNumContacts(); ++p) count += manifold->getContactPoint(p).getDistance() < 1e-3;
+      for (int p = 0; p < manifold->getNumContacts(); ++p)
+        count += manifold->getContactPoint(p).getDistance() < 1e-3;
     }
     return count;
   }
 
   void save() override {
     saved_.q.clear();
-    for (int i = 0; i < hand_->getNumLinks(); ++i) saved_.q.push_back(hand_->getJointPos(i)), saved_.q.push_back(hand_->getJointVel(i));
-    saved_.X = object_->getWorldTransform(), saved_.v = object_->getLinearVelocity(), saved_.w = object_->getAngularVelocity();
+    for (int i = 0; i < hand_->getNumLinks(); ++i)
+      saved_.q.push_back(hand_->getJointPos(i)), saved_.q.push_back(hand_->getJointVel(i));
+    saved_.X = object_->getWorldTransform(), saved_.v = object_->getLinearVelocity(),
+    saved_.w = object_->getAngularVelocity();
   }
   void restore() override {
     for (int i = 0; i < hand_->getNumLinks(); ++i) {
@@ -139,7 +153,8 @@ class BulletGrip : public Grip {
     const Principal p = principal(scene_.object);
     object_frame_ = p.X_LP;
     btCollisionShape* shape = shape_of(scene_.object, p.X_LP.inverse());
-    btRigidBody::btRigidBodyConstructionInfo info(scene_.object.mass, nullptr, shape, to_bullet(p.moments));
+    btRigidBody::btRigidBodyConstructionInfo info(scene_.object.mass, nullptr, shape,
+                                                  to_bullet(p.moments));
     info.m_startWorldTransform = to_bullet(p.X_LP);
     // of two bodies the product counts
     info.m_friction = std::sqrt(scene_.mu);
@@ -173,22 +188,29 @@ class BulletGrip : public Grip {
       const Principal p = principal(link.body);
       X_HP[i + 1] = link.pose * p.X_LP;
       const Isometry3d &X_H = X_HP[i + 1], &parent = X_HP[link.parent];
-      const Eigen::Matrix3d turn = X_H.linear().transpose() * parent.linear();  // from the parent's axes to its own
-      const Vector3d pivot = parent.inverse() * link.point, to_com = X_H.linear().transpose() * (X_H.translation() - link.point);
+      const Eigen::Matrix3d turn =
+          X_H.linear().transpose() * parent.linear();  // from the parent's axes to its own
+      const Vector3d pivot = parent.inverse() * link.point,
+                     to_com = X_H.linear().transpose() * (X_H.translation() - link.point);
       const Vector3d axis = X_H.linear().transpose() * link.axis;
       Vector3d moments = p.moments;
       const double mass = std::max(link.body.mass, 1e-4);
       if (link.has_joint) {
-        // what an implicit servo adds to the inertia about its axis; without it explicit ones swing up
+        // what an implicit servo adds to the inertia about its axis; without it explicit ones swing
+        // up
         const GripDof& dof = scene_.dofs[link.dof];
-        moments.array() += options_.step * options_.kd + options_.step * options_.step * kp_ + options_.step * dof.damping + dof.armature;
+        moments.array() += options_.step * options_.kd + options_.step * options_.step * kp_ +
+                           options_.step * dof.damping + dof.armature;
       }
       if (!link.has_joint)
-        hand_->setupFixed(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(pivot), to_bullet(to_com));
+        hand_->setupFixed(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn),
+                          to_bullet(pivot), to_bullet(to_com));
       else if (link.turns)
-        hand_->setupRevolute(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(axis), to_bullet(pivot), to_bullet(to_com), true);
+        hand_->setupRevolute(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn),
+                             to_bullet(axis), to_bullet(pivot), to_bullet(to_com), true);
       else
-        hand_->setupPrismatic(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn), to_bullet(axis), to_bullet(pivot), to_bullet(to_com), true);
+        hand_->setupPrismatic(i, mass, to_bullet(moments), link.parent - 1, turn_to_bullet(turn),
+                              to_bullet(axis), to_bullet(pivot), to_bullet(to_com), true);
     }
     hand_->finalizeMultiDof();
     hand_->setHasSelfCollision(false);
@@ -205,7 +227,9 @@ class BulletGrip : public Grip {
       joints_.push_back({size_t(i) + 1, i, target});
       hand_->setJointPos(i, target);
       if (std::isfinite(dof.min) && std::isfinite(dof.max)) {
-        limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(hand_.get(), i, link.ratio * (dof.min - dof.value), link.ratio * (dof.max - dof.value)));
+        limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(
+            hand_.get(), i, link.ratio * (dof.min - dof.value),
+            link.ratio * (dof.max - dof.value)));
         world_.addMultiBodyConstraint(limits_.back().get());
       }
     }
@@ -244,7 +268,8 @@ class BulletGrip : public Grip {
 
 }  // namespace
 
-std::unique_ptr<Grip> bullet_grip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options, const BulletOptions& bullet) {
+std::unique_ptr<Grip> bullet_grip(const GripScene& scene, const StoredGrasp& grasp,
+                                  const GripOptions& options, const BulletOptions& bullet) {
   return std::make_unique<BulletGrip>(scene, grasp, options, bullet);
 }
 

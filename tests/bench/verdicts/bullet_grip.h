@@ -1,4 +1,5 @@
-// A grip in Bullet: its own collisions of convex pieces, its own reduced coordinates, its own solver.
+// A grip in Bullet: its own collisions of convex pieces, its own reduced coordinates, its own
+// solver.
 #pragma once
 #include <memory>
 
@@ -12,6 +13,7 @@ struct BulletOptions {
   int iterations = 20;
 };
 
-std::unique_ptr<Grip> bullet_grip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options, const BulletOptions& bullet);
+std::unique_ptr<Grip> bullet_grip(const GripScene& scene, const StoredGrasp& grasp,
+                                  const GripOptions& options, const BulletOptions& bullet);
 
 }  // namespace clench::bench

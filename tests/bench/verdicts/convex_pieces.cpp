@@ -32,14 +32,15 @@ Hull hull_of(const std::vector<Triangle>& triangles) {
   return convex_hull(points);
 }
 
-// of many corners those farthest along directions spread evenly over the sphere: within a thousandth of the size, and few enough for engines
-// that go through all of them for each contact
+// of many corners those farthest along directions spread evenly over the sphere: within a
+// thousandth of the size, and few enough for engines that go through all of them for each contact
 Points thinned(const Points& points) {
   constexpr int count = 300;
   if (int(points.size()) <= count / 2) return points;
   std::set<size_t> kept;
   for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, turn = i * 2.399963229728653, r = std::sqrt(1 - z * z);
+    const double z = 1 - (2 * i + 1.0) / count, turn = i * 2.399963229728653,
+                 r = std::sqrt(1 - z * z);
     const Eigen::Vector3d direction(r * std::cos(turn), r * std::sin(turn), z);
     size_t best = 0;
     for (size_t p = 1; p < points.size(); ++p)
@@ -73,7 +74,8 @@ void clip(const Triangle& triangle, int axis, double at, double side, std::vecto
     if (da >= 0) polygon.push_back(a);
     if (da * db < 0) polygon.push_back(a + (b - a) * (da / (da - db)));
   }
-  for (size_t k = 2; k < polygon.size(); ++k) out.push_back({polygon[0], polygon[k - 1], polygon[k]});
+  for (size_t k = 2; k < polygon.size(); ++k)
+    out.push_back({polygon[0], polygon[k - 1], polygon[k]});
 }
 
 Piece part_of(const Piece& piece, int axis, double at, double side) {
@@ -120,7 +122,8 @@ std::vector<Points> hulls_of_parts(const Surface& surface) {
     for (int k = 1; k < 3; ++k) group[root(place[t[k]])] = root(place[t[0]]);
   std::map<int, std::vector<Triangle>> parts;
   for (const auto& t : surface.triangles)
-    parts[root(place[t[0]])].push_back({surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
+    parts[root(place[t[0]])].push_back(
+        {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
   std::vector<Points> out;
   for (const auto& [r, triangles] : parts) {
     out.push_back(corners(triangles));
@@ -132,7 +135,8 @@ std::vector<Points> hulls_of_parts(const Surface& surface) {
 std::vector<Points> convex_pieces(const Surface& surface, int max_count, double gain) {
   Piece whole;
   for (const auto& t : surface.triangles)
-    whole.triangles.push_back({surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
+    whole.triangles.push_back(
+        {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
   whole.volume = hull_of(whole.triangles).volume;
   const double enough = gain * whole.volume;
   std::vector<Piece> pieces{std::move(whole)};

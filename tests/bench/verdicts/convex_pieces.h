@@ -13,11 +13,13 @@ struct Surface {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// The corners of the hull of each connected part of a mesh: of robots' links, whose shapes are several boxes, cylinders or meshes.
+/// The corners of the hull of each connected part of a mesh: of robots' links, whose shapes are
+/// several boxes, cylinders or meshes.
 std::vector<Points> hulls_of_parts(const Surface& surface);
 
-/// The corners of convex pieces that together are nearly the solid: it is cut by planes across its axes, always where the hulls of all
-/// pieces lose the largest volume, while that is more than `gain` of the whole.
+/// The corners of convex pieces that together are nearly the solid: it is cut by planes across its
+/// axes, always where the hulls of all pieces lose the largest volume, while that is more than
+/// `gain` of the whole.
 std::vector<Points> convex_pieces(const Surface& surface, int max_count = 32, double gain = 0.002);
 
 }  // namespace clench::bench

@@ -1,4 +1,5 @@
-// A hand, an object and grasps as tests/bench/verdicts.lua writes them: numbers, and nothing of ours that calculates with them.
+// A hand, an object and grasps as tests/bench/verdicts.lua writes them: numbers, and nothing of
+// ours that calculates with them.
 #pragma once
 #include <Eigen/Geometry>
 #include <optional>
@@ -11,30 +12,33 @@ namespace clench::bench {
 
 struct GripBody {
   std::string name;
-  double mass = 0;                                      // [kg]
-  Eigen::Vector3d com = Eigen::Vector3d::Zero();        // in its frame [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    // about com [kg m^2]
-  std::vector<Points> pieces;                           // convex, in its frame [m]
+  double mass = 0;                                    // [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();      // in its frame [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about com [kg m^2]
+  std::vector<Points> pieces;                         // convex, in its frame [m]
 };
 
 struct GripLink {
   GripBody body;
   int parent = -1;  // links[0] is the base
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // in the base, as all DOFs have their `value`
+  Eigen::Isometry3d pose =
+      Eigen::Isometry3d::Identity();  // in the base, as all DOFs have their `value`
   bool has_joint = false, turns = true;
   int dof = 0;
   double ratio = 1;  // of the joint's motion to its DOF's
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), point = Eigen::Vector3d::Zero();  // of the joint, in the base
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX(),
+                  point = Eigen::Vector3d::Zero();  // of the joint, in the base
 };
 
 struct GripDof {
-  double value = 0, min = 0, max = 0;           // [rad or m]
+  double value = 0, min = 0, max = 0;  // [rad or m]
   double damping = 0, friction = 0, armature = 0;
 };
 
 struct StoredGrasp {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // of the hand in the object
-  std::vector<double> dofs, torques;                       // torques: of the motors, beside what holds the posture; empty: none found
+  std::vector<double> dofs,
+      torques;  // torques: of the motors, beside what holds the posture; empty: none found
   double epsilon = 0, load = 0;
   bool verified = false;  // by `clench plan --verify`
   int held = 0;           // in how many of the six directions study.shake held it

@@ -23,9 +23,12 @@ Displacement between(const Isometry3d& from, const Isometry3d& to, const Vector3
 GripVerdict shake(Grip& grip, const GripScene& scene, const GripOptions& options) {
   GripVerdict out;
   const auto steps = [&](double seconds) { return int(std::lround(seconds / grip.step_length())); };
-  const auto lost = [&](const Displacement& d) { return !(d.moved <= options.max_distance && d.turned <= options.max_angle); };
+  const auto lost = [&](const Displacement& d) {
+    return !(d.moved <= options.max_distance && d.turned <= options.max_angle);
+  };
   const Isometry3d start = grip.pose();
-  for (int i = 1; i <= steps(options.grip_seconds); ++i) grip.step(double(i) / steps(options.grip_seconds), Vector3d::Zero());
+  for (int i = 1; i <= steps(options.grip_seconds); ++i)
+    grip.step(double(i) / steps(options.grip_seconds), Vector3d::Zero());
   const Isometry3d pressed = grip.pose();
   for (int i = 0; i < steps(options.settle); ++i) grip.step(1, Vector3d::Zero());
   const Isometry3d rest = grip.pose();

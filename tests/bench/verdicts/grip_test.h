@@ -5,7 +5,8 @@
 namespace clench::bench {
 
 struct GripOptions {
-  double kp = 5;  // of the servos that hold the posture [N m/rad]; 100 times that for joints that slide [N/m]
+  // of the servos that hold the posture [N m/rad]; 100 times that for joints that slide [N/m]
+  double kp = 5;
   double grip_seconds = 0.5, settle = 1, seconds = 2;
   double max_distance = 0.05, max_angle = 0.2617993877991494;  // [m, rad]
 };
@@ -29,8 +30,9 @@ struct GripVerdict {
   double moved = 0, turned = 0;  // until the hand held it [m, rad]
 };
 
-/// The grasp's torques are added within grip_seconds, and all comes to rest; then, each time from there, the scene's force pushes the object's centre of mass
-/// along an axis of its frame. It is held where it is never farther from its pose at rest than the options allow.
+/// The grasp's torques are added within grip_seconds, and all comes to rest; then, each time from
+/// there, the scene's force pushes the object's centre of mass along an axis of its frame. It is
+/// held where it is never farther from its pose at rest than the options allow.
 GripVerdict shake(Grip& grip, const GripScene& scene, const GripOptions& options);
 
 }  // namespace clench::bench

@@ -10,15 +10,19 @@ namespace clench::bench {
 
 namespace {
 
-Pose to_pose(const Eigen::Isometry3d& X) { return {Eigen::Quaterniond(X.linear()), X.translation()}; }
+Pose to_pose(const Eigen::Isometry3d& X) {
+  return {Eigen::Quaterniond(X.linear()), X.translation()};
+}
 
 ShapePtr shape_of(const GripBody& body) {
   Mesh mesh;
   for (const Points& piece : body.pieces) {
     Eigen::MatrixXd points(3, Eigen::Index(piece.size()));
     const int first = int(mesh.vertices.size());
-    for (size_t p = 0; p < piece.size(); ++p) points.col(Eigen::Index(p)) = piece[p], mesh.vertices.push_back(piece[p]);
-    for (const auto& t : hull_triangles(convex_hull(points), points)) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (size_t p = 0; p < piece.size(); ++p)
+      points.col(Eigen::Index(p)) = piece[p], mesh.vertices.push_back(piece[p]);
+    for (const auto& t : hull_triangles(convex_hull(points), points))
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   return mesh.triangles.empty() ? nullptr : Shape::make(std::move(mesh), body.name);
 }
@@ -40,7 +44,8 @@ RobotSpec robot_of(const GripScene& scene) {
   out.base = body_of(scene.links[0].body);
   for (size_t i = 1; i < scene.links.size(); ++i) {
     const GripLink& link = scene.links[i];
-    const Pose parent = to_pose(scene.links[link.parent].pose), pose = to_pose(link.pose), joint = Pose::translation(link.point);
+    const Pose parent = to_pose(scene.links[link.parent].pose), pose = to_pose(link.pose),
+               joint = Pose::translation(link.point);
     LinkSpec spec{.body = body_of(link.body), .parent = link.parent - 1};
     if (link.has_joint) {
       const GripDof& dof = scene.dofs[link.dof];
@@ -67,7 +72,8 @@ RobotSpec robot_of(const GripScene& scene) {
 
 class Ours : public Grip {
  public:
-  Ours(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options) : grasp_(grasp) {
+  Ours(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options)
+      : grasp_(grasp) {
     const auto robot = world_.add_robot(robot_of(scene), to_pose(grasp.pose));
     object_ = world_.add_body(body_of(scene.object), BodyKind::object, {});
     world_.set_gravity(Eigen::Vector3d::Zero());
@@ -79,27 +85,34 @@ class Ours : public Grip {
       for (size_t b = a + 1; b < parts.size(); ++b) world_.set_collision(false, parts[a], parts[b]);
 
     Eigen::VectorXd q(Eigen::Index(scene.dofs.size()));
-    for (size_t i = 0; i < scene.dofs.size(); ++i) q[Eigen::Index(i)] = grasp.dofs[i] - scene.dofs[i].value;
+    for (size_t i = 0; i < scene.dofs.size(); ++i)
+      q[Eigen::Index(i)] = grasp.dofs[i] - scene.dofs[i].value;
     const Eigen::MatrixXd M = joint_dynamics(world_, robot).mass_matrix;
     world_.set_dofs(robot, q);
     // the other engines have a servo at each joint
     std::vector<double> kp(scene.dofs.size(), 0);
     joints_.assign(scene.dofs.size(), 0);
     for (const GripLink& link : scene.links)
-      if (link.has_joint) ++joints_[link.dof], kp[link.dof] += options.kp * (link.turns ? 1 : 100) * link.ratio * link.ratio;
+      if (link.has_joint)
+        ++joints_[link.dof],
+            kp[link.dof] += options.kp * (link.turns ? 1 : 100) * link.ratio * link.ratio;
     DynamicSettings settings;
     settings.step = 1e-3;
-    for (size_t i = 0; i < kp.size(); ++i) settings.robots[robot].gains.push_back(Gains{kp[i], 2 * std::sqrt(kp[i] * M(Eigen::Index(i), Eigen::Index(i)))});
+    for (size_t i = 0; i < kp.size(); ++i)
+      settings.robots[robot].gains.push_back(
+          Gains{kp[i], 2 * std::sqrt(kp[i] * M(Eigen::Index(i), Eigen::Index(i)))});
     world_.set_dynamic_settings(settings);
     DynamicState& state = world_.edit_dynamics();
-    for (size_t i = 0; i < scene.dofs.size(); ++i) state.controls[i] = {.target = q[Eigen::Index(i)], .trajectory = {}};
+    for (size_t i = 0; i < scene.dofs.size(); ++i)
+      state.controls[i] = {.target = q[Eigen::Index(i)], .trajectory = {}};
     stepper_.emplace(world_);
   }
 
   double step_length() const override { return world_.dynamic_settings().step; }
   void step(double share, const Eigen::Vector3d& force) override {
     DynamicState& state = world_.edit_dynamics();
-    for (size_t i = 0; i < grasp_.torques.size(); ++i) state.controls[i].effort = share * grasp_.torques[i] * joints_[i];
+    for (size_t i = 0; i < grasp_.torques.size(); ++i)
+      state.controls[i].effort = share * grasp_.torques[i] * joints_[i];
     state.loads[object_.index].force = force;
     stepper_->run(step_length());
   }
@@ -124,7 +137,8 @@ class Ours : public Grip {
 
 }  // namespace
 
-std::unique_ptr<Grip> our_grip(const GripScene& scene, const StoredGrasp& grasp, const GripOptions& options) {
+std::unique_ptr<Grip> our_grip(const GripScene& scene, const StoredGrasp& grasp,
+                               const GripOptions& options) {
   return std::make_unique<Ours>(scene, grasp, options);
 }
 

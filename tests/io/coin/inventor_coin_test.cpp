@@ -74,9 +74,9 @@ std::vector<fs::path> scene_files(const fs::path& folder) {
 
 }  // namespace
 
-// Where Coin cuts a polygon that is neither flat nor convex, and a flat one whose corners lie in a row,
-// it begins at other corners than we do; the corners are the same, and so is the area of flat ones.
-// Others differ by what lies between their two ways to be bent.
+// Where Coin cuts a polygon that is neither flat nor convex, and a flat one whose corners lie in a
+// row, it begins at other corners than we do; the corners are the same, and so is the area of flat
+// ones. Others differ by what lies between their two ways to be bent.
 constexpr double bent = 2e-3;
 
 static void check_same(const fs::path& path) {

@@ -8,18 +8,24 @@
 
 namespace clench {
 
-static JointDynamics of_robot(const RobotHandle& robot) { return joint_dynamics(*robot.world, robot.id); }
+static JointDynamics of_robot(const RobotHandle& robot) {
+  return joint_dynamics(*robot.world, robot.id);
+}
 
-static int mass_matrix(lua_State* L) { return push_rows(L, of_robot(self<RobotHandle>(L)).mass_matrix); }
+static int mass_matrix(lua_State* L) {
+  return push_rows(L, of_robot(self<RobotHandle>(L)).mass_matrix);
+}
 
 static int bias_forces(lua_State* L) { return push_vector(L, of_robot(self<RobotHandle>(L)).bias); }
 
 static int inverse_dynamics(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto given = check_numbers(L, 2, "accelerations", static_cast<int>(robot->dofs.size()));
-  for (const double a : given) check(Quantity{"acceleration", "rad/s^2 or m/s^2", -1e12, 1e12}, a, subject(L));
+  for (const double a : given)
+    check(Quantity{"acceleration", "rad/s^2 or m/s^2", -1e12, 1e12}, a, subject(L));
   const JointDynamics d = of_robot(robot);
-  const Eigen::Map<const Eigen::VectorXd> accelerations(given.data(), static_cast<Eigen::Index>(given.size()));
+  const Eigen::Map<const Eigen::VectorXd> accelerations(given.data(),
+                                                        static_cast<Eigen::Index>(given.size()));
   return push_vector(L, Eigen::VectorXd(d.mass_matrix * accelerations + d.bias + d.passive));
 }
 

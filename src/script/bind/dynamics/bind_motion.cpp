@@ -18,11 +18,14 @@ static int get_velocity(lua_State* L) {
 
 static int set_velocity(lua_State* L) {
   const auto body = self_body(L);
-  if (!lua_istable(L, 2) || lua_rawlen(L, 2) > 0) fail_expected({L, {}, ""}, "{linear = {x, y, z}, angular = {x, y, z}}", 2);
-  if (body.world->dynamic_settings().welds.contains(body.id)) fail("{}: it is welded, and moves with what it is welded to", subject(L));
+  if (!lua_istable(L, 2) || lua_rawlen(L, 2) > 0)
+    fail_expected({L, {}, ""}, "{linear = {x, y, z}, angular = {x, y, z}}", 2);
+  if (body.world->dynamic_settings().welds.contains(body.id))
+    fail("{}: it is welded, and moves with what it is welded to", subject(L));
   Table table(L, 2);
   const Twist now = body.world->twist(body.id);
-  const Eigen::Vector3d linear = table.vec3("linear", now.linear), angular = table.vec3("angular", now.angular);
+  const Eigen::Vector3d linear = table.vec3("linear", now.linear),
+                        angular = table.vec3("angular", now.angular);
   table.done();
   body.world->set_twist(body.id, {linear, angular});
   return 0;
@@ -30,11 +33,14 @@ static int set_velocity(lua_State* L) {
 
 static BodyHandle pushed_body(lua_State* L) {
   const auto body = self_body(L);
-  if (body->kind == BodyKind::obstacle) fail("{}: an obstacle moves as it is told, whatever pushes it", subject(L));
+  if (body->kind == BodyKind::obstacle)
+    fail("{}: an obstacle moves as it is told, whatever pushes it", subject(L));
   if (body->kind != BodyKind::base) return body;
   const World& world = *body.world;
   if (!world.robot(body->robot).mounting && !world.dynamic_settings().robot(body->robot).floating)
-    fail("{}: the base stands or moves as it is told, whatever pushes it, unless `floating` is true", subject(L));
+    fail(
+        "{}: the base stands or moves as it is told, whatever pushes it, unless `floating` is true",
+        subject(L));
   return body;
 }
 

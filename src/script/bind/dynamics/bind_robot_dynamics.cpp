@@ -19,7 +19,9 @@ static int get_dof_velocities(lua_State* L) {
 static int set_dof_velocities(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto values = check_numbers(L, 2, "", static_cast<int>(robot->dofs.size()));
-  robot.world->set_dof_velocities(robot.id, Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  robot.world->set_dof_velocities(
+      robot.id,
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
   return 0;
 }
 
@@ -48,7 +50,8 @@ static int set_controller(lua_State* L) {
   for (int i = 0; i < 3; ++i)
     if (name == mode_names[i]) mode = i;
   if (mode < 0)
-    fail("{}: expected \"position\", \"velocity\", \"effort\" or \"none\", got {}", subject(L), in_quotes(name));
+    fail("{}: expected \"position\", \"velocity\", \"effort\" or \"none\", got {}", subject(L),
+         in_quotes(name));
   DynamicState& state = robot.world->edit_dynamics();
   const auto q = robot.world->dofs(robot.id);
   for (int i = 0; i < q.size(); ++i) {
@@ -72,8 +75,10 @@ static int set_forces(lua_State* L) {
 static int get_efforts(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   std::vector<double> efforts(robot->dofs.size());
-  if (const DynamicState* state = robot.world->dynamics(); state && state->dof_efforts.size() >= robot->first_dof + efforts.size())
-    std::copy_n(state->dof_efforts.begin() + static_cast<std::ptrdiff_t>(robot->first_dof), efforts.size(), efforts.begin());
+  if (const DynamicState* state = robot.world->dynamics();
+      state && state->dof_efforts.size() >= robot->first_dof + efforts.size())
+    std::copy_n(state->dof_efforts.begin() + static_cast<std::ptrdiff_t>(robot->first_dof),
+                efforts.size(), efforts.begin());
   return push_numbers(L, efforts);
 }
 
@@ -91,8 +96,12 @@ static int set_targets(lua_State* L) {
       send_dof(*robot.world, robot.id, i, target, velocity);
       continue;
     }
-    DofControl& control = robot.world->edit_dynamics().controls[robot->first_dof + static_cast<size_t>(i)];
-    control = {.mode = ControlMode::position, .target = target, .effort = control.effort, .trajectory = {}};
+    DofControl& control =
+        robot.world->edit_dynamics().controls[robot->first_dof + static_cast<size_t>(i)];
+    control = {.mode = ControlMode::position,
+               .target = target,
+               .effort = control.effort,
+               .trajectory = {}};
   }
   return 0;
 }
@@ -106,7 +115,10 @@ static int set_target_velocities(lua_State* L) {
   for (size_t i = 0; i < values.size(); ++i) {
     if (!values[i]) continue;
     DofControl& control = state.controls[robot->first_dof + i];
-    control = {.mode = ControlMode::velocity, .velocity = *values[i], .effort = control.effort, .trajectory = {}};
+    control = {.mode = ControlMode::velocity,
+               .velocity = *values[i],
+               .effort = control.effort,
+               .trajectory = {}};
   }
   return 0;
 }
@@ -118,7 +130,8 @@ static int get_gravity_compensation(lua_State* L) {
 
 static int set_gravity_compensation(lua_State* L) {
   const bool on = check_boolean(L, 2);
-  edit_robot(self<RobotHandle>(L), [&](RobotDynamics& settings) { settings.gravity_compensation = on; });
+  edit_robot(self<RobotHandle>(L),
+             [&](RobotDynamics& settings) { settings.gravity_compensation = on; });
   return 0;
 }
 

@@ -16,7 +16,8 @@ static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
 static double check_time(lua_State* L, int i, const char* name, double least) {
   const double time = check_number(L, i, name);
   if (!(time >= least && time <= duration_rule.max))
-    fail("{}: {}: expected a time from {} to {} s, got {}", subject(L), name, least, duration_rule.max, time);
+    fail("{}: {}: expected a time from {} to {} s, got {}", subject(L), name, least,
+         duration_rule.max, time);
   return time;
 }
 
@@ -31,13 +32,19 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
     std::vector<BodyPair> pairs;
     for (const Manifold& m : world.dynamics()->manifolds)
       if (m.clearance == 0) pairs.emplace_back(m.a, m.b);
-    const std::string which = pairs.empty() ? "overlapped for a time" : "overlap (" + describe(world, pairs) + ")";
-    warn_once(L, &overlaps, fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps counts them; what is deeper than {:.3g} m in each other stays there",
-                                        subject(L), which, deepest_parted * world.contact_threshold()));
+    const std::string which =
+        pairs.empty() ? "overlapped for a time" : "overlap (" + describe(world, pairs) + ")";
+    warn_once(L, &overlaps,
+              fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps "
+                          "counts them; what is deeper than {:.3g} m in each other stays there",
+                          subject(L), which, deepest_parted * world.contact_threshold()));
   }
   if (report.failures > before.failures)
-    warn_once(L, &failures, fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
-                                        "what comes nearest was done; world.report.failures counts them", subject(L)));
+    warn_once(
+        L, &failures,
+        fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
+                    "what comes nearest was done; world.report.failures counts them",
+                    subject(L)));
 }
 
 static int run(lua_State* L) {
@@ -56,7 +63,8 @@ static int run(lua_State* L) {
 static void check_not_running(lua_State* L) {
   if (!push_hooks(L, self<WorldHandle>(L).world, false)) return;
   lua_getfield(L, -1, "runs");
-  if (lua_toboolean(L, -1)) fail("{}: the world runs already: what is called in a run cannot step it", subject(L));
+  if (lua_toboolean(L, -1))
+    fail("{}: the world runs already: what is called in a run cannot step it", subject(L));
   lua_pop(L, 2);
 }
 
@@ -164,15 +172,19 @@ static int average_contacts(lua_State* L) {
 
 static void read_settings(Table& table, DynamicSettings& settings) {
   settings.step = table.number("time_step", settings.step);
-  settings.engine = table.choice("engine", {"clench", "ode"}, settings.engine == DynamicsEngine::ode ? "ode" : "clench") == "ode"
+  settings.engine = table.choice("engine", {"clench", "ode"},
+                                 settings.engine == DynamicsEngine::ode ? "ode" : "clench") == "ode"
                         ? DynamicsEngine::ode
                         : DynamicsEngine::clench;
-  settings.cone = table.choice("cone", {"round", "pyramid"}, settings.cone == FrictionCone::pyramid ? "pyramid" : "round") == "pyramid"
-                      ? FrictionCone::pyramid
-                      : FrictionCone::round;
+  settings.cone =
+      table.choice("cone", {"round", "pyramid"},
+                   settings.cone == FrictionCone::pyramid ? "pyramid" : "round") == "pyramid"
+          ? FrictionCone::pyramid
+          : FrictionCone::round;
   settings.cone_edges = table.integer("edges", settings.cone_edges);
   if (settings.cone_edges < 4 || settings.cone_edges > 64 || settings.cone_edges % 2 != 0)
-    fail("{}: edges: expected an even number from 4 to 64, got {}", table.subject(), settings.cone_edges);
+    fail("{}: edges: expected an even number from 4 to 64, got {}", table.subject(),
+         settings.cone_edges);
   table.done();
 }
 
@@ -274,11 +286,12 @@ presses are left out.
 > #world:average_contacts(hand)  --> 0)"},
 };
 
-const Class world_dynamics_class{.name = "world_dynamics",
-                                 .variable = "world",
-                                 .doc = "How a world moves: time, steps, momentum, and what presses on what.",
-                                 .fields = fields,
-                                 .methods = methods,
-                                 .parent = &world_control_class};
+const Class world_dynamics_class{
+    .name = "world_dynamics",
+    .variable = "world",
+    .doc = "How a world moves: time, steps, momentum, and what presses on what.",
+    .fields = fields,
+    .methods = methods,
+    .parent = &world_control_class};
 
 }  // namespace clench

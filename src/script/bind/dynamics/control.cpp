@@ -26,8 +26,10 @@ struct Stepping {
 };
 using SteppingPtr = std::shared_ptr<Stepping>;
 
-const Class hooks_class{.name = "hooks", .variable = "hooks", .doc = "", .fields = {}, .methods = {}};
-const Class stepping_class{.name = "stepping", .variable = "stepping", .doc = "", .fields = {}, .methods = {}};
+const Class hooks_class{
+    .name = "hooks", .variable = "hooks", .doc = "", .fields = {}, .methods = {}};
+const Class stepping_class{
+    .name = "stepping", .variable = "stepping", .doc = "", .fields = {}, .methods = {}};
 
 const char hooks_key = 0;  // its address names the place of all tables of hooks
 

@@ -1,15 +1,18 @@
-// Scripts that take part in a run: functions called at steps, tasks, listeners. They belong to a world in a state of Lua.
+// Scripts that take part in a run: functions called at steps, tasks, listeners. They belong to a
+// world in a state of Lua.
 #pragma once
 #include "clench/script/bind/handles.h"
 
 namespace clench {
 
-/// Leaves the table of what takes part in the world's runs on the stack, or nothing where there is none.
+/// Leaves the table of what takes part in the world's runs on the stack, or nothing where there is
+/// none.
 /// make    an empty one where there is none
 /// returns is it there?
 bool push_hooks(lua_State* L, const WorldPtr& world, bool make);
 
-/// Runs a world whose hooks are on top of the stack for so long [s]; stdlib/dynamics/control_loop.lua.
+/// Runs a world whose hooks are on top of the stack for so long [s];
+/// stdlib/dynamics/control_loop.lua.
 void run_with_hooks(lua_State* L, const WorldPtr& world, double duration);
 
 }  // namespace clench

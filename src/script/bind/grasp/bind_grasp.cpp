@@ -47,7 +47,8 @@ static int measure(lua_State* L) {
   static const char at_edges = 0;
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
   if (measured.contacts_at_edges > 0 && first_time(L, &at_edges, about))
-    log_warning(L, fmt::format("{}: {} of {} contacts are soft ones on corners or edges, whose patch is a guess; of later grasps contact.patch.at_edge tells",
+    log_warning(L, fmt::format("{}: {} of {} contacts are soft ones on corners or edges, whose "
+                               "patch is a guess; of later grasps contact.patch.at_edge tells",
                                about, measured.contacts_at_edges, measured.contacts.size()));
   return push_object(L, GraspHandle{hand.world, std::move(measured)});
 }
@@ -55,7 +56,9 @@ static int measure(lua_State* L) {
 const World& world_of(lua_State* L, const GraspHandle& grasp) {
   if (!grasp.world)
     fail(
-        "{}: the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does", subject(L));
+        "{}: the grasp stands in no world, as those of planners and files; grasp:apply(world) "
+        "gives one that does",
+        subject(L));
   return *grasp.world;
 }
 
@@ -139,7 +142,8 @@ static int set_pregrasp(lua_State* L) {
   auto& g = self<GraspHandle>(L).grasp;
   if (!given(L, 2)) return g.pregrasp.reset(), 0;
   Table table(L, 2);
-  g.pregrasp = PregraspState{table.pose("pose"), table.numbers("dofs", static_cast<int>(g.dofs.size()))};
+  g.pregrasp =
+      PregraspState{table.pose("pose"), table.numbers("dofs", static_cast<int>(g.dofs.size()))};
   table.done();
   return 0;
 }
@@ -158,7 +162,8 @@ static int set_collision_free(lua_State* L) {
 
 static int get_epsilon(lua_State* L) {
   const auto& [world, g] = self<GraspHandle>(L);
-  if (const auto known = g.measures.find("epsilon"); known != g.measures.end()) return push(L, known->second);
+  if (const auto known = g.measures.find("epsilon"); known != g.measures.end())
+    return push(L, known->second);
   // a line of a file without points tells nothing of contacts
   if (!world && g.points.empty()) return lua_pushnil(L), 1;
   return push(L, space_of(g)->epsilon());
@@ -178,11 +183,14 @@ static void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, I
   constexpr double exact = 1e-9;  // [m], [rad]
   const auto arm = robot.mounting->parent;
   const Eigen::VectorXd before = world.dofs(arm);
-  const IkResult found = inverse_kinematics(world, arm, robot.base, world.pose(object) * *grasp.X_OH,
-                                            {.tolerance = exact, .angle_tolerance = exact}, &world.context());
+  const IkResult found =
+      inverse_kinematics(world, arm, robot.base, world.pose(object) * *grasp.X_OH,
+                         {.tolerance = exact, .angle_tolerance = exact}, &world.context());
   if (!found.reached)
-    fail("grasp of {} by {}: '{}' cannot bring the hand there; at best it stands {:.3g} m and {:.3g} rad away",
-         world.body(object).name, robot.name, world.robot(arm).name, found.distance, found.angle);
+    fail(
+        "grasp of {} by {}: '{}' cannot bring the hand there; at best it stands {:.3g} m and "
+        "{:.3g} rad away",
+        world.body(object).name, robot.name, world.robot(arm).name, found.distance, found.angle);
   if (found.dofs != before) world.set_dofs(arm, found.dofs);
   try {
     apply_grasp(world, grasp, hand, object);
@@ -199,7 +207,8 @@ static int apply(lua_State* L) {
   const WorldPtr world = given(L, 2) ? check_object<WorldHandle>(L, 2, "world").world : g.world;
   Table options(L, 3);
   const auto in_world = [&](const WorldPtr& other, const char* key) {
-    if (other != world) fail("{}: {}: expected one of that world, got one of another", subject(L), key);
+    if (other != world)
+      fail("{}: {}: expected one of that world, got one of another", subject(L), key);
   };
   Id<Robot> hand;
   Id<Body> object;

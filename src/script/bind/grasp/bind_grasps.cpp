@@ -41,7 +41,8 @@ static int save(lua_State* L) {
   Table options(L, 3);
   const std::string format = options.has("format") ? options.string("format") : "";
   options.done();
-  write_grasp_file(specs, path, format, {.warn = [L](const std::string& lost) { log_warning(L, lost); }});
+  write_grasp_file(specs, path, format,
+                   {.warn = [L](const std::string& lost) { log_warning(L, lost); }});
   return 0;
 }
 

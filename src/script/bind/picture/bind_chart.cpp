@@ -71,8 +71,8 @@ static int draw(lua_State* L) {
   const Font font;
   warn_without_letters(L, font);
   warn_of_boxes(L, chart, font);
-  return push_object(
-      L, PlotHandle{std::make_shared<const Drawing>(draw_chart(chart, drawing, font))});
+  return push_object(L,
+                     PlotHandle{std::make_shared<const Drawing>(draw_chart(chart, drawing, font))});
 }
 
 static const Entry functions[] = {

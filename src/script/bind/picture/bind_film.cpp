@@ -14,7 +14,8 @@ static int save_gif(lua_State* L) {
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, 2)); ++i) {
     lua_rawgeti(L, 2, i);
     const auto* picture = to<Picture>(L, -1);
-    if (!picture) fail("{}: pictures[{}]: expected a picture, got {}", subject(L), i, described(L, -1));
+    if (!picture)
+      fail("{}: pictures[{}]: expected a picture, got {}", subject(L), i, described(L, -1));
     frames.push_back(on_white(*picture));
     lua_pop(L, 1);
   }
@@ -25,7 +26,8 @@ static int save_gif(lua_State* L) {
     // where a delay is rounded, the next one makes up for it
     int shown = 0;
     for (size_t i = 0; i < delays.size(); ++i) {
-      const int stop = static_cast<int>(std::lround(std::min(100.0 * static_cast<double>(i + 1) / rate, 1e9)));
+      const int stop =
+          static_cast<int>(std::lround(std::min(100.0 * static_cast<double>(i + 1) / rate, 1e9)));
       delays[i] = stop - shown;
       shown = stop;
     }
@@ -34,7 +36,8 @@ static int save_gif(lua_State* L) {
     const auto given = options.numbers("delays", static_cast<int>(frames.size()));
     for (size_t i = 0; i < given.size(); ++i) {
       if (!(given[i] >= 0 && given[i] <= 65535))
-        fail("{}: delays[{}]: expected 0 to 65535 hundredths of a second, got {}", subject(L), i + 1, given[i]);
+        fail("{}: delays[{}]: expected 0 to 65535 hundredths of a second, got {}", subject(L),
+             i + 1, given[i]);
       delays[i] = static_cast<int>(std::lround(given[i]));
     }
   }

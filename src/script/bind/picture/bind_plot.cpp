@@ -61,7 +61,8 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what, bo
     series.y = one.numbers("counts");
     one.number("below", 0), one.number("above", 0);
   } else {
-    const std::string kind = one.choice("kind", {"line", "points", "bars"}, categories ? "bars" : "line");
+    const std::string kind =
+        one.choice("kind", {"line", "points", "bars"}, categories ? "bars" : "line");
     series.kind = kind == "line"     ? PlotKind::line
                   : kind == "points" ? PlotKind::points
                                      : PlotKind::bars;
@@ -98,7 +99,8 @@ static int make_plot(lua_State* L) {
   const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of series");
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
-    plot.series.push_back(read_plot_series(L, lua_gettop(L), what.item(i), !plot.categories.empty()));
+    plot.series.push_back(
+        read_plot_series(L, lua_gettop(L), what.item(i), !plot.categories.empty()));
     lua_pop(L, 1);
   }
   lua_pop(L, 1);
@@ -223,7 +225,9 @@ const Library plot_library{.name = "clench", .doc = "", .functions = functions};
 
 const Class plot_class{.name = "plot",
                        .variable = "plot",
-                       .doc = "Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.",
+                       .doc =
+                           "Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with "
+                           "the same contents are equal.",
                        .fields = fields,
                        .methods = methods,
                        .operators = operators};

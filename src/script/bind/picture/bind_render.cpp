@@ -30,9 +30,9 @@ static constexpr double longest_arrow = 0.6;  // part of the object's largest ra
 // the list `forces` of a result of grasp:contact_forces
 struct GivenForces {
   std::vector<PlacedForce> forces;
-  std::vector<Id<Robot>> robots;  // that press
+  std::vector<Id<Robot>> robots;         // that press
   std::vector<Eigen::Vector3d> normals;  // of the contacts, into the objects
-  double longest = 0;             // length of an arrow that suits the objects [m]
+  double longest = 0;                    // length of an arrow that suits the objects [m]
 };
 
 static GivenForces read_forces(lua_State* L, Table& options) {
@@ -123,7 +123,8 @@ static RenderOptions read_rendering(Table& options) {
   return rendering;
 }
 
-// height of an orthographic view [m]: true keeps what is framed, or what a camera shows at its target
+// height of an orthographic view [m]: true keeps what is framed, or what a camera shows at its
+// target
 static double read_ortho(lua_State* L, Table& options, const Eye& eye) {
   const int type = options.push("orthographic");
   const double height = lua_tonumber(L, -1);
@@ -308,13 +309,14 @@ static const Entry operators[] = {
 
 const Library render_library{.name = "clench", .doc = "", .functions = functions};
 
-const Class picture_class{.name = "picture",
-                          .variable = "picture",
-                          .doc =
-                              "A picture: red, green and blue, 8 bits each, and how much each pixel covers. "
-                              "`==` compares every pixel.",
-                          .fields = fields,
-                          .methods = methods,
-                          .operators = operators};
+const Class picture_class{
+    .name = "picture",
+    .variable = "picture",
+    .doc =
+        "A picture: red, green and blue, 8 bits each, and how much each pixel covers. "
+        "`==` compares every pixel.",
+    .fields = fields,
+    .methods = methods,
+    .operators = operators};
 
 }  // namespace clench

@@ -9,7 +9,9 @@ namespace clench {
 
 // numbers, or rows of numbers of one length
 static NpyArray read_array(lua_State* L, int index, const std::string& subject) {
-  if (!lua_istable(L, index)) fail("{}: expected a list of numbers, or of rows of them, got {}", subject, described(L, index));
+  if (!lua_istable(L, index))
+    fail("{}: expected a list of numbers, or of rows of them, got {}", subject,
+         described(L, index));
   NpyArray out;
   const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
   out.shape = {static_cast<size_t>(count)};
@@ -20,16 +22,19 @@ static NpyArray read_array(lua_State* L, int index, const std::string& subject) 
       if (i == 1) out.shape.push_back(width);
       if (out.shape.size() != 2 || width != out.shape[1])
         fail("{}[{}]: expected {}, got a row of {} numbers", subject, i,
-             out.shape.size() == 2 ? fmt::format("a row of {} numbers", out.shape[1]) : "a number", width);
+             out.shape.size() == 2 ? fmt::format("a row of {} numbers", out.shape[1]) : "a number",
+             width);
       for (size_t k = 1; k <= width; ++k) {
         lua_rawgeti(L, -1, static_cast<lua_Integer>(k));
-        if (lua_type(L, -1) != LUA_TNUMBER) fail("{}[{}][{}]: expected a number, got {}", subject, i, k, described(L, -1));
+        if (lua_type(L, -1) != LUA_TNUMBER)
+          fail("{}[{}][{}]: expected a number, got {}", subject, i, k, described(L, -1));
         out.numbers.push_back(lua_tonumber(L, -1));
         lua_pop(L, 1);
       }
     } else {
       if (lua_type(L, -1) != LUA_TNUMBER || out.shape.size() != 1)
-        fail("{}[{}]: expected {}, got {}", subject, i, out.shape.size() == 2 ? "a row of numbers" : "a number", described(L, -1));
+        fail("{}[{}]: expected {}, got {}", subject, i,
+             out.shape.size() == 2 ? "a row of numbers" : "a number", described(L, -1));
       out.numbers.push_back(lua_tonumber(L, -1));
     }
     lua_pop(L, 1);
@@ -42,7 +47,8 @@ static int save_arrays(lua_State* L) {
   if (!lua_istable(L, 2)) fail_expected({L, {}, "arrays"}, "a table of names and lists", 2);
   std::map<std::string, NpyArray> arrays;
   for (lua_pushnil(L); lua_next(L, 2); lua_pop(L, 1)) {
-    if (lua_type(L, -2) != LUA_TSTRING) fail("{}: arrays: expected names as keys, got {}", subject(L), described(L, -2));
+    if (lua_type(L, -2) != LUA_TSTRING)
+      fail("{}: arrays: expected names as keys, got {}", subject(L), described(L, -2));
     const std::string name(string_at(L, -2));
     // a name is one of a file in an archive
     if (name.empty() || name.find_first_of(std::string_view("/\\\0", 3)) != name.npos)
@@ -60,9 +66,11 @@ static int arrays(lua_State* L) {
   for (const auto& [name, array] : found) {
     push(L, std::string_view(name));
     const size_t count = array.shape.empty() ? 1 : array.shape[0];
-    const size_t width = count > 0 ? (array.is_text ? array.texts.size() : array.numbers.size()) / count : 0;
+    const size_t width =
+        count > 0 ? (array.is_text ? array.texts.size() : array.numbers.size()) / count : 0;
     if (array.is_text)
-      push_list_of(L, array.texts, [&](const std::string& text) { push(L, std::string_view(text)); });
+      push_list_of(L, array.texts,
+                   [&](const std::string& text) { push(L, std::string_view(text)); });
     else if (array.shape.size() < 2)
       push_numbers(L, array.numbers);
     else {

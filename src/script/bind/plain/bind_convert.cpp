@@ -26,7 +26,8 @@ static int convert(lua_State* L) {
   if (kind == FileKind::robot && !as_world && ending != ".urdf")
     fail("{}: expected a robot to .urdf, or its world to .lua or .wld, got {}", to,
          in_quotes(ending));
-  if (kind == FileKind::world || as_world)  // built on the way, which tells what the new file does not hold
+  if (kind == FileKind::world ||
+      as_world)  // built on the way, which tells what the new file does not hold
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine});
   else

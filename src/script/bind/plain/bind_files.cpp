@@ -54,7 +54,8 @@ static int csv_records(lua_State* L) {
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
   const auto records = read_csv(file, string_at(L, 2), check_separator(L, 3));
   return push_list_of(L, records, [L](const CsvRecord& record) {
-    push_list_of(L, record.cells, [L](const CsvCell& cell) { push(L, std::string_view(cell.text)); });
+    push_list_of(L, record.cells,
+                 [L](const CsvCell& cell) { push(L, std::string_view(cell.text)); });
     set_field(L, "line", record.line);
     push_list(L);
     for (size_t c = 0; c < record.cells.size(); ++c)

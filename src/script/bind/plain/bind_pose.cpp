@@ -158,9 +158,7 @@ static int get_quat(lua_State* L) {
   return push_numbers(L, std::array{q.w(), q.x(), q.y(), q.z()});
 }
 
-static int get_rpy(lua_State* L) {
-  return push(L, rpy_of(self<Pose>(L).matrix()));
-}
+static int get_rpy(lua_State* L) { return push(L, rpy_of(self<Pose>(L).matrix())); }
 
 static int inverse(lua_State* L) { return push(L, self<Pose>(L).inverse()); }
 

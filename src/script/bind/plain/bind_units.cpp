@@ -55,7 +55,8 @@ Version of the engine, major.minor.patch.
 const Library units_library{
     .name = "clench",
     .doc =
-        "Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses "
+        "Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, "
+        "masses "
         "kilograms, forces "
         "newtons; poses and vectors are in the world frame unless a text says otherwise.",
     .functions = functions,

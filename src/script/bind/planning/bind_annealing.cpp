@@ -1,8 +1,8 @@
 #include "clench/planning/search/run_together.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/planning/planning.h"
-#include "clench/script/lua/guard.h"
 #include "clench/script/lua/getter.h"
+#include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -50,7 +50,8 @@ BestListOptions read_best(lua_State* L, Table& options, const World& world, Id<B
   return out;
 }
 
-// the hand and the object of the options in the world that the search moves, theirs or a clone of it
+// the hand and the object of the options in the world that the search moves, theirs or a clone of
+// it
 HandAndObject read_who(Table& options, WorldPtr& world) {
   const auto* hand = options.object<RobotHandle>("hand");
   const auto* object = options.object<BodyHandle>("object");
@@ -91,7 +92,7 @@ int make_annealing(lua_State* L) {
   const CallingState calling(L);
   return push_object(
       L, AnnealingHandle{world, std::make_shared<Annealing>(*world, who, std::move(space),
-                                                           std::move(energy), annealing)});
+                                                            std::move(energy), annealing)});
 }
 
 int check_steps(lua_State* L, int i, const char* name) {

@@ -50,9 +50,7 @@ int push_energy(lua_State* L, const WorldPtr& world, EnergyPtr energy) {
 
 Facing read_facing(Table& options, const std::string& usual) {
   const std::string facing = options.choice("facing", {"nearest", "surface", "away"}, usual);
-  return facing == "nearest" ? Facing::nearest
-         : facing == "away"  ? Facing::away
-                             : Facing::surface;
+  return facing == "nearest" ? Facing::nearest : facing == "away" ? Facing::away : Facing::surface;
 }
 
 ContactEnergy::Options read_contact_options(Table& options) {
@@ -270,7 +268,8 @@ int call(lua_State* L) {
 }
 
 int text(lua_State* L) {
-  return push(L, self<EnergyHandle>(L).energy->any_thread() ? "energy" : "energy with a function of a script");
+  return push(L, self<EnergyHandle>(L).energy->any_thread() ? "energy"
+                                                            : "energy with a function of a script");
 }
 
 }  // namespace
@@ -369,8 +368,7 @@ collides. A search with this term and `collisions = false` may cross states that
 };
 
 static const Entry fields[] = {
-    {"any_thread",
-     getter<[](const EnergyHandle& x) { return x.energy->any_thread(); }>, R"(
+    {"any_thread", getter<[](const EnergyHandle& x) { return x.energy->any_thread(); }>, R"(
 Is it made of the engine's terms alone? One with a function of a script runs on the script's thread, and in its world.
 @type boolean
 > e = clench.energy.contact {hand = hand, object = flask}
@@ -395,16 +393,20 @@ static const Entry operators[] = {
 
 const Library energy_library{
     .name = "clench.energy",
-    .doc = "What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its "
-           "number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among "
-           "them. Distances count in millimetres, so that the numbers are those of GraspIt!.",
+    .doc =
+        "What searches make small. Each function makes an energy of a hand and an object: called, "
+        "`e()`, it gives its "
+        "number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions "
+        "of a script among "
+        "them. Distances count in millimetres, so that the numbers are those of GraspIt!.",
     .functions = functions};
 
-const Class energy_class{.name = "energy",
-                         .variable = "energy",
-                         .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
-                         .fields = fields,
-                         .methods = methods,
-                         .operators = operators};
+const Class energy_class{
+    .name = "energy",
+    .variable = "energy",
+    .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
+    .fields = fields,
+    .methods = methods,
+    .operators = operators};
 
 }  // namespace clench

@@ -30,7 +30,8 @@ EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world);
 
 // --- annealing. ---
 
-/// What a search varies: `position`, `posture`, `semi_axes`, `limits`, `jumps`, `values`, `targets`, `fixed`, `start`, `variables`.
+/// What a search varies: `position`, `posture`, `semi_axes`, `limits`, `jumps`, `values`,
+/// `targets`, `fixed`, `start`, `variables`.
 SearchSpace read_space(lua_State* L, Table& options, const World& world, const HandAndObject& who);
 /// A table by names.
 int push_values(lua_State* L, const SearchSpace& space, const Values& values);

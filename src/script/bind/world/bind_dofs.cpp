@@ -69,7 +69,8 @@ static int set_posture(lua_State* L) {
 static int get_dof_limits(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   int dof = 0;
-  return push_list_of(L, robot.world->dofs(robot.id), [&](double q) { push_numbers(L, range_around(*robot, dof++, q)); });
+  return push_list_of(L, robot.world->dofs(robot.id),
+                      [&](double q) { push_numbers(L, range_around(*robot, dof++, q)); });
 }
 
 static int get_dof_names(lua_State* L) {
@@ -153,7 +154,10 @@ static int autograsp(lua_State* L) {
   options.done();
   if (dynamic) {
     if (!stages.empty() || driving.stop_at_contact)
-      fail("{}: dynamic closes all DOFs by their motors; it takes no dofs, stages or stop_at_contact", options.subject());
+      fail(
+          "{}: dynamic closes all DOFs by their motors; it takes no dofs, stages or "
+          "stop_at_contact",
+          options.subject());
     close_by_motors(*robot.world, robot.id, speed);
     return 0;
   }

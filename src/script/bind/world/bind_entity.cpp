@@ -23,7 +23,8 @@ static int set_material(lua_State* L) {
 
 static int get_mass(lua_State* L) { return push(L, self_body(L)->mass); }
 
-static void warn_of(lua_State* L, const BodyHandle& body, const void* key, const std::string& doubt) {
+static void warn_of(lua_State* L, const BodyHandle& body, const void* key,
+                    const std::string& doubt) {
   if (!doubt.empty()) warn_once(L, key, fmt::format("{}: {}", body->name, doubt));
 }
 

@@ -340,9 +340,8 @@ add_virtual_contact; to {} for none, to nil for those that are found.
 > hand.virtual_contacts = {}
 > #hand.virtual_contacts  --> 0)",
      guarded<set_virtual_contacts>},
-    {"has_own_virtual_contacts", getter<[](const RobotHandle& robot) {
-       return robot->virtual_contacts != nullptr;
-     }>, R"(
+    {"has_own_virtual_contacts",
+     getter<[](const RobotHandle& robot) { return robot->virtual_contacts != nullptr; }>, R"(
 Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
 @type boolean
 > hand.has_own_virtual_contacts  --> true

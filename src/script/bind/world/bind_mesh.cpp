@@ -62,16 +62,15 @@ static int closest(lua_State* L) {
   return 1;
 }
 
-static int holds(lua_State* L) {
-  return push(L, contains(shape_of(L), check_vec3(L, 2, "point")));
-}
+static int holds(lua_State* L) { return push(L, contains(shape_of(L), check_vec3(L, 2, "point"))); }
 
 static int sample(lua_State* L) {
   const Shape& shape = shape_of(L);
   Random& random = check_object<Random>(L, 2, "random");
   const int count = check_int(L, 3, "count");
   constexpr int most = 1'000'000;
-  if (count < 0 || count > most) fail("{}: count: expected 0 to {}, got {}", subject(L), most, count);
+  if (count < 0 || count > most)
+    fail("{}: count: expected 0 to {}, got {}", subject(L), most, count);
   // of each triangle, the area of all up to its end
   std::vector<double> areas;
   double sum = 0;

@@ -26,7 +26,8 @@ static int new_world(lua_State* L) {
   world->set_contact_threshold(options.number("contact_threshold", world->contact_threshold()));
   world->set_gravity(options.vec3("gravity", world->gravity()));
   static const char told = 0;
-  if (const std::string doubt = doubt_gravity(world->gravity()); !doubt.empty()) warn_once(L, &told, subject(L) + ": " + doubt);
+  if (const std::string doubt = doubt_gravity(world->gravity()); !doubt.empty())
+    warn_once(L, &told, subject(L) + ": " + doubt);
   world->set_dynamic_settings(read_dynamic_settings(options));
   options.done();
   return push_world(L, world);
@@ -42,7 +43,9 @@ static int add_body(lua_State* L, BodyKind kind) {
   Listeners told = reading.listeners();
   // a script knows what it leaves open
   if (file.empty()) told.note = {};
-  if (const std::string doubt = options.has("elastic_modulus") ? doubt_modulus(*spec.elastic_modulus) : ""; !doubt.empty())
+  if (const std::string doubt =
+          options.has("elastic_modulus") ? doubt_modulus(*spec.elastic_modulus) : "";
+      !doubt.empty())
     tell(told.suspect, told.warn, place + ": elastic_modulus " + doubt);
   if (kind == BodyKind::object) {
     check_plausible_object(spec, place, reading.listeners());

@@ -45,7 +45,8 @@ static void tell_near_material(lua_State* L, const std::string& name) {
     return;
   const std::string near = did_you_mean(name, known);
   if (!near.empty())
-    warn_once(L, &told, fmt::format("{}: {} is a new material{}", subject(L), in_quotes(name), near));
+    warn_once(L, &told,
+              fmt::format("{}: {} is a new material{}", subject(L), in_quotes(name), near));
 }
 
 static int set_friction(lua_State* L) {
@@ -58,7 +59,8 @@ static int set_friction(lua_State* L) {
   }
   Table options(L, 4);
   const double statics = options.number("static");
-  Friction friction{.statics = statics, .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
+  Friction friction{.statics = statics,
+                    .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
   if (options.has("restitution")) {
     friction.restitution = options.number("restitution");
     check(restitution_rule, *friction.restitution, subject(L));
@@ -98,7 +100,8 @@ static int get_gravity(lua_State* L) { return push(L, world_of(L).gravity()); }
 static int set_gravity(lua_State* L) {
   world_of(L).set_gravity(check_vec3(L, 2, "gravity"));
   static const char told = 0;
-  if (const std::string doubt = doubt_gravity(world_of(L).gravity()); !doubt.empty()) warn_once(L, &told, doubt);
+  if (const std::string doubt = doubt_gravity(world_of(L).gravity()); !doubt.empty())
+    warn_once(L, &told, doubt);
   return 0;
 }
 
@@ -147,7 +150,8 @@ static int add_keyframe(lua_State* L) {
     world->add_keyframe(world->current_keyframe(name));
     return 0;
   }
-  if (!lua_istable(L, 3)) fail("{}: expected a list of states, got {}", subject(L), described(L, 3));
+  if (!lua_istable(L, 3))
+    fail("{}: expected a list of states, got {}", subject(L), described(L, 3));
   Keyframe keyframe{name, {}, {}};
   const int count = static_cast<int>(lua_rawlen(L, 3));
   for (int i = 1; i <= count; ++i) {
@@ -239,11 +243,13 @@ robot that is carried stays on its carrier.
 > world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected one of closed)"},
 };
 
-const Class world_settings_class{.name = "world_settings",
-                                 .variable = "world",
-                                 .doc = "What holds for all of a world: friction of materials, what may collide, "
-                                        "gravity, its camera, its named states.",
-                                 .fields = fields,
-                                 .methods = methods};
+const Class world_settings_class{
+    .name = "world_settings",
+    .variable = "world",
+    .doc =
+        "What holds for all of a world: friction of materials, what may collide, "
+        "gravity, its camera, its named states.",
+    .fields = fields,
+    .methods = methods};
 
 }  // namespace clench

@@ -171,10 +171,16 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
   DynamicSettings plain;
   plain.step = world.dynamic_settings().step;
   if (world.dynamic_settings() != plain)
-    log_warning(L, fmt::format("{}: settings of dynamics beside the time step are not saved: engine, friction cone, gains, "
-                               "floating bases, breakaway, gravity compensation, belts, welds", subject(L)));
+    log_warning(L, fmt::format("{}: settings of dynamics beside the time step are not saved: "
+                               "engine, friction cone, gains, "
+                               "floating bases, breakaway, gravity compensation, belts, welds",
+                               subject(L)));
   if (world.time() > 0)
-    log_warning(L, fmt::format("{}: the time, velocities and targets of motors of a world that has run are not saved", subject(L)));
+    log_warning(
+        L,
+        fmt::format(
+            "{}: the time, velocities and targets of motors of a world that has run are not saved",
+            subject(L)));
   write_world(describe_world(world), path, writing);
 }
 
