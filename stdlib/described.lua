@@ -19,7 +19,10 @@ return function(value)
   if type(value) == "boolean" then return tostring(value) end
   local name = module_name(value)
   if name then return name .. ", whose functions are called with '.' and not ':'" end
-  if type(value) == "table" then return "a table of " .. rawlen(value) end
+  if type(value) == "table" then
+    local count = rawlen(value)
+    return count > 0 and "a table of " .. count or next(value) ~= nil and "a table with names" or "an empty table"
+  end
   local meta = type(value) == "userdata" and debug.getmetatable(value)
   return "a " .. (meta and meta.__name or type(value))
 end

@@ -304,6 +304,7 @@ function dofs:set_dofs(values, options) end
 ---Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs stop at their limits. All joints follow their DOFs.
 ---@param pose pose
 ---@param values number[]|table<string, number> # one per DOF, or some by name [rad or m]
+---@return integer[]? # DOFs that stopped at a limit; nil: none
 function dofs:set_posture(pose, values) end
 
 ---Drives all DOFs in proportion towards values, until contact stops them.
@@ -525,7 +526,7 @@ function patch:torsion_limit(options) end
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is. Nothing else moves, and collisions are not checked: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
 ---@param world? world # default: its own
 ---@param options? {hand?: robot, object?: body}
 ---@return grasp
@@ -731,7 +732,7 @@ function world_settings:friction(a, b) end
 
 ---Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
 ---@param name string
----@param states? table[] # {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[]}; what is not listed stays where it is
+---@param states? table[] # {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 function world_settings:add_keyframe(name, states) end
 
 ---Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a robot that is carried stays on its carrier.
@@ -875,7 +876,7 @@ function motion:unweld() end
 
 ---Masses and forces as a robot's DOFs feel them.
 ---@class joint_dynamics: motion
----@field gains {kp: number, kd: number}[] # How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60 rad/s with critical damping, as it stands. Set a list of them, with false for those of the file; nil: all of the file. [N m/rad or N/m], [N m s/rad or N s/m]
+---@field gains {kp: number, kd: number}[] # How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60 rad/s with critical damping, as it stands. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file. [N m/rad or N/m], [N m s/rad or N s/m]
 local joint_dynamics = {}
 
 ---Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it carries, its base held. Armature of the joints is in it.

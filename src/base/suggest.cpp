@@ -33,14 +33,19 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[n];
 }
 
-// what users of other simulators type, and what it is called here
+// What users of other simulators type, or look for elsewhere, and what it is called here. Of several
+// the first that is known counts.
 static constexpr std::pair<std::string_view, std::string_view> other_words[] = {
-    {"qpos", "dofs"},         {"joints", "dofs"},         {"qvel", "dof_velocities"},
-    {"ctrl", "set_targets"},  {"position", "pose"},       {"rotation", "pose"},
-    {"orientation", "pose"},  {"xpos", "pose"},           {"step", "run"},
-    {"simulate", "run"},      {"advance", "run"},         {"close", "autograsp"},
-    {"fov", "field_of_view"}, {"fovy", "field_of_view"},  {"geoms", "bodies"},
-    {"copy", "clone"},        {"save_state", "snapshot"}, {"reset", "restore"}};
+    {"qpos", "dofs"},          {"joints", "dofs"},         {"qvel", "dof_velocities"},
+    {"ctrl", "set_targets"},   {"position", "pose"},       {"rotation", "pose"},
+    {"orientation", "pose"},   {"xpos", "pose"},           {"step", "run"},
+    {"simulate", "run"},       {"advance", "run"},         {"close", "autograsp"},
+    {"fov", "field_of_view"},  {"fovy", "field_of_view"},  {"geoms", "bodies"},
+    {"copy", "clone"},         {"save_state", "snapshot"}, {"reset", "restore"},
+    {"xyz", "position"},       {"pos", "position"},        {"position", "point"},
+    {"friction", "material"},  {"width", "size"},          {"height", "size"},
+    {"scale", "mesh_scale"},   {"hands", "robots"},        {"timestep", "time_step"},
+    {"time_step", "dynamics"}, {"quat", "rotation"},       {"orientation", "rotation"}};
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   constexpr size_t longest = 40;  // of what a person mistypes, and messages quote of a file

@@ -162,7 +162,7 @@ bool Mover::Carriers::find(Part& part, const std::vector<Part>& waiting) {
       before && slip < sticks && (jumped(to) || std::ranges::find(along_, to) != along_.end());
   const Eigen::Vector3d turning = (before ? state_.solved : state_.twists)[to.index].angular,
                         apart = part.twist.angular - turning;
-  if (!comes && apart.norm() >= turns_along * turning.norm()) return true;
+  if (!comes && !(apart.norm() < turns_along * turning.norm())) return true;
   part.carrier = to, part.X_WC = world_.pose(to);
   const Eigen::Matrix3d into = part.X_WC.rotation.conjugate().toRotationMatrix();
   part.relative = {into * (part.twist.linear - velocity(to, part.X_WB * part.com, before)),

@@ -64,7 +64,7 @@ class Stepper {
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);
   double free_until(const Manifold& m, int places, double dt, Mover& mover);
   struct Meetings;
-  void follow_pair(int manifold, double dt, Mover& mover, Meetings& meetings);
+  void follow_pair(int number, double dt, Mover& mover, Meetings& meetings);
   double time_until_meeting(Meetings& meetings, double dt, Mover& mover);
   void measure_met(Meetings& meetings, bool whole);
   Vector6d root_twist(int tree) const;

@@ -7,9 +7,10 @@
 namespace clench {
 
 /// A body, a robot, eigengrasps or virtual contacts in the file `from` written to `to`, whose
-/// ending says how. Both warn: of what is not known, of what the new format cannot hold. A world is
-/// not converted here: it is built, and saved. throws Error when it is another kind, one cannot be
-/// read, or the other cannot hold it; nothing is written then
+/// ending says how. Both warn: of what is not known, of what the new format cannot hold.
+/// A world is not converted here: it is built, and saved.
+/// throws Error when it is another kind, one cannot be read, or the other cannot hold it; nothing
+/// is written then
 void convert_file(FileKind kind, const std::filesystem::path& from, const std::filesystem::path& to,
                   const ReadOptions& reading, const WriteOptions& writing);
 

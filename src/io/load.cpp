@@ -58,9 +58,13 @@ void finish_robot(RobotSpec& robot, const fs::path& path, FileCache& cache) {
   for (const LinkSpec& link : robot.links) parts.push_back(&link.body);
   tell_assumed(parts, path.filename().string(), options.listeners());
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
-  if (!robot.X_BA && options.note)
-    options.note(path.filename().string() +
+  if (!robot.X_BA && options.note) {
+    // of a scene one of several
+    const std::string who =
+        is_scene(path) ? fmt::format(": {}", in_quotes(robot.name)) : std::string();
+    options.note(path.filename().string() + who +
                  ": no approach direction is given; it is the z axis of its base, from its origin");
+  }
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)
     robot.files.packages[name] = absolute_name(folder);

@@ -65,6 +65,11 @@ static WorldSpec around(BodySpec body) {
 
 static WorldSpec world_of(const std::filesystem::path& path, FileCache& cache) {
   const FileKind kind = file_kind(path);
+  if (!cache.options().body.empty()) {
+    if (kind != FileKind::robot)
+      fail("{}: body: expected a scene of MJCF, got another file", path.filename().string());
+    return around(read_robot(path, cache.options()));
+  }
   if (kind == FileKind::robot && is_scene(path)) {
     WorldSpec world = read_world_mjcf(path, cache);
     for (PlacedRobot& placed : world.robots) finish_robot(placed.robot, path, cache);

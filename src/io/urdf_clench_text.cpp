@@ -1,6 +1,7 @@
 #include "clench/io/urdf_clench_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "clench/base/text.h"
 #include "clench/io/text/xml.h"
@@ -53,7 +54,10 @@ void ClenchText::add_dof(int number) {
   const UrdfJoint& leader = plan_.joints[plan_.leader_of[number]];
   const double scale = leader.factor;
   constexpr const char* kinds[] = {"rigid", "breakaway", "compliant"};
+  // grasps find their DOFs by name; one whose values are other ones in the file is another DOF
+  const std::string name = dof.name.empty() ? fmt::format("dof{}", number + 1) : dof.name;
   line("<dof" + attribute("joint", leader.name) +
+       (name == leader.name || std::abs(scale - 1) > 1e-12 ? "" : attribute("name", name)) +
        attribute("kind", std::string(kinds[static_cast<int>(dof.kind)])) +
        attribute("velocity", dof.default_velocity * scale) +
        unless(0, "kp", dof.kp / scale / scale) + unless(0, "kd", dof.kd / scale / scale) +

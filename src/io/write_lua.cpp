@@ -327,6 +327,7 @@ void LuaWriter::add_robot(int index) {
   line(fmt::format("robots[{}] = world:add_robot({}, {{name = {}, pose = {}{}{}}})", index + 1,
                    file(robot.file), as_lua(robot.name), pose(placed.X_WB), root_option(),
                    choices_of(robot, read) + sets_of(robot, read)));
+  if (placed.floating) line(fmt::format("robots[{}].floating = true", index + 1));
   if (!robot.eigengrasps && read.eigengrasps)
     line(fmt::format("robots[{}].eigengrasps = nil", index + 1));
   if (!robot.virtual_contacts && read.virtual_contacts)

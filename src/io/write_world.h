@@ -9,8 +9,8 @@ namespace clench {
 /// are written so that reading gives them back to the bit where the format's unit allows it. Bodies
 /// without a file, and those whose file holds another surface, are written into a folder beside,
 /// called after what they hold: w_files/1a2b3c4d/ball.xml and ball.off; a .lua holds their
-/// triangles itself. Robots are named by their files. throws Error when a robot has no file, or a
-/// file cannot be written; an older file stays then
+/// triangles itself. Robots are named by their files.
+/// throws Error when a robot has no file, or a file cannot be written; an older file stays then
 void write_world(const WorldSpec& world, const std::filesystem::path& path,
                  const WriteOptions& options = {});
 

@@ -150,6 +150,10 @@ void Builder::add_robot(int index) {
                        ? world_.add_robot(placed.robot, placed.X_WB)
                        : clench::add_robot(world_, placed.robot, placed.X_WB, "", listeners_);
   set_start_dofs(world_, robots_[index], placed, listeners_);
+  if (!placed.floating) return;
+  DynamicSettings settings = world_.dynamic_settings();
+  settings.robots[robots_[index]].floating = true;
+  world_.set_dynamic_settings(std::move(settings));
 }
 
 void Builder::add_connection(int index) {

@@ -86,6 +86,7 @@ PlacedRobot Describer::placed(Id<Robot> id) const {
   const auto q = world_.dofs(id);
   out.dofs.assign(q.begin(), q.end());
   out.joint_positions = world_.own_joint_positions(id);
+  out.floating = world_.dynamic_settings().robot(id).floating;
   return out;
 }
 

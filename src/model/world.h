@@ -163,8 +163,8 @@ class World {
   // --- time machine ---
   std::shared_ptr<const Snapshot> snapshot() const;
   /// Exactly as in the snapshot, which was taken of this world or of a clone of it, or of one that
-  /// this is a clone of: what was removed since is back, what was added since is gone. throws Error
-  /// when it was taken of another world
+  /// this is a clone of: what was removed since is back, what was added since is gone.
+  /// throws Error when it was taken of another world
   void restore(const Snapshot& snapshot);
   /// the same object for a world and all clones of it
   std::shared_ptr<const void> lineage() const { return lineage_; }

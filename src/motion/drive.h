@@ -15,8 +15,9 @@ struct DofMotion {
 /// any of its joints; a breakaway DOF leaves a stopped joint behind, closing, and picks it up there
 /// again, opening. The joints of a compliant DOF follow their springs, see SpringBalance: it pulls
 /// on, and they give way and slide, until contacts and friction take up whatever more it pulls. A
-/// DOF whose joints come free goes on. The gaps that remain are in (0, threshold]. throws Error
-/// naming the pairs when the robot starts in collision, or when a number is out of order
+/// DOF whose joints come free goes on. The gaps that remain are in (0, threshold].
+/// throws Error naming the pairs when the robot starts in collision, or when a number is out of
+/// order
 DriveResult drive(World& world, Id<Robot> robot, const DofMotion& motion,
                   const DriveOptions& options = {});
 

@@ -18,7 +18,8 @@ struct MoveResult {
 
 /// Moves an object or obstacle along the straight line and shortest turn to X_WB, until it first
 /// touches something. The gap that remains is in (0, threshold]. A body that starts in contact may
-/// leave or slide; it is not pushed in. throws Error naming the pairs when it starts in collision
+/// leave or slide; it is not pushed in.
+/// throws Error naming the pairs when it starts in collision
 MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB);
 
 /// The same for a robot that nobody carries, with all that it carries.

@@ -26,7 +26,8 @@ InertiaFault inertia_fault(const Eigen::Matrix3d& per_mass);
 void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject);
 
 /// The same axes and the same largest moment; the others raised by the same until their sum is
-/// that. `per_mass`  one that breaks the triangle
+/// that.
+/// `per_mass`  one that breaks the triangle
 Eigen::Matrix3d with_triangle(const Eigen::Matrix3d& per_mass);
 
 /// What a reader does about an inertia: see inertia_fault.

@@ -14,8 +14,8 @@ std::string doubt_modulus(double modulus);
 std::string doubt_gravity(const Eigen::Vector3d& gravity);
 
 /// Of a body that is to be grasped: smaller than a millimetre or larger than 3 m, or without area;
-/// a mass, a centre of mass or an inertia that contradicts its surface. `place`: what the sentence
-/// begins with, "w.wld:3"
+/// a mass, a centre of mass or an inertia that contradicts its surface.
+/// `place`: what the sentence begins with, "w.wld:3"
 void check_plausible_object(const BodySpec& body, const std::string& place,
                             const Listeners& listeners);
 

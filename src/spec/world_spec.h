@@ -27,6 +27,7 @@ struct PlacedRobot {
   std::vector<double> dofs;  ///< one per DOF [rad or m]
   /// one per joint, link by link; empty: all follow their DOFs
   std::vector<JointPosition> joint_positions;
+  bool floating = false;  ///< does its base move freely? else it stands
 };
 
 /// The child's base is fixed to a link of the parent.

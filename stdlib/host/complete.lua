@@ -158,6 +158,8 @@ local function string_words(text, from, brackets, add)
     for called in next, described().called do add(called) end
   elseif lists[name] then
     for _, item in ipairs(get(resolve(base), lists[name]) or {}) do add(item.name) end
+  elseif name == "set_keyframe" then
+    for _, keyframe in ipairs(get(resolve(base), "keyframes") or {}) do add(keyframe) end
   else
     return false
   end

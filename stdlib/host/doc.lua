@@ -78,11 +78,18 @@ end
 
 -- --- pages ---
 
+-- a table that a field gives is a copy: what is written into it changes nothing
+local function access(kind, settable)
+  local copy = kind:find "^table" or kind:find "^{" or kind:find "%]%??$"
+  if copy then return settable and "; a copy: assign to change it." or "; read only, a copy." end
+  return settable and "; can be set." or "; read only."
+end
+
 local function add_entry(page, subject, entry)
   local parsed = doc.parse(entry.doc)
   page("\n### `%s`\n\n%s\n", doc.signature(subject, parsed), parsed.text)
   if parsed.type then
-    page("\nType `%s`%s%s\n", parsed.type.type, after(" ", parsed.type.text), entry.settable and "; can be set." or "; read only.")
+    page("\nType `%s`%s%s\n", parsed.type.type, after(" ", parsed.type.text), access(parsed.type.type, entry.settable))
   end
   if #parsed.params + #parsed.returns > 0 then page "\n" end
   for _, p in ipairs(parsed.params) do page("- `%s`: `%s`%s\n", p.name, p.type, after(" – ", p.text)) end

@@ -93,7 +93,7 @@ local function explain(x)
     end)
     for _, entry in ipairs(doc.packed_functions(all.files)) do
       local subject = "clench." .. entry.name
-      if subject == x or entry.name == x or entry.name:match "%w+$" == x then print_entry(subject, entry) found = true end
+      if subject == x or entry.name == x or entry.name:match "[%w_]+$" == x then print_entry(subject, entry) found = true end
     end
     found = found or print_library(x, all) or print_library("clench." .. x, all) or #x > 2 and print_mentions(x, all)
   elseif type(x) == "function" then
@@ -120,7 +120,9 @@ local function explain(x)
       if type(x) == "userdata" and class.name == name then print_class(class, all) found = true end
     end
   end
-  if not found then print("nothing is known of " .. require "clench.show"(x)) end
+  if not found then
+    print("nothing is known of " .. require "clench.show"(x) .. (type(x) == "string" and "" or '; a field is explained by its name, as in help "hand.dofs"'))
+  end
 end
 
 local function show_whole(x) print(require "clench.show"(x, math.huge)) end

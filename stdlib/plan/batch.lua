@@ -44,6 +44,13 @@ function batch.try(job, told, next_state, options)
   if options.near_found then next_state = starts_near_found(job, next_state, founders, tally) end
   local function tally_of(state) return state.is_near and tally.near or tally.elsewhere end
   local bar <close> = clench.progress(options.limit, job.subject)
+  local tried = 0
+  -- whichever ends the search: all that may be tried, or grasps enough
+  local function show()
+    tried = tried + chunk
+    local part = math.min(1, math.max(tried / options.limit, options.count and unlike / options.count or 0))
+    bar:step(math.max(0, part * options.limit - bar.done), ("%d grasps"):format(#found))
+  end
 
   local function take(result)
     if result.error then
@@ -73,7 +80,7 @@ function batch.try(job, told, next_state, options)
         if options.on_grasp then options.on_grasp(new.grasp) end
       end
     end
-    bar:step(chunk, ("%d grasps"):format(#found))
+    show()
   end
 
   job:interruptible(function()

@@ -127,12 +127,30 @@ local function freed(world, name)
   return free
 end
 
-local function tell_overlaps(subject, world, arm)
+-- what a thing overlaps, but for robots that are moved anyway
+local function overlaps(world, thing, moved)
   local names = {}
-  for _, pair in ipairs(world:colliding(arm)) do names[#names + 1] = ("%s and %s"):format(pair[1].name, pair[2].name) end
-  if #names > 0 then
+  for _, pair in ipairs(world:colliding(thing)) do
+    local a, b = pair[1].robot, pair[2].robot
+    if not (a and moved[a.name] or b and moved[b.name]) then
+      names[#names + 1] = ("%s and %s"):format(pair[1].name, pair[2].name)
+    end
+  end
+  return #names > 0 and table.concat(names, ", ")
+end
+
+local function tell_overlaps(subject, world, hand, object)
+  local moved = {[hand.name] = true}
+  local of_arm = hand.parent and overlaps(world, hand.parent, {})
+  if of_arm then
     clench.log.warning(script_line() .. ("%s: '%s' collides before anything moves, which is held against no grasp: %s"):format(
-      subject, arm.name, table.concat(names, ", ")))
+      subject, hand.parent.name, of_arm))
+  end
+  if hand.parent then moved[hand.parent.name] = true end
+  local of_object = overlaps(world, object, moved)
+  if of_object then
+    clench.log.warning(script_line() .. ("%s: the object overlaps something before anything moves, which is held against no grasp: %s"):format(
+      subject, of_object))
   end
 end
 
@@ -160,7 +178,7 @@ return function(subject, given, own)
   for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
   if own then own(read, job) end
   read:done()
-  if job.arm then tell_overlaps(subject, world, job.arm) end
+  tell_overlaps(subject, world, hand, object)
 
   local energy = job.energy
   local has_function = type(energy) == "function" or described(energy) == "a energy" and not energy.any_thread

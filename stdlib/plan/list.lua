@@ -7,8 +7,18 @@ local closing = require "clench.plan.closing"
 
 -- a grasp's own state, or that before it closed; or a table of both
 local function state_of(item)
-  if described(item) == "a grasp" then return item.pregrasp or {pose = item.pose, dofs = item.dofs} end
-  return item
+  if described(item) ~= "a grasp" then return item end
+  local before = item.pregrasp
+  if not before then return {pose = item.pose, dofs = item.dofs} end
+  return {pose = before.pose, dofs = before.dofs, way = item.pose and (item.pose.position - before.pose.position):norm()}
+end
+
+local margin = 0.01  -- of the way from a pregrasp to the first touch [m]
+
+-- how far the hand comes; nil: not at all
+local function approach_of(state, given)
+  if given then return given > 0 and given or nil end
+  return state.way and state.way > 1e-6 and state.way + margin or nil
 end
 
 local function check_dofs(read, place, dofs, hand)
@@ -35,13 +45,13 @@ local function read_states(read, hand)
     if state.dofs == nil then read:fail("%s: dofs are missing: expected a grasp or {pose =, dofs =}", place) end
     if described(state.pose) ~= "a pose" then read:expected(place .. ".pose", "a pose", state.pose) end
     check_dofs(read, place .. ".dofs", state.dofs, hand)
-    out[i] = state
+    out[i] = {pose = state.pose, dofs = state.dofs, way = described(item) == "a grasp" and state.way or nil}
   end
   return out
 end
 
 --- Tries a given list of states, of another planner, hand or file: the hand closes from each.
----@param options {hand: robot, object: body, states: grasps|table, approach?: number, energy?: string|energy|function, count?: integer, seconds?: number, world?: world}  states: grasps, from their pregrasps, or {pose = of the hand in the object, dofs =} each; approach: to the first touch, at most so far [m], 0 by default; energy: noted with each, measured before it closes
+---@param options {hand: robot, object: body, states: grasps|table, approach?: number, energy?: string|energy|function, count?: integer, seconds?: number, world?: world}  states: grasps, from their pregrasps, or {pose = of the hand in the object, dofs =} each; approach: to the first touch, at most so far [m]; by default as far as the grasp came from its pregrasp, else 0; energy: noted with each, measured before it closes
 ---@return {grasps: grasps, report: table} # all in contact, the largest epsilon first
 --- > run = clench.plan.list {hand = hand, object = flask, states = {{pose = grasp.pose, dofs = grasp.dofs}, grasp}}
 --- > #run.grasps, run.report.candidates  --> 1, 2
@@ -50,7 +60,7 @@ return function(options)
   local states, approach, count
   local job = new_job("plan.list", options, function(read, job)
     states = read_states(read, options.hand)
-    approach = read:not_negative("approach", 0, 1e6)
+    if read:raw "approach" ~= nil then approach = read:not_negative("approach", nil, 1e6) end
     job.energy = read:raw "energy"
     count = read:count("count", 1000000, 1, 1000000)
   end)
@@ -70,7 +80,7 @@ return function(options)
       if not job:goes_on() then break end
       told.candidates = told.candidates + 1
       local value = energy_at(state)
-      local grasp = job:close(job.hand, job.object, state, told, approach > 0 and approach or nil)
+      local grasp = job:close(job.hand, job.object, state, told, approach_of(state, approach))
       if grasp then found[#found + 1] = closing.note(grasp, "list", {energy = value, number = i}) end
     end
   end)

@@ -95,7 +95,7 @@ end
 local function too_weak(told)
   local count = told.rejected and told.rejected[verification.too_weak]
   if not count or not told.best_load then return end
-  return ("%d grasps in force closure are too weak against loads: the best holds %.3g times the object's weight in its weakest direction, with %g weights of normal force in all and the motors within their limits, and %g are asked; see min_load and force_ratio of verify, --force-ratio of clench plan"):format(
+  return ("%d grasps in force closure are too weak against loads: the best holds %.6g times the object's weight in its weakest direction, with %g weights of normal force in all and the motors within their limits, and %.6g are asked; see min_load and force_ratio of verify, --force-ratio of clench plan"):format(
     count, told.best_load, told.verify.force_ratio, told.verify.min_load)
 end
 

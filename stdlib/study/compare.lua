@@ -1,12 +1,20 @@
 -- stdlib/study/compare.lua
 local raise = require "clench.raise"
+local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local higher_is_better = require "clench.study.higher_is_better"
 local put_back = require "clench.study.put_back"
 
-local function check_grasps(grasps)
-  local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
+local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
+
+-- a table without holes
+local function listed(grasps)
+  if described(grasps) == "a grasps" then
+    local list = {}
+    for i = 1, #grasps do list[i] = grasps[i] end
+    grasps = list
+  end
   if type(grasps) ~= "table" then fail("expected a list of grasps, got %s", described(grasps)) end
   local count = 0
   for _ in pairs(grasps) do count = count + 1 end
@@ -14,10 +22,20 @@ local function check_grasps(grasps)
   for i = 1, count do
     if grasps[i] == nil then fail("grasps: expected a list without holes or names, got none as number %d", i) end
   end
-  for i, grasp in ipairs(grasps) do
+  return grasps
+end
+
+-- those of a planner or a file are applied to copies of the world
+local function standing(grasps, world)
+  local list = {}
+  for i, grasp in ipairs(listed(grasps)) do
+    local place = ("study.compare: grasps[%d]"):format(i)
     if described(grasp) ~= "a grasp" then fail("grasps[%d]: expected a grasp, got %s", i, described(grasp)) end
-    put_back.check_stands(("study.compare: grasps[%d]"):format(i), grasp)
+    if world then grasp = on_behalf_of(place, grasp.apply, grasp, world:clone()) end
+    put_back.check_stands(place, grasp)
+    list[i] = grasp
   end
+  return list
 end
 
 -- the number of the best, by what counts as better; of equal ones the first
@@ -51,15 +69,18 @@ end
 
 --- Several measures of several grasps, side by side; `chart` draws them, one panel per measure, with the options title,
 --- width and height of clench.chart.
----@param grasps grasp[]
----@param options? {measures?: string[], labels?: string[]}  names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
+---@param grasps grasp[]|grasps
+---@param options? {world?: world, measures?: string[], labels?: string[]}  world: in copies of which grasps of planners and files are applied, and measured; names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
 --- > c:chart {width = 300, height = 200}  --> plot of 300 x 200 pixels
+--- > clench.study.compare(clench.plan.list {hand = hand, object = flask, states = {grasp}}.grasps, {world = world}).best.epsilon  --> 1
 return function(grasps, options)
-  check_grasps(grasps)
   local read = read_options("study.compare", options or {})
+  local world = read:raw "world"
+  if world ~= nil and described(world) ~= "a world" then read:expected("world", "a world", world) end
+  grasps = standing(grasps, world)
   local measures = read:raw "measures" or {"epsilon", "volume"}
   if type(measures) ~= "table" or #measures == 0 then read:expected("measures", "a list of names", measures) end
   local labels = read:raw "labels"

@@ -1,6 +1,7 @@
 // From a world's file to a measured grasp, step by step. On the DLR hand and flask of the original
-// where ../shared is present, and on our own. The original took, on the machine of
-// ../shared/reference: 96 ms to load, 23 ms to close, 26 ms for the space.
+// where ../shared is present, and on our own.
+// The original took, on the machine of ../shared/reference: 96 ms to load, 23 ms to close, 26 ms
+// for the space.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -90,6 +90,7 @@ TEST_CASE("one robot is called as the model is, and a free tree stands where its
   REQUIRE(told.world.robots.size() == 1);
   CHECK(told.world.robots[0].robot.name == "m");
   CHECK(told.world.robots[0].X_WB.position.z() == 2);
+  CHECK(told.world.robots[0].floating);
 }
 
 TEST_CASE("what is fixed to a free body is part of it") {

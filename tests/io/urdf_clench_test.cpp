@@ -87,15 +87,14 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   check_refused("<x/>", "clench: unknown element <x>");
   check_refused("<dofs/>", "clench: unknown element <dofs>; did you mean 'dof'?");
   check_refused("<dof joint='k'/>", "dof: joint: no joint 'k' that leads a DOF");
-  check_refused("<dof joint='j' spede='1'/>",
-                "dof: unknown attribute 'spede', expected one of joint, kind, velocity, kp, kd, "
-                "damping_ratio, "
-                "breakaway, handle, start, driven");
+  check_refused("<dof joint='j' velocty='1'/>",
+                "dof: unknown attribute 'velocty'; did you mean 'velocity'?");
   check_refused("<dof joint='j' driven='no'/>", "dof: driven: expected true or false, got 'no'");
   check_refused("<dof joint='j' kind='soft'/>",
                 "dof: kind: expected rigid, breakaway or compliant, got 'soft'");
   check_refused("<dof joint='j' breakaway='-1'/>",
                 "dof: breakaway: expected a number from 0 to 1e+30, got -1");
+  check_refused("<dof joint='j' name=''/>", "dof: name: expected a word, got nothing");
   check_refused("<dof joint='j'/><dof joint='j'/>", "dof: expected one of 'j', got another");
   check_refused("<dof joint='j'><a/></dof>", "dof: expected no elements in it, got <a>");
   check_refused("<dof joint='j'>a</dof>", "dof: expected no text in it, got 'a'");
@@ -123,4 +122,21 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   CHECK_THROWS_WITH_AS(with("<clench/><clench/>"),
                        "h.urdf:2: robot: expected one <clench>, got another", Error);
   CHECK(with("<clench><eigengrasps file='no.egr'/></clench>").warned("h.urdf:2: eigengrasps: "));
+}
+
+TEST_CASE("a DOF may have another name than its joint, but not that of another DOF") {
+  const auto read = [](const std::string& name) {
+    TemporaryFolder folder;
+    return ToldRobot(
+        folder.write("h.urdf",
+                     "<robot name='h'><link name='palm'/><link name='a'/><link name='b'/>"
+                     "<joint name='j' type='prismatic'><parent link='palm'/><child link='a'/>"
+                     "<limit lower='0' upper='1'/></joint>"
+                     "<joint name='k' type='prismatic'><parent link='palm'/><child link='b'/>"
+                     "<limit lower='0' upper='1'/></joint>\n<clench><dof joint='j' name='" +
+                         name + "'/><dof joint='k' velocity='1'/></clench></robot>"));
+  };
+  CHECK(read("thumb").robot.dofs[0].name == "thumb");
+  CHECK(read("thumb").robot.dofs[1].default_velocity == 1);
+  CHECK_THROWS_WITH_AS(read("k"), "h.urdf:2: clench: two DOFs are called 'k'", Error);
 }

@@ -99,7 +99,7 @@ test("a function of a module that is called with a colon is told so", function(t
   t.fails(function() return clench.stats:mean {1, 2} end, "stats.mean: expected a list of numbers, got clench.stats, " .. dot)
   t.fails(function() return clench.plan:sample {} end, "got clench.plan, " .. dot)
   t.fails(function() return clench.csv:read "a.csv" end, "got clench.csv, " .. dot)
-  t.fails(function() return clench.load(setmetatable({}, {__name = "clenched"})) end, "got a table")
+  t.fails(function() return clench.load(setmetatable({}, {__name = "clenched"})) end, "got an empty table")
 end)
 
 test("what the standard library requires of the engine bears what a stranger gives it", function(t)

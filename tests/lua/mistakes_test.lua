@@ -106,3 +106,14 @@ test("a list of bodies or robots that is asked for a name says how one is found"
   t.equal(count, 2 * #world.bodies)
   t.ok(tostring(world.robots):find "^{robot", tostring(world.robots))
 end)
+
+test("a posture beyond the limits stops there, and says which DOFs did; degrees are doubted", function(t)
+  local world = clench.load("worlds/barrett_mug.wld")
+  local hand = world.robots[1]
+  local stopped
+  local told = t.warnings(function() stopped = hand:set_posture(hand.pose, {0, 60, 1, 60}) end)
+  t.equal(stopped, {2, 4})
+  t.equal(#told, 1)
+  t.ok(told[1]:find("DOF 2 stops at 2.513 rad, 60 were asked for; degrees? clench.rad(60) is 1.047", 1, true), told[1])
+  t.equal(hand:set_posture(hand.pose, {0, 1, 1, 1}), nil)
+end)

@@ -183,6 +183,36 @@ test("one robot of a scene is added by the body that it begins with", function(t
   local world = clench.world()
   t.equal(#world:add_robot(scene, {body = "arm", pose = {xyz = {0, 0, 1}}}).links, 1)
   t.fails(function() world:add_robot(scene, {body = "mug"}) end, "body: expected one that a tree of joints begins with, got 'mug', expected one of arm, door")
+  -- so it is loaded and written
+  t.equal(#clench.load(scene, {body = "door"}).robots, 1)
+  t.equal(clench.convert(scene, folder .. "/arm.urdf", {body = "arm"}), "robot")
+  t.equal(#clench.world():add_robot(folder .. "/arm.urdf").dofs, 1)
+  t.fails(function() clench.load("worlds/dlr_flask.wld", {body = "arm"}) end, "dlr_flask.wld: body: expected a scene of MJCF, got another file")
+  -- without it all are one robot, which is told
+  local told = table.concat(t.warnings(function() t.equal(#clench.world():add_robot(scene).dofs, 2) end), "\n")
+  t.ok(told:find("scene.xml: these bodies are read as one robot: arm, door; the option 'body' reads one of them, and clench.load a world with all of them", 1, true), told)
+end)
+
+test("a robot with a free joint moves freely, and does so in a world that is saved", function(t)
+  local drone = write("drone.xml", [[<mujoco><worldbody><body name="drone" pos="0 0 1"><freejoint/><geom size="0.1"/>
+    <body><joint name="tilt" range="0 1"/><geom size="0.02" pos="0.2 0 0"/></body></body></worldbody></mujoco>]])
+  local world = clench.load(drone)
+  t.equal(world.robots[1].floating, true)
+  world:run(0.1)
+  t.close(world.robots[1].pose.position.z, 1 - 9.81 * 0.1 ^ 2 / 2, 1e-3)
+end)
+
+test("keyframes take lists of states, with DOFs by their names", function(t)
+  local world = clench.load(scene)
+  local arm = world:robot "arm"
+  world:add_keyframe("bent", {{robot = arm, dofs = {shoulder = 0.5}}})
+  world:set_keyframe "bent"
+  t.close(arm.dofs[1], 0.5, 0)
+  world:add_keyframe("nothing", {})
+  t.fails(function() world:add_keyframe("one", {robot = arm, dofs = {0.5}}) end,
+          "world:add_keyframe: expected a list of states, as in {{robot = hand, dofs = hand.dofs}}, got a table with names")
+  t.fails(function() world:add_keyframe("one", {{robot = arm}}) end, "state 1: dofs: expected their values, got none")
+  t.fails(function() world:add_keyframe("one", {{robot = arm, dofs = {shoulder = "up"}}}) end, "world:add_keyframe: state 1: shoulder: expected a number, got 'up'")
 end)
 
 test("a robot's or a body's file is a world with that in it", function(t)

@@ -52,6 +52,11 @@ for number, path in ipairs(hands) do
     clench.convert(path, there, path:find "hands%-urdf" and {package = path:match "^(.*)/"} or nil)
     local before, after = closed(path), closed(there)
     t.equal(#after.hand.dofs, #before.hand.dofs)
+    for i, name in ipairs(before.hand.dof_names) do
+      -- one whose leading joint turns by another ratio has other values, and is told apart
+      local a, b = before.hand.dof_limits[i], after.hand.dof_limits[i]
+      if math.abs(a[1] - b[1]) + math.abs(a[2] - b[2]) < 1e-12 then t.equal(after.hand.dof_names[i], name) end
+    end
     for name, bounds in pairs(before.free) do
       local other = after.free[name]
       t.ok(other, name)
@@ -68,3 +73,16 @@ for number, path in ipairs(hands) do
     t.equal(after.hand.base.material, before.hand.base.material)
   end)
 end
+
+test("a grasp of a hand applies to the URDF that the hand was written as", function(t)
+  local world = clench.load "worlds/dlr_flask.wld"
+  local hand, flask = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, flask)
+  local there = folder .. "/dlr.urdf"
+  clench.convert("models/hands/dlr/dlr.cfg", there)
+  local other = clench.world()
+  other:add_robot(there, {name = hand.name})
+  other:add_object("models/objects/flask.iv", {name = flask.name, material = flask.material, pose = flask.pose})
+  t.equal(#grasp:apply(other).contacts, #grasp.contacts)
+end)

@@ -43,7 +43,8 @@ Eigen::Matrix4d turn(double angle, const Eigen::Vector3d& axis) {
   return m;
 }
 
-/// The values of all DOFs by name, at random within the limits.
+/// The values of all DOFs by name, and by those of the joints that lead them, at random within the
+/// limits.
 std::map<std::string, double> move_at_random(World& world, Id<Robot> id, Random& random) {
   const Robot& robot = world.robot(id);
   Eigen::VectorXd q(robot.dofs.size());
@@ -52,6 +53,8 @@ std::map<std::string, double> move_at_random(World& world, Id<Robot> id, Random&
     q[i] = random.uniform(robot.limits[i][0], robot.limits[i][1]);
     named[robot.dofs[i].name] = q[i];
   }
+  for (const Joint& joint : robot.joints)
+    if (joint.ratio == 1) named.emplace(joint.name, q[joint.dof]);
   world.set_dofs(id, q);
   return named;
 }

@@ -161,7 +161,11 @@ TEST_CASE(
   };
   CHECK(holds(numbers(1, 100), {"5", "10", "20", "50", "100"}));
   CHECK(holds(numbers(0.001, 1000), {"0.001", "0.1", "1", "10", "1000"}));
-  CHECK(holds(numbers(1e-30, 1e30), {"1", "1e+10"}));
+  CHECK(holds(numbers(1e-30, 1e30), {"1", "1e10"}));
+  // large and small ones alike
+  CHECK(holds(numbers(1e-4, 1e4), {"1e-4", "1", "1e4"}));
+  // of less than a decade all digits
+  CHECK(holds(numbers(0.2, 0.7), {"0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}));
 }
 
 TEST_CASE("a logarithmic axis refuses what it cannot show") {

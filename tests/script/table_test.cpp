@@ -78,7 +78,8 @@ TEST_CASE("what is wrong is said with subject, expected and got") {
         "hand:autograsp: stop_at_contact: expected true or false, got 1");
   CHECK(f("{norm = 'L3'}") == "hand:autograsp: unknown norm 'L3', expected one of L1, Linf");
   CHECK(f("{point = {1, 2}}") == "hand:autograsp: point: expected 3 numbers, got 2");
-  CHECK(f("{point = {1, 2, {}}}") == "hand:autograsp: point[3]: expected a number, got a table");
+  CHECK(f("{point = {1, 2, {}}}") ==
+        "hand:autograsp: point[3]: expected a number, got an empty table");
   CHECK(f("{point = 'up'}") == "hand:autograsp: point: expected a vec3 or {x, y, z}, got 'up'");
   CHECK(f("{pose = 1}") == "hand:autograsp: pose: expected a pose, got 1");
   CHECK(f("{pose = {xyz = {1}}}") == "hand:autograsp: pose: xyz: expected 3 numbers, got 1");
@@ -88,7 +89,7 @@ TEST_CASE("what is wrong is said with subject, expected and got") {
   CHECK(f("{name = 5}") == "hand:autograsp: name: expected a string, got 5");
   CHECK(f("{name = 'a\\0b'}").find("without zero bytes") != std::string::npos);
   CHECK(f("{hook = 'x'}") == "hand:autograsp: hook: expected a function, got 'x'");
-  CHECK(f("{seed = {}}") == "hand:autograsp: seed: expected an integer, got a table");
+  CHECK(f("{seed = {}}") == "hand:autograsp: seed: expected an integer, got an empty table");
 }
 
 TEST_CASE("options are read raw: a metatable's code does not run") {

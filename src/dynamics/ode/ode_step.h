@@ -8,9 +8,9 @@
 
 namespace clench {
 
-/// Has ODE step the world as it is by h. Joints of one DOF: ODE has no joint for a ratio between
-/// them. The torques that hold it are found by Newton's method around ODE's step, so that the ratio
-/// holds to 1e-9.
+/// Has ODE step the world as it is by h.
+/// Joints of one DOF: ODE has no joint for a ratio between them. The torques that hold it are found
+/// by Newton's method around ODE's step, so that the ratio holds to 1e-9.
 /// throws  Error when ODE refuses a body, or gives what is no number
 OdeSolution step_ode(const World& world, const OdeProblem& problem, double h);
 

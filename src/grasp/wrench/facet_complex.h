@@ -25,8 +25,9 @@ struct BrokenSurface {};
 /// products is some 1e-15, and what is nearer counts as in the plane.
 inline constexpr double seen = 1e-13;
 
-/// A point, with 1 in the place behind its coordinates, or a plane, with minus its offset there:
-/// their product is the point's height above the plane. Zero elsewhere.
+/// A point, with 1 in the place behind its coordinates, or a plane,
+/// with minus its offset there: their product is the point's height above the plane. Zero
+/// elsewhere.
 struct alignas(64) Eight {
   double x[lane_count] = {};
 

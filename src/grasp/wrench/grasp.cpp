@@ -37,6 +37,11 @@ static bool has_moved(const Pose& off) {
   return off.position.norm() > moved || off.angle() > moved;
 }
 
+bool stands_as_grasped(const World& world, const GraspSpec& grasp, Id<Robot> hand,
+                       Id<Body> object) {
+  return grasp.X_OH && !has_moved(grasp.X_OH->inverse() * hand_in_object(world, hand, object));
+}
+
 void check_unmoved(const World& world, const Grasp& grasp) {
   if (!grasp.X_OH) return;
   const bool object =

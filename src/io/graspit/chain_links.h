@@ -12,8 +12,9 @@ struct DenavitHartenberg {
 };
 
 /// Number of joints that the dynamics of the original give a link of a kind: Revolute, Prismatic,
-/// Universal, Ball, Fixed. throws Error "expected Revolute, Prismatic, Universal, Ball or Fixed,
-/// got 'Revolut'; did you mean 'Revolute'?"
+/// Universal, Ball, Fixed.
+/// throws Error "expected Revolute, Prismatic, Universal, Ball or Fixed, got 'Revolut'; did you
+/// mean 'Revolute'?"
 int joints_of_kind(std::string_view word);
 
 /// Joints and links of one chain, as they come.

@@ -10,8 +10,8 @@ namespace clench {
 bool begins_transform(const Line& line);
 
 /// "(w x y z)[x y z]", millimetres; the quaternion is made unit, with a warning when it is not
-/// near; a comment from '#' on is left out. throws Error with the line's place when it is anything
-/// else, or the quaternion is zero
+/// near; a comment from '#' on is left out.
+/// throws Error with the line's place when it is anything else, or the quaternion is zero
 Pose read_full_transform(const Line& line, std::string_view text, const Listeners& listeners = {});
 
 /// One entry of a list: `t x y z` [mm], `r degrees axis`, `rr radians axis`, `T (w x y z)[x y z]`,

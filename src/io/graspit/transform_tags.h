@@ -7,8 +7,8 @@
 namespace clench {
 
 /// What an element <tag>value</tag> of a transform says: translation "x y z" [mm], rotation
-/// "degrees axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]". throws Error at
-/// the line when it is none of these
+/// "degrees axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]".
+/// throws Error at the line when it is none of these
 Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
                             const Listeners& listeners = {});
 

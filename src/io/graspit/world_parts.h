@@ -12,8 +12,8 @@ namespace clench {
 
 /// Values of the robot's DOFs in their order [rad or mm]; after that of a breakaway DOF, for each
 /// of its joints, 0, or 1 and the value of the DOF at which the joint broke away. One value per DOF
-/// and nothing else is read too; DOFs whose values lack start at their defaults. throws Error at
-/// the line's place
+/// and nothing else is read too; DOFs whose values lack start at their defaults.
+/// throws Error at the line's place
 void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners);
 std::string dof_values(const PlacedRobot& placed);
 

@@ -38,6 +38,14 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
                            excerpt(body.node->element.attribute("name").value_or(""))));
     return true;
   });
+  std::vector<std::string> trees;
+  for (const TopBody& body : bodies)
+    if (body.joints > 0) trees.push_back(body.name);
+  if (trees.size() > 1)
+    cache.warn(
+        fmt::format("{}: these bodies are read as one robot: {}; the option 'body' reads "
+                    "one of them, and clench.load a world with all of them",
+                    model.document().file(), name_list(trees)));
   MjcfTreeReader reader(model.document(), model.geoms(), cache, "robot");
   if (bodies.size() == 1 && !bodies.front().own_joints) {
     reader.read_body(bodies.front(), true);

@@ -256,6 +256,7 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
   MjcfRobot made = model_.scene_robot(body, trees_++ == 0);
   PlacedRobot placed;
   placed.X_WB = body.own_joints ? Pose{} : scene.X_WB;
+  placed.floating = body.free;
   RobotSpec& robot = made.robot;
   std::vector<bool> fixed(robot.links.size());
   for (size_t l = 0; l < fixed.size(); ++l)

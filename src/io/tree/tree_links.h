@@ -18,7 +18,9 @@ struct LinkPieces {
 /// Gives each link its shape and looks. Bodies collide with the collision pieces alone; where no
 /// link of the robot has any, all collide with the visual ones. Links without mass in the file
 /// weigh what water of their volume does, frames without geometry and open surfaces a gram. Tells
-/// what it guesses. `pieces`  one per link `friction_known`  does the file say it?
+/// what it guesses.
+/// `pieces`  one per link
+/// `friction_known`  does the file say it?
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const FileCache& cache, bool friction_known = false);
 

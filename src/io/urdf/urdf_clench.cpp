@@ -37,6 +37,7 @@ class ClenchReader {
   RobotSpec& robot_;
   NamedFiles files_;
   std::set<std::string> seen_;
+  std::map<int, std::string> dof_names_;  // those that are not their joint's
 };
 
 /// Nothing else may stand in it.
@@ -103,11 +104,13 @@ int ClenchReader::part(const XmlValues& values, const char* attribute) const {
 }
 
 void ClenchReader::read_dof(const XmlElement& element) {
-  expect_only(element, {"joint", "kind", "velocity", "kp", "kd", "damping_ratio", "breakaway",
-                        "handle", "start", "driven"});
+  expect_only(element, {"joint", "name", "kind", "velocity", "kp", "kd", "damping_ratio",
+                        "breakaway", "handle", "start", "driven"});
   const XmlValues values(element);
-  DofSpec& dof = robot_.dofs[this->dof(values, "joint")];
+  const int number = this->dof(values, "joint");
+  DofSpec& dof = robot_.dofs[number];
   once(element, dof.name);
+  if (values.has("name")) dof_names_[number] = values.text("name");
   const std::string kind = values.word("kind", {"rigid", "breakaway", "compliant"}, "rigid");
   dof.kind = kind == "rigid"       ? DofKind::rigid
              : kind == "breakaway" ? DofKind::breakaway
@@ -258,6 +261,12 @@ NamedFiles ClenchReader::read() {
   robot_.class_name = values.text("class", robot_.class_name);
   robot_.database_name = values.text("database_name", "");
   for (const XmlElement& child : element_.children()) read_child(child);
+  // joints lead DOFs by their own names until all is read
+  for (auto& [number, name] : dof_names_) robot_.dofs[number].name = std::move(name);
+  std::set<std::string> names;
+  for (const DofSpec& dof : robot_.dofs)
+    if (!names.insert(dof.name).second)
+      element_.fail("clench: two DOFs are called {}", in_quotes(dof.name));
   return std::move(files_);
 }
 

@@ -7,8 +7,8 @@
 namespace clench {
 
 /// Gives the robot what the element says: how DOFs close, and what they are made of; materials,
-/// springs, approach, collision rules, actuators; and the files that it names. `robot` is what its
-/// links and joints make of it; `path` is its file
+/// springs, approach, collision rules, actuators; and the files that it names.
+/// `robot` is what its links and joints make of it; `path` is its file
 /// throws  Error "hand.urdf:31: dof: no joint 'thum' that leads a DOF; did you mean 'thumb'?" for
 ///         whatever in it is not understood
 void read_clench_element(const XmlElement& element, RobotSpec& robot,

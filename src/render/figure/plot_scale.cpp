@@ -12,7 +12,7 @@ namespace clench {
 
 static constexpr int max_lines = 8192;  // one a pixel of the largest figure
 
-// 1, 2 and 5 times powers of ten, where at least two of these lie in the range
+// digits times powers of ten that lie in the range
 static std::vector<double> decades(const Range& range, const std::vector<double>& digits) {
   std::vector<double> out;
   const double first = std::floor(range[0]);
@@ -24,8 +24,13 @@ static std::vector<double> decades(const Range& range, const std::vector<double>
     }
   return out;
 }
+
 std::vector<double> PlotScale::lines() const {
   if (logarithmic && step <= 1) {
+    // of less than a decade all digits
+    if (const auto all = decades(range, {1, 2, 3, 4, 5, 6, 7, 8, 9});
+        all.size() >= 4 && all.size() <= 8)
+      return all;
     if (const auto some = decades(range, {1, 2, 5}); some.size() >= 2 && some.size() <= 8)
       return some;
     if (const auto some = decades(range, {1}); some.size() >= 2) return some;
@@ -42,7 +47,14 @@ std::vector<double> PlotScale::lines() const {
 }
 
 std::string PlotScale::text(double value) const {
-  if (logarithmic) return fmt::format("{:.4g}", std::pow(10.0, value));
+  if (logarithmic) {
+    const std::string plain = fmt::format("{:.4g}", std::pow(10.0, value)),
+                      exact = fmt::format("{:.3e}", std::pow(10.0, value));
+    const size_t e = exact.find('e');
+    const int power = std::atoi(exact.c_str() + e + 1);
+    if (std::abs(power) < 4) return plain;
+    return fmt::format("{:.4g}e{}", std::atof(exact.substr(0, e).c_str()), power);
+  }
   const double largest = std::max(std::abs(range[0]), std::abs(range[1]));
   const double digits = std::ceil(std::log10(largest / step)) + 1;
   return fmt::format("{:.{}g}", value, floor_between(digits, 3, 15));

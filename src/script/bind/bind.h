@@ -80,8 +80,9 @@ extern const Library log_library;
 enum class LogLevel { debug, info, warning, error, quiet };
 
 /// Tells the script's log, if its level lets the message through. May be called under the engine's
-/// functions. `about`  what a message of a file's reader tells: of what was "inferred", "ignored",
-/// "repaired" or "suspicious"; null: of nothing such
+/// functions.
+/// `about`  what a message of a file's reader tells: of what was "inferred", "ignored", "repaired"
+///          or "suspicious"; null: of nothing such
 /// throws  Raised when the script's own sink fails
 void log(lua_State* L, LogLevel level, const std::string& message, const char* about = nullptr);
 
@@ -213,10 +214,18 @@ int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result);
 
 extern const Class dofs_class, kinematics_class;
 
+/// The number, from 0, of the DOF of a name.
+/// throws  Error that tells the names
+int dof_named(const std::string& name, const RobotHandle& robot, const What& what);
+/// Names of DOFs in a table by names, sorted; empty: it is a list, or begins as one.
+/// throws  Error for keys that are no names
+std::vector<std::string> read_dof_names(lua_State* L, int i, const What& what);
 /// A number for each DOF: a list of all, or a table by names; none for those that it leaves out.
 std::vector<std::optional<double>> check_some_dofs(lua_State* L, int i, const RobotHandle& robot);
 /// Values of all DOFs: the same, those that are left out as they are.
 Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot);
+/// The same of a value that is no argument.
+Eigen::VectorXd read_dofs(lua_State* L, int i, const What& what, const RobotHandle& robot);
 /// Numbers, from 0, of DOFs in a list of numbers, from 1, and names.
 std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "clench/base/suggest.h"
@@ -6,7 +7,7 @@
 
 namespace clench {
 
-static int dof_named(const std::string& name, const RobotHandle& robot, const What& what) {
+int dof_named(const std::string& name, const RobotHandle& robot, const What& what) {
   std::vector<std::string> names;
   for (int d = 0; d < static_cast<int>(robot->dofs.size()); ++d) {
     names.push_back(dof_name(*robot, d));
@@ -15,42 +16,52 @@ static int dof_named(const std::string& name, const RobotHandle& robot, const Wh
   fail("{}: robot '{}' has no DOF '{}'{}", what.text(), robot->name, name, instead_of(name, names));
 }
 
-static std::vector<std::optional<double>> read_named_dofs(lua_State* L, int i, const What& what,
-                                                          const RobotHandle& robot) {
-  std::vector<std::optional<double>> out(robot->dofs.size());
+std::vector<std::string> read_dof_names(lua_State* L, int i, const What& what) {
+  std::vector<std::string> names;
+  if (!lua_istable(L, i) || lua_rawlen(L, i) > 0) return names;
   for (lua_pushnil(L); lua_next(L, i); lua_pop(L, 1)) {
     if (lua_type(L, -2) != LUA_TSTRING)
       fail("{}: expected names of DOFs, or a list of all values, got a table of both", what.text());
-    const std::string name(string_at(L, -2));
-    out[static_cast<size_t>(dof_named(name, robot, what))] =
-        read_number(L, lua_gettop(L), {L, what.subject, name});
+    names.emplace_back(string_at(L, -2));
   }
-  return out;
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
-std::vector<std::optional<double>> check_some_dofs(lua_State* L, int i, const RobotHandle& robot) {
-  const What what{L, {}, "values"};
-  if (lua_istable(L, i)) {
-    lua_pushnil(L);
-    if (lua_next(L, i)) {
-      const bool named = lua_type(L, -2) == LUA_TSTRING;
-      lua_pop(L, 2);
-      if (named) return read_named_dofs(L, i, what, robot);
+static std::vector<std::optional<double>> read_some_dofs(lua_State* L, int i, const What& what,
+                                                         const RobotHandle& robot) {
+  if (const auto names = read_dof_names(L, i, what); !names.empty()) {
+    std::vector<std::optional<double>> out(robot->dofs.size());
+    for (const std::string& name : names) {
+      lua_getfield(L, i, name.c_str());
+      out[static_cast<size_t>(dof_named(name, robot, what))] =
+          read_number(L, lua_gettop(L), {L, what.subject, name});
+      lua_pop(L, 1);
     }
+    return out;
   }
   const auto values = read_numbers(L, i, what);
   if (values.size() != robot->dofs.size())
-    fail("{}: robot '{}': expected {} DOF values, got {}", subject(L), robot->name,
+    fail("{}: robot '{}': expected {} DOF values, got {}",
+         what.subject.empty() ? subject(L) : std::string(what.subject), robot->name,
          robot->dofs.size(), values.size());
   return {values.begin(), values.end()};
 }
 
-Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot) {
+std::vector<std::optional<double>> check_some_dofs(lua_State* L, int i, const RobotHandle& robot) {
+  return read_some_dofs(L, i, {L, {}, "values"}, robot);
+}
+
+Eigen::VectorXd read_dofs(lua_State* L, int i, const What& what, const RobotHandle& robot) {
   Eigen::VectorXd out = robot.world->dofs(robot.id);
-  const auto some = check_some_dofs(L, i, robot);
+  const auto some = read_some_dofs(L, i, what, robot);
   for (size_t d = 0; d < some.size(); ++d)
     if (some[d]) out[static_cast<int>(d)] = *some[d];
   return out;
+}
+
+Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot) {
+  return read_dofs(L, i, {L, {}, "values"}, robot);
 }
 
 std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot) {

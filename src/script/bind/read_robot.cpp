@@ -88,6 +88,7 @@ static void read_approach(lua_State* L, Table& options, ReadOptions& reading) {
 void read_robot_options(lua_State* L, Table& options, ReadOptions& reading) {
   const std::string folder = options.string("folder", "");
   if (!folder.empty()) reading.folder = check_folder(folder, options.subject() + ": folder");
+  reading.body = options.string("body", "");
   reading.eigengrasps = options.string("eigengrasps", "");
   reading.virtual_contacts = options.string("virtual_contacts", "");
   read_packages(L, options, reading);

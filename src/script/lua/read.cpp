@@ -55,7 +55,11 @@ std::string described(lua_State* L, int index) {
       if (name == "clench" || name.starts_with("clench."))
         return name + ", whose functions are called with '.' and not ':'";
       const auto size = lua_rawlen(L, index);
-      return size ? fmt::format("a table of {}", size) : "a table";
+      if (size) return fmt::format("a table of {}", size);
+      lua_pushnil(L);
+      if (!lua_next(L, lua_absindex(L, index < 0 ? index - 1 : index))) return "an empty table";
+      lua_pop(L, 2);
+      return "a table with names";
     }
     case LUA_TUSERDATA:
       return with_article(class_name(L, index));

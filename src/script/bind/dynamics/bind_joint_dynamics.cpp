@@ -42,29 +42,42 @@ static int get_gains(lua_State* L) {
   });
 }
 
+// of the value on top of the stack; false: those of the file
+static std::optional<Gains> read_gain(lua_State* L, const std::string& what) {
+  if (!lua_toboolean(L, -1)) return {};
+  Table table(L, lua_gettop(L), what);
+  const Gains gain{.kp = table.number("kp"), .kd = table.number("kd")};
+  table.done();
+  for (const double x : {gain.kp, gain.kd})
+    check(Quantity{"gain", "N m/rad, N m s/rad, N/m or N s/m", 0, 1e12}, x, what);
+  return gain;
+}
+
 static int set_gains(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  std::vector<std::optional<Gains>> gains;
-  if (given(L, 2)) {
-    const int count = static_cast<int>(robot->dofs.size());
-    if (!lua_istable(L, 2)) fail_expected({L, {}, ""}, "a list of gains", 2);
-    if (lua_rawlen(L, 2) != static_cast<size_t>(count))
-      fail("{}: expected {}, one per DOF, got {}", subject(L), count, lua_rawlen(L, 2));
-    for (int i = 1; i <= count; ++i) {
+  DynamicSettings settings = robot.world->dynamic_settings();
+  auto& gains = settings.robots[robot.id].gains;
+  const What what{L, {}, ""};
+  const auto names = read_dof_names(L, 2, what);
+  if (names.empty()) gains.clear();
+  const size_t count = robot->dofs.size();
+  if (given(L, 2) && names.empty()) {
+    const int listed = read_list_size(L, 2, what, "a list of gains");
+    if (listed != static_cast<int>(count))
+      fail("{}: expected {}, one per DOF, got {}", subject(L), count, listed);
+    for (int i = 1; i <= listed; ++i) {
       lua_rawgeti(L, 2, i);
-      auto& gain = gains.emplace_back();
-      if (lua_toboolean(L, -1)) {
-        Table table(L, lua_gettop(L), fmt::format("{}[{}]", subject(L), i));
-        gain = Gains{.kp = table.number("kp"), .kd = table.number("kd")};
-        table.done();
-        for (const double x : {gain->kp, gain->kd})
-          check(Quantity{"gain", "N m/rad, N m s/rad, N/m or N s/m", 0, 1e12}, x, table.subject());
-      }
+      gains.push_back(read_gain(L, fmt::format("{}[{}]", subject(L), i)));
       lua_pop(L, 1);
     }
   }
-  DynamicSettings settings = robot.world->dynamic_settings();
-  settings.robots[robot.id].gains = std::move(gains);
+  for (const std::string& name : names) {
+    const auto dof = static_cast<size_t>(dof_named(name, robot, what));
+    gains.resize(count);
+    lua_getfield(L, 2, name.c_str());
+    gains[dof] = read_gain(L, fmt::format("{}.{}", subject(L), name));
+    lua_pop(L, 1);
+  }
   robot.world->set_dynamic_settings(std::move(settings));
   return 0;
 }
@@ -72,16 +85,20 @@ static int set_gains(lua_State* L) {
 static const Entry fields[] = {
     {"gains", guarded<get_gains>, R"(
 How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60
-rad/s with critical damping, as it stands. Set a list of them, with false for those of the file; nil: all of the file.
+rad/s with critical damping, as it stands. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
 @type {kp: number, kd: number}[]  [N m/rad or N/m], [N m s/rad or N s/m]
 > hand.gains[1].kp  --> 1.0
 > gains = hand.gains
 > gains[1] = {kp = 20, kd = 0.5}
 > hand.gains = gains
 > hand.gains[1].kp  --> 20.0
+> hand.gains = {dof2 = {kp = 30, kd = 1}, dof1 = false}
+> hand.gains[2].kp, hand.gains[1].kp  --> 30.0, 1.0
+> hand.gains = {dof44 = {kp = 30, kd = 1}}  --> error: has no DOF 'dof44'; did you mean 'dof4'?
 > hand.gains = nil
 > hand.gains[1].kp  --> 1.0
-> hand.gains = {{kp = 1}}  --> error: expected 12, one per DOF, got 1)",
+> hand.gains = {{kp = 1}}  --> error: expected 12, one per DOF, got 1
+> hand.gains = {false, dof2 = false}  --> error: expected a list of gains, got a table with the key 'dof2')",
      guarded<set_gains>},
 };
 

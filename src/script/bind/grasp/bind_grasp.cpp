@@ -178,7 +178,8 @@ static int as_json(lua_State* L) {
 // An arm that carries the hand brings it to where the grasp has it.
 static void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object) {
   const Robot& robot = world.robot(hand);
-  if (!grasp.X_OH || !robot.mounting || world.robot(robot.mounting->parent).dofs.empty())
+  if (!grasp.X_OH || !robot.mounting || world.robot(robot.mounting->parent).dofs.empty() ||
+      stands_as_grasped(world, grasp, hand, object))
     return apply_grasp(world, grasp, hand, object);
   constexpr double exact = 1e-9;  // [m], [rad]
   const auto arm = robot.mounting->parent;
@@ -424,7 +425,7 @@ static const Entry grasp_methods[] = {
     {"apply", guarded<apply>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
 there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
-does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is. Nothing else moves, and collisions are not checked: see `world:collides`.
+does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
 @param world? world  default: its own
 @param options? {hand?: robot, object?: body}
 @return grasp

@@ -16,8 +16,8 @@ namespace clench {
 
 static const char* const level_names[] = {"debug", "info", "warning", "error", "quiet"};
 
-// addresses name the places of the state's level and sink
-static const char level_key = 0, sink_key = 0;
+// addresses name the places of the state's level and sink, and of what was told
+static const char level_key = 0, sink_key = 0, inferred_key = 0;
 
 LogLevel log_level(lua_State* L) {
   const bool set = lua_rawgetp(L, LUA_REGISTRYINDEX, &level_key) == LUA_TNUMBER;
@@ -42,6 +42,9 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
     return;
   }
   lua_pop(L, 1);
+  // what is inferred of a file, once, however often it is read
+  if (about && about == std::string_view("inferred") && !first_time(L, &inferred_key, message))
+    return;
   const std::string line = fmt::format("clench: {}: {}\n", name, message);
   std::fwrite(line.data(), 1, line.size(), stderr);
 }

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "clench/base/convert.h"
 #include "clench/dynamics/control/closing.h"
 #include "clench/model/dof.h"
@@ -62,8 +64,23 @@ static int set_dofs(lua_State* L) {
 
 static int set_posture(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  robot.world->set_posture(robot.id, check_pose(L, 2, "pose"), check_dofs(L, 3, robot));
-  return 0;
+  const Eigen::VectorXd asked = check_dofs(L, 3, robot);
+  robot.world->set_posture(robot.id, check_pose(L, 2, "pose"), asked);
+  const auto reached = robot.world->dofs(robot.id);
+  std::vector<int> stopped;
+  for (int d = 0; d < asked.size(); ++d)
+    if (reached[d] != asked[d]) stopped.push_back(d + 1);
+  if (stopped.empty()) return lua_pushnil(L), 1;
+  static const char told = 0;
+  for (const int d : stopped)
+    if (!dof_slides(*robot, d - 1) &&
+        std::abs(asked[d - 1] - reached[d - 1]) > 2 * std::numbers::pi)
+      warn_once(L, &told,
+                fmt::format("{}: DOF {} stops at {:.4g} rad, {:.4g} were asked for; degrees? "
+                            "clench.rad({:.4g}) is {:.4g}",
+                            subject(L), d, reached[d - 1], asked[d - 1], asked[d - 1],
+                            asked[d - 1] * std::numbers::pi / 180));
+  return push_list_of(L, stopped, [&](int d) { push(L, d); });
 }
 
 static int get_dof_limits(lua_State* L) {
@@ -228,7 +245,8 @@ Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs
 their DOFs.
 @param pose pose
 @param values number[]|table<string, number>  one per DOF, or some by name [rad or m]
-> hand:set_posture(hand.pose, hand.dofs)
+@return integer[]?  DOFs that stopped at a limit; nil: none
+> hand:set_posture(hand.pose, hand.dofs)  --> nil
 > hand:set_posture(hand.pose, {1})  --> error: expected 12 DOF values, got 1)"},
     {"move_dofs", guarded<move_dofs>, R"(
 Drives all DOFs in proportion towards values, until contact stops them.

@@ -70,7 +70,6 @@ static int add_robot(lua_State* L) {
   Table options(L, 3);
   ReadOptions reading = read_options(L, options);
   read_robot_options(L, options, reading);
-  reading.body = options.string("body", "");
   const Pose pose = options.pose("pose", Pose{});
   const std::string name = options.string("name", "");
   options.done();

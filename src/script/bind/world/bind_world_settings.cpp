@@ -50,7 +50,11 @@ static void tell_near_material(lua_State* L, const std::string& name) {
 }
 
 static int set_friction(lua_State* L) {
-  const std::string a = check_string(L, 2, "material"), b = check_string(L, 3, "material");
+  const std::string a = check_string(L, 2, "material");
+  if (lua_type(L, 3) == LUA_TNUMBER && !given(L, 4))
+    fail("{}: expected a pair of materials and their friction, got one material, {}", subject(L),
+         in_quotes(a));
+  const std::string b = check_string(L, 3, "material");
   if (lua_type(L, 4) == LUA_TNUMBER) {
     const double mu = check_number(L, 4, "friction");
     for (const std::string& name : {a, b}) tell_near_material(L, name);
@@ -136,7 +140,11 @@ static void read_state(lua_State* L, int i, const WorldPtr& world, Keyframe& int
   if (of_robot) {
     std::optional<Pose> X_WB;
     if (values.has("pose")) X_WB = values.pose("pose", Pose{});
-    into.robots.push_back({robot_id, X_WB, values.numbers("dofs")});
+    if (values.push("dofs") == LUA_TNIL) fail("{}: dofs: expected their values, got none", what);
+    const Eigen::VectorXd q =
+        read_dofs(L, lua_gettop(L), values.what("dofs"), RobotHandle{world, robot_id});
+    lua_pop(L, 1);
+    into.robots.push_back({robot_id, X_WB, {q.begin(), q.end()}});
   } else {
     into.bodies.push_back({body_id, values.pose("pose", Pose{})});
   }
@@ -154,6 +162,10 @@ static int add_keyframe(lua_State* L) {
     fail("{}: expected a list of states, got {}", subject(L), described(L, 3));
   Keyframe keyframe{name, {}, {}};
   const int count = static_cast<int>(lua_rawlen(L, 3));
+  lua_pushnil(L);
+  if (count == 0 && lua_next(L, 3))
+    fail("{}: expected a list of states, as in {{{{robot = hand, dofs = hand.dofs}}}}, got {}",
+         subject(L), described(L, 3));
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, 3, i);
     read_state(L, i, world, keyframe);
@@ -213,7 +225,8 @@ Sets the Coulomb coefficients of a pair of materials; new names become materials
 @param friction number|{static: number, kinetic?: number, restitution?: number}  a number is both coefficients; kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 > world:set_friction("cork", "wood", {static = 0.7})
 > world:set_friction("cork", "cork", 0.6)
-> world:friction("wood", "cork")  --> 0.7, 0.6)"},
+> world:friction("wood", "cork")  --> 0.7, 0.6
+> world:set_friction("wood", 0.5)  --> error: expected a pair of materials)"},
     {"friction", guarded<friction>, R"(
 The coefficients of a pair of materials.
 @param a string
@@ -225,13 +238,15 @@ The coefficients of a pair of materials.
     {"add_keyframe", guarded<add_keyframe>, R"(
 Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
 @param name string
-@param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[]}; what is not listed stays where it is
+@param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 > world:add_keyframe "closed"
 > world:add_keyframe("away", {{body = flask, pose = {xyz = {9, 0, 0}}}})
 > world.keyframes[2]  --> away
+> world:add_keyframe("bent", {{robot = hand, dofs = {dof2 = 0.1}}})
 > world:add_keyframe("away", {{robot = hand, dofs = {1}}})  --> error: expected 12 DOF values, got 1
 > world:add_keyframe("away", {{body = 1}})  --> error: state 1: expected body = a body or robot = a robot, got 1
-> world:add_keyframe("away", {1})  --> error: state 1: expected a table, got 1)"},
+> world:add_keyframe("away", {1})  --> error: state 1: expected a table, got 1
+> world:add_keyframe("away", {robot = hand, dofs = hand.dofs})  --> error: expected a list of states)"},
     {"set_keyframe", guarded<set_keyframe>, R"(
 Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a
 robot that is carried stays on its carrier.

@@ -168,13 +168,17 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
                                  "does not hold is not told",
                                  file, saving.confine.generic_string()));
   };
-  DynamicSettings plain;
-  plain.step = world.dynamic_settings().step;
-  if (world.dynamic_settings() != plain)
-    log_warning(L, fmt::format("{}: settings of dynamics beside the time step are not saved: "
-                               "engine, friction cone, gains, "
-                               "floating bases, breakaway, gravity compensation, belts, welds",
-                               subject(L)));
+  DynamicSettings kept;
+  kept.step = world.dynamic_settings().step;
+  const bool script = is_script(path);
+  for (const auto id : world.robots())
+    if (script && world.dynamic_settings().robot(id).floating) kept.robots[id].floating = true;
+  if (world.dynamic_settings() != kept)
+    log_warning(L, fmt::format("{}: settings of dynamics beside the time step{} are not saved: "
+                               "engine, friction cone, gains, {}breakaway, gravity compensation, "
+                               "belts, welds",
+                               subject(L), script ? " and floating bases" : "",
+                               script ? "" : "floating bases, "));
   if (world.time() > 0)
     log_warning(
         L,
