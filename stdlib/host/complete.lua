@@ -46,8 +46,8 @@ end
 -- visits a class's fields and methods, its parents' too
 local function each_member(class, visit)
   while class do
-    for _, field in ipairs(class.fields) do visit(field.name, true) end
-    for _, method in ipairs(class.methods) do visit(method.name, false) end
+    for _, field in ipairs(class.fields) do visit(field.name, true, field) end
+    for _, method in ipairs(class.methods) do visit(method.name, false, method) end
     class = class.parent and described().classes[class.parent]
   end
 end
@@ -147,10 +147,32 @@ local function call_before(text, brackets)
   if path then return match(path, "^(.-)[.:]?([%w_]+)$") end
 end
 
+-- what a field may be set to, as in "mug.material = ": the words of its type, and materials of its world
+local function add_values_of(text, add)
+  local base, name = match(text, "([%a_][%w_%.%[%]]*)%.([%a_][%w_]*)%s*=%s*$")
+  local owner = base and resolve(base)
+  if owner == nil then return false end
+  if name == "material" then
+    local world = get(owner, "world")
+    for _, material in ipairs(world and get(world, "materials") or {}) do add(material) end
+    return true
+  end
+  local found = false
+  each_member(described().classes[name_of(owner)], function(field, is_field, entry)
+    if not is_field or field ~= name then return end
+    for word in gmatch(doc.parse(entry.doc).type.type, '"([^"]*)"') do
+      add(word)
+      found = true
+    end
+  end)
+  return found
+end
+
 local lists = {body = "bodies", robot = "robots", link = "links"} -- what a name is looked up in, by method
 
 -- names that a string may become; a string that is no such name is a file's, told by a first character of its own
 local function string_words(text, from, brackets, add)
+  if add_values_of(sub(text, 1, from - 1), add) then return true end
   local base, name = call_before(sub(text, 1, from - 1), brackets)
   if name == "quality" then
     for _, measure in ipairs(measures()) do add(measure.name) end

@@ -48,6 +48,10 @@ test("in strings names of measures, of what is in a world, and files; in braces 
   t.equal({words 'grasp:quality "epsilon_f'}, {"epsilon_f", {"epsilon_force", n = 2}})
   t.equal({words "world:robot('"}, {"", {"dlr", n = 2}})
   t.ok(has(select(2, words 'hand:link "dlr_chain0'), "dlr_chain0_link2"))
+  t.equal({words 'hand.base.material = "woo'}, {"woo", {"wood", n = 2}})
+  world:add_keyframe "closed"
+  t.equal({words 'world:set_keyframe "clo'}, {"clo", {"closed", n = 2}})
+  t.equal({words 'hand.controller = "vel'}, {"vel", {"velocity", n = 2}})
   t.equal({words 'clench.load("worlds/d'}, {"\1worlds/d", {n = 1}})
   t.equal({words 'world:body("\\"'}, {'\\"', {n = 1}})
   t.equal({words "hand:autograsp {sp"}, {"sp", {"speed", n = 2}})

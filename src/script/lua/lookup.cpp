@@ -14,7 +14,8 @@ namespace clench {
 static int no_such_setter(lua_State* L) {
   const std::string name = lua_tostring(L, lua_upvalueindex(owner));
   if (lua_type(L, 2) != LUA_TSTRING)
-    fail("{}: expected a name of a field to set, got a {}", name, luaL_typename(L, 2));
+    fail("{}: expected a name of a field to set, got a {}; its items are only read", name,
+         luaL_typename(L, 2));
   const std::string key(string_at(L, 2));
   const auto known = string_keys(L, in_methods);  // here: the getters
   for (const auto& getter : known)

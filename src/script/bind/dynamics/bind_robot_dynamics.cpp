@@ -179,7 +179,7 @@ What its motors do: "position", they hold it at its targets by the gains of its 
 that are asked for; "effort", they give the forces that set_forces says, and nothing else, as DOFs that no actuator of a MuJoCo
 file drives do at first ("none" is another word for it); "mixed": not all the same. `set_targets`, `set_target_velocities` and
 `autograsp {dynamic = true}` switch the DOFs that they move.
-@type string
+@type "position"|"velocity"|"effort"|"none"|"mixed"
 > hand.controller  --> position
 > hand.controller = "none"
 > hand.controller = "pid"  --> error: "none")",
