@@ -82,8 +82,9 @@ class Mover::Carriers {
   bool jumped(Id<Body> id) const;
   Id<Body> whole(Id<Body> id) const;
   Eigen::Vector3d velocity(Id<Body> id, const Eigen::Vector3d& p_W, bool before) const;
-  const Press* least_slip(const Part& part, const std::vector<Part>& waiting, bool before,
-                          double& slip) const;
+  // the press at which they slip along each other the least, and by how much; null: none
+  const Press* min_slip(const Part& part, const std::vector<Part>& waiting, bool before,
+                        double& slip) const;
 
   const World& world_;
   const System& system_;
@@ -132,9 +133,9 @@ Eigen::Vector3d Mover::Carriers::velocity(Id<Body> id, const Eigen::Vector3d& p_
   return twist.linear + twist.angular.cross(p_W - world_.pose(id) * world_.body(id).com);
 }
 
-const Mover::Carriers::Press* Mover::Carriers::least_slip(const Part& part,
-                                                          const std::vector<Part>& waiting,
-                                                          bool before, double& least) const {
+const Mover::Carriers::Press* Mover::Carriers::min_slip(const Part& part,
+                                                        const std::vector<Part>& waiting,
+                                                        bool before, double& smallest) const {
   const auto waits = [&](Id<Body> id) {
     return std::ranges::any_of(waiting, [&](const Part& other) { return other.body == id; });
   };
@@ -144,9 +145,9 @@ const Mover::Carriers::Press* Mover::Carriers::least_slip(const Part& part,
     if (waits(press.a == part.body ? press.b : press.a)) continue;
     const double slip =
         (velocity(press.a, press.p_W, before) - velocity(press.b, press.p_W, before)).norm();
-    if (!best || slip < least - same_slip ||
-        (slip <= least + same_slip && press.force > best->force))
-      best = &press, least = slip;
+    if (!best || slip < smallest - same_slip ||
+        (slip <= smallest + same_slip && press.force > best->force))
+      best = &press, smallest = slip;
   }
   return best;
 }
@@ -155,7 +156,7 @@ bool Mover::Carriers::find(Part& part, const std::vector<Part>& waiting) {
   // before the jump both had the velocities that were solved for
   const bool before = jumps_ && !changed(part.body);
   double slip = 0;
-  const Press* const press = least_slip(part, waiting, before, slip);
+  const Press* const press = min_slip(part, waiting, before, slip);
   if (!press) return false;
   const Id<Body> to = press->a == part.body ? press->b : press->a;
   const bool comes =

@@ -31,7 +31,7 @@ local function standing(grasps, world)
   for i, grasp in ipairs(listed(grasps)) do
     local place = ("study.compare: grasps[%d]"):format(i)
     if described(grasp) ~= "a grasp" then fail("grasps[%d]: expected a grasp, got %s", i, described(grasp)) end
-    if world then grasp = on_behalf_of(place, grasp.apply, grasp, world:clone()) end
+    if world and not put_back.stands(grasp) then grasp = on_behalf_of(place, grasp.apply, grasp, world:clone()) end
     put_back.check_stands(place, grasp)
     list[i] = grasp
   end

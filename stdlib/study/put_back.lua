@@ -3,10 +3,13 @@ local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local put_back = {}
 
+--- Does a grasp stand in a world? Those of planners and files do not.
+function put_back.stands(grasp) return (pcall(function() return grasp.hand end)) end
+
 --- Refuses a grasp that stands in no world.
 ---@param subject string  "study.compare: grasps[1]"
 function put_back.check_stands(subject, grasp)
-  if pcall(function() return grasp.hand end) then return end
+  if put_back.stands(grasp) then return end
   raise(subject .. ": the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does")
 end
 

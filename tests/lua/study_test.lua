@@ -286,3 +286,17 @@ test("the best grasp is that of the least effort, and what holds nothing is draw
   t.fails(function() clench.study.compare {grasp, nil, grasp} end, "study.compare: grasps: expected a list without holes or names")
   t.fails(function() clench.study.compare({grasp}, {labels = "a"}) end, "study.compare: labels must be a list of strings, got 'a'")
 end)
+
+test("of grasps that are compared only those that stand in no world are applied", function(t)
+  local grasp = closed_on_flask()
+  local list = clench.grasps()
+  list:add(grasp)
+  local path = os.tmpname() .. ".jsonl"
+  list:save(path)
+  local read = clench.grasps(path)
+  os.remove(path)
+  t.equal(clench.study.compare({grasp}, {world = clench.world()}).values.epsilon[1], grasp:quality "epsilon")
+  t.close(clench.study.compare(read, {world = grasp.hand.world}).values.epsilon[1], grasp:quality "epsilon", 1e-9)
+  t.fails(function() clench.study.compare(read) end, "study.compare: grasps[1]: the grasp stands in no world")
+  t.fails(function() clench.study.compare({grasp, nil, grasp}, {world = grasp.hand.world}) end, "a list without holes or names")
+end)

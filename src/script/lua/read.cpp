@@ -56,8 +56,9 @@ std::string described(lua_State* L, int index) {
         return name + ", whose functions are called with '.' and not ':'";
       const auto size = lua_rawlen(L, index);
       if (size) return fmt::format("a table of {}", size);
+      index = lua_absindex(L, index);
       lua_pushnil(L);
-      if (!lua_next(L, lua_absindex(L, index < 0 ? index - 1 : index))) return "an empty table";
+      if (!lua_next(L, index)) return "an empty table";
       lua_pop(L, 2);
       return "a table with names";
     }

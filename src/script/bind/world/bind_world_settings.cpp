@@ -162,10 +162,12 @@ static int add_keyframe(lua_State* L) {
     fail("{}: expected a list of states, got {}", subject(L), described(L, 3));
   Keyframe keyframe{name, {}, {}};
   const int count = static_cast<int>(lua_rawlen(L, 3));
-  lua_pushnil(L);
-  if (count == 0 && lua_next(L, 3))
-    fail("{}: expected a list of states, as in {{{{robot = hand, dofs = hand.dofs}}}}, got {}",
-         subject(L), described(L, 3));
+  if (count == 0) {
+    lua_pushnil(L);
+    if (lua_next(L, 3))
+      fail("{}: expected a list of states, as in {{{{robot = hand, dofs = hand.dofs}}}}, got {}",
+           subject(L), described(L, 3));
+  }
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, 3, i);
     read_state(L, i, world, keyframe);
