@@ -31,6 +31,7 @@
 #include "clench/motion/drive.h"
 #include "clench/motion/eigengrasps.h"
 #include "clench/motion/move.h"
+#include "clench/planning/apply_by_arm.h"
 #include "clench/render/figure/picture.h"
 #include "clench/render/render.h"
 #include "clench/scene/scene.h"

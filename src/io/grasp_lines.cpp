@@ -76,14 +76,14 @@ static Json json_of(const GraspSpec& g) {
 }
 
 // text that is no UTF-8 is no reason to lose the rest
-static std::string text_of(const Json& value) {
+static std::string line_of(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string grasp_line(const GraspSpec& grasp) { return text_of(json_of(grasp)); }
+std::string grasp_line(const GraspSpec& grasp) { return line_of(json_of(grasp)); }
 
 std::string grasps_head() {
-  return text_of({{"format", format_name},
+  return line_of({{"format", format_name},
                   {"version", version},
                   {"units", unit_names},
                   {"pose", "of the hand's base in the object's frame; quat is w x y z"}});

@@ -22,17 +22,4 @@ double Trajectory::velocity(double time) const {
   return quintic(*this, (time - begin) / duration, true) / duration;
 }
 
-template <class T>
-static size_t bytes_of(const std::vector<T>& items) {
-  return items.capacity() * sizeof(T);
-}
-
-size_t DynamicState::bytes() const {
-  size_t sum = sizeof *this + bytes_of(twists) + bytes_of(solved) + bytes_of(dof_velocities) +
-               bytes_of(joint_velocities) + bytes_of(controls) + bytes_of(dof_efforts) +
-               bytes_of(loads) + bytes_of(manifolds) + bytes_of(sweep_poses) + bytes_of(row_forces);
-  for (const Manifold& m : manifolds) sum += bytes_of(m.points);
-  return sum;
-}
-
 }  // namespace clench

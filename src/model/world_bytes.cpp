@@ -51,4 +51,12 @@ size_t World::bytes() const {
          scratch_.context.bytes();
 }
 
+size_t DynamicState::bytes() const {
+  size_t sum = sizeof *this + bytes_of(twists) + bytes_of(solved) + bytes_of(dof_velocities) +
+               bytes_of(joint_velocities) + bytes_of(controls) + bytes_of(dof_efforts) +
+               bytes_of(loads) + bytes_of(manifolds) + bytes_of(sweep_poses) + bytes_of(row_forces);
+  for (const Manifold& m : manifolds) sum += bytes_of(m.points);
+  return sum;
+}
+
 }  // namespace clench

@@ -6,7 +6,7 @@
 namespace clench {
 
 // a joint may turn this far and more without end [rad]
-static constexpr double endless = 1.5 * 2 * std::numbers::pi;
+static constexpr double endless_range = 1.5 * 2 * std::numbers::pi;
 
 static int root_distance(const RobotSpec& robot, int link) {
   int n = 0;
@@ -65,7 +65,7 @@ static std::vector<int> ends(const RobotSpec& robot) {
 }
 
 bool HandTree::turns_without_end(int dof) const {
-  return !(ranges[dof][1] - ranges[dof][0] < endless);
+  return !(ranges[dof][1] - ranges[dof][0] < endless_range);
 }
 
 static void find_fingers(HandTree& hand) {

@@ -10,7 +10,7 @@
 namespace clench {
 
 static constexpr double min_size = 1e-3, max_size = 3;        // [m]
-static constexpr double rounding = 1e-6;                      // of limits [rad or m]
+static constexpr double limit_rounding = 1e-6;                // of limits [rad or m]
 static constexpr double max_mass = 1000;                      // [kg]
 static constexpr double max_turn = 4 * 2 * std::numbers::pi;  // [rad]
 
@@ -132,7 +132,7 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
     const DofSpec& dof = robot.dofs[d];
     const auto [low, high] = dof_range(robot, static_cast<int>(d));
     if (dof.default_value != 0 && !dof_is_endless(robot, static_cast<int>(d)) &&
-        (dof.default_value < low - rounding || dof.default_value > high + rounding))
+        (dof.default_value < low - limit_rounding || dof.default_value > high + limit_rounding))
       outside.push_back(dof.name.empty() ? fmt::format("{}", d) : dof.name);
   }
   const auto tell_of = [&](const std::vector<std::string>& names, const char* what,

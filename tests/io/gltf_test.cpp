@@ -15,12 +15,12 @@ static Geometry read_gltf(const std::string& content, const ReadOptions& options
   return read_mesh_file(folder.write(name, content), options);
 }
 
-static std::string whole(const Mesh& mesh, const std::string& node = "") {
+static std::string whole_gltf(const Mesh& mesh, const std::string& node = "") {
   return gltf_text(mesh, "data:application/octet-stream;base64," + base64(gltf_buffer(mesh)), node);
 }
 
 TEST_CASE("a glTF file is in metres with y up, and has the colours of its materials") {
-  const Geometry geometry = read_gltf(whole(box(1, 2, 4)));
+  const Geometry geometry = read_gltf(whole_gltf(box(1, 2, 4)));
   CHECK(geometry.mesh.bounds().size() == Eigen::Vector3d(1, 2, 4));
   CHECK(geometry.report.format == "glTF");
   CHECK(geometry.report.unit_source == UnitSource::format);
@@ -40,28 +40,28 @@ TEST_CASE("the buffer of a glTF file may be a file of its own, its name written 
 TEST_CASE("nodes of a glTF file move, turn and scale their meshes") {
   const Mesh mesh = box(1, 1, 1);
   // by 3 along the file's y, which is z
-  CHECK(read_gltf(whole(mesh, R"(, "translation": [0, 3, 0])")).mesh.bounds().centre() ==
+  CHECK(read_gltf(whole_gltf(mesh, R"(, "translation": [0, 3, 0])")).mesh.bounds().centre() ==
         Eigen::Vector3d(0, 0, 3));
-  CHECK(read_gltf(whole(mesh, R"(, "scale": [1, 2, 3])")).mesh.bounds().size() ==
+  CHECK(read_gltf(whole_gltf(mesh, R"(, "scale": [1, 2, 3])")).mesh.bounds().size() ==
         Eigen::Vector3d(1, 3, 2));
-  CHECK(read_gltf(whole(mesh, R"(, "matrix": [1,0,0,0, 0,2,0,0, 0,0,1,0, 5,0,0,1])"))
+  CHECK(read_gltf(whole_gltf(mesh, R"(, "matrix": [1,0,0,0, 0,2,0,0, 0,0,1,0, 5,0,0,1])"))
             .mesh.bounds()
             .high == Eigen::Vector3d(5.5, 0.5, 1));
   // a quarter turn about y exchanges x and z of the file
   const Mesh turned =
-      read_gltf(
-          whole(box(1, 2, 4), R"(, "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476])"))
+      read_gltf(whole_gltf(box(1, 2, 4),
+                           R"(, "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476])"))
           .mesh;
   CHECK((turned.bounds().size() - Eigen::Vector3d(2, 1, 4)).norm() < 1e-12);  // rounding of 1
   // a mirrored mesh still faces outward
   Warnings warnings;
   CHECK_FALSE(
-      read_gltf(whole(mesh, R"(, "scale": [-1, 1, 1])"), warnings.options()).report.flipped);
+      read_gltf(whole_gltf(mesh, R"(, "scale": [-1, 1, 1])"), warnings.options()).report.flipped);
   CHECK(warnings.list.empty());
 }
 
 TEST_CASE("what is wrong in a glTF file is told by the name of its value") {
-  const std::string good = whole(box(1, 1, 1));
+  const std::string good = whole_gltf(box(1, 1, 1));
   const auto refused = [&](const std::string& what, const std::string& by,
                            const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_gltf(replaced(good, what, by)), ("q.gltf" + sentence).c_str(), Error);
@@ -130,7 +130,7 @@ TEST_CASE("what is wrong in the chunks of a GLB file is told in bytes") {
 
 TEST_CASE("what a glTF file holds and is not used is told") {
   Warnings warnings;
-  std::string text = whole(box(1, 1, 1), R"(, "skin": 0)");
+  std::string text = whole_gltf(box(1, 1, 1), R"(, "skin": 0)");
   text = replaced(text, "\"scene\": 0", "\"scene\": 0, \"animations\": [{}]");
   text =
       replaced(text, "\"primitives\": [", "\"weights\": [1], \"primitives\": [{\"mode\": 1}, {}, ");

@@ -75,7 +75,7 @@ void check_equal(const GraspSpec& a, const GraspSpec& b) {
   CHECK(a.info == b.info);
 }
 
-const std::string head = R"({"format":"clench grasps","version":1})";
+const std::string list_head = R"({"format":"clench grasps","version":1})";
 // without its brackets, so that a test can change it
 const std::string whole =
     R"("hand":"h","object":"o","pose":{"xyz":[0,0,0],"quat":[1,0,0,0]},"dofs":[],"joints":[],)"
@@ -128,42 +128,44 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
       {"[1]", "g.jsonl:1: expected a list of grasps"},
       {R"({"format":"clench grasps","version":2})", "g.jsonl:1: expected version 1, got 2"},
       {R"({"format":"clench grasps"})", "g.jsonl:1: expected version 1, got none"},
-      {head + "\nx", "g.jsonl:2: expected a line of JSON, got 'x'"},
-      {head + "\n{\"hand\":\"h", "g.jsonl:2: expected a line of JSON, got '{\"hand\":\"h'"},
-      {head + "\n[]", "g.jsonl:2: expected an object, got []"},
-      {head + "\n{}", "g.jsonl:2: expected a key 'hand', got none"},
-      {head + "\n\n" + with(R"("h")", "3"), "g.jsonl:3: hand: expected a string, got 3"},
-      {head + "\n" + with("[1,0,0,0]", "[1,0,0]"), "pose: quat: expected 4 numbers, got [1,0,0]"},
-      {head + "\n" + with("[1,0,0,0]", "[2,0,0,0]"),
+      {list_head + "\nx", "g.jsonl:2: expected a line of JSON, got 'x'"},
+      {list_head + "\n{\"hand\":\"h", "g.jsonl:2: expected a line of JSON, got '{\"hand\":\"h'"},
+      {list_head + "\n[]", "g.jsonl:2: expected an object, got []"},
+      {list_head + "\n{}", "g.jsonl:2: expected a key 'hand', got none"},
+      {list_head + "\n\n" + with(R"("h")", "3"), "g.jsonl:3: hand: expected a string, got 3"},
+      {list_head + "\n" + with("[1,0,0,0]", "[1,0,0]"),
+       "pose: quat: expected 4 numbers, got [1,0,0]"},
+      {list_head + "\n" + with("[1,0,0,0]", "[2,0,0,0]"),
        "pose: quat: expected a quaternion of length 1, got [2,0,0,0]"},
-      {head + "\n" + with("[0,0,-1]", "[0,0,-2]"),
+      {list_head + "\n" + with("[0,0,-1]", "[0,0,-2]"),
        "points[1]: normal: expected a vector of length 1, got [0,0,-2]"},
-      {head + "\n" + with("0.5", "-1"), "points[1]: mu: expected a number >= 0, got -1"},
-      {head + "\n" + with("0.5", "null"), "points[1]: mu: expected a number >= 0, got null"},
-      {head + "\n" + with("0.5", "1e999"), "g.jsonl:2: expected a line of JSON"},
-      {head + "\n" + with("\"rho\":1", "\"rho\":0"), "rho: expected a number > 0, got 0"},
-      {head + "\n" + with("\"edges\":8", "\"edges\":2"),
+      {list_head + "\n" + with("0.5", "-1"), "points[1]: mu: expected a number >= 0, got -1"},
+      {list_head + "\n" + with("0.5", "null"), "points[1]: mu: expected a number >= 0, got null"},
+      {list_head + "\n" + with("0.5", "1e999"), "g.jsonl:2: expected a line of JSON"},
+      {list_head + "\n" + with("\"rho\":1", "\"rho\":0"), "rho: expected a number > 0, got 0"},
+      {list_head + "\n" + with("\"edges\":8", "\"edges\":2"),
        "edges: expected a whole number from 3 to 1000, or \"exact\" or 0 for round cones, got 2"},
-      {head + "\n" + with("\"edges\":8", "\"edges\":3.5"), "edges: expected a whole number from 3"},
-      {head + "\n" + with("\"edges\":8", "\"edges\":\"exactly\""),
+      {list_head + "\n" + with("\"edges\":8", "\"edges\":3.5"),
+       "edges: expected a whole number from 3"},
+      {list_head + "\n" + with("\"edges\":8", "\"edges\":\"exactly\""),
        "edges: expected a whole number from 3 to 1000, or \"exact\" or 0 for round cones, got "
        "\"exactly\""},
       {R"({"format":"clench grasps","version":1,"units":"mm, kg, s, deg, N"})",
        R"(g.jsonl:1: units: expected "m, kg, s, rad, N", got "mm, kg, s, deg, N")"},
-      {head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_units":["rad","deg"])"),
+      {list_head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_units":["rad","deg"])"),
        "g.jsonl:2: dof_units: expected the unit rad or m, got 'deg'"},
-      {head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_names":["a","a"])"),
+      {list_head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_names":["a","a"])"),
        "g.jsonl:2: dof_names: 'a' stands there twice"},
-      {head + "\n" + with(R"("joints":[])", R"("joints":1)"),
+      {list_head + "\n" + with(R"("joints":[])", R"("joints":1)"),
        "joints: expected a list of numbers, got 1"},
-      {head + "\n" + with("true", "1"), "soft: expected true or false, got 1"},
-      {head + "\n" + with("series", "serial"),
+      {list_head + "\n" + with("true", "1"), "soft: expected true or false, got 1"},
+      {list_head + "\n" + with("series", "serial"),
        "modulus: expected 'series' or 'larger', got \"serial\""},
-      {head + "\n" + with(R"("measures":{})", R"("measures":{"a":"b"})"),
+      {list_head + "\n" + with(R"("measures":{})", R"("measures":{"a":"b"})"),
        "measures.a: expected a number, got \"b\""},
-      {head + "\n" + with(R"("info":{})", R"("info":{},"infos":1)"),
+      {list_head + "\n" + with(R"("info":{})", R"("info":{},"infos":1)"),
        "g.jsonl:2: unknown key 'infos'; did you mean 'info'?"},
-      {head + "\n" + std::string(100000, '['), "expected lists and objects at most 8 deep"},
+      {list_head + "\n" + std::string(100000, '['), "expected lists and objects at most 8 deep"},
   };
   for (const auto& [text, message] : cases) {
     std::string said = "nothing";
@@ -175,14 +177,14 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
     }
     CHECK_MESSAGE(said.find(message) != std::string::npos, said);
   }
-  CHECK(read_grasps(folder.write("g.jsonl", head + "\r\n{" + whole + "}")).size() == 1);
+  CHECK(read_grasps(folder.write("g.jsonl", list_head + "\r\n{" + whole + "}")).size() == 1);
 }
 
 TEST_CASE(
     "a grasp that is written by hand may leave out joints and names the edges as a script does") {
   const TemporaryFolder folder;
   const auto only = [&](const std::string& line) {
-    return read_grasps(folder.write("g.jsonl", head + "\n" + line)).at(0);
+    return read_grasps(folder.write("g.jsonl", list_head + "\n" + line)).at(0);
   };
   const GraspSpec plain =
       only(with(R"("dofs":[],"joints":[],)", R"("dofs":[0.5],"dof_units":["rad"],)"));

@@ -261,7 +261,7 @@ VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
 
 // --- writing ---
 
-std::string text_of(const EigengraspSet& set) {
+std::string plain_text(const EigengraspSet& set) {
   std::string out = fmt::format("DIMENSIONS {}\n", set.dofs);
   const auto block = [&](const char* keyword, double eigenvalue, const VectorXd& values) {
     out += fmt::format("\n{}\n{}\n", keyword, eigenvalue);
@@ -310,7 +310,7 @@ std::string eigengrasps_text(const EigengraspSet& set, const fs::path& path) {
   if (ending == ".xml") return eigengrasps_xml(set);
   if (ending != ".egr")
     fail("{}: expected a file of eigengrasps, .egr or .xml, got {}", file, in_quotes(ending));
-  return text_of(set);
+  return plain_text(set);
 }
 
 void write_eigengrasps(const EigengraspSet& set, const fs::path& path,

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int max_primitive_visits = 100'000;  // of nodes, shared ones each time
-constexpr size_t max_primitives = 10'000;
+constexpr size_t max_found = 10'000;
 constexpr double digits =
     1e-4;  // matrices of scene graphs have six digits, and several are multiplied
 
@@ -137,7 +137,7 @@ std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& 
     InventorWalk walk;
     walk.max_visits = max_primitive_visits;
     walk.shape = [&](const InventorNode& shape, const InventorState& state) {
-      if (found.size() >= max_primitives) fail("expected at most {} primitives", max_primitives);
+      if (found.size() >= max_found) fail("expected at most {} primitives", max_found);
       if (const auto solid = primitive_of(shape))
         found.push_back(placed(*solid, state.X, file, walk.warnings));
       else

@@ -203,7 +203,7 @@ struct Written {
   std::vector<std::string> edges;
 };
 
-std::string text_of(const VirtualContactSet& set) {
+std::string plain_text(const VirtualContactSet& set) {
   // the first line is the name, whatever it is, but no comment and only one line
   std::string name = set.robot.empty() || set.robot.front() == '#' ? '_' + set.robot : set.robot;
   for (char& c : name)
@@ -292,7 +292,7 @@ std::string virtual_contacts_text(const VirtualContactSet& set, const fs::path& 
   const std::string ending = lower_case(path.extension().string());
   if (ending != ".vgr" && ending != ".xml")
     fail("{}: expected a file of virtual contacts, .vgr or .xml, got {}", file, in_quotes(ending));
-  return ending == ".xml" ? virtual_contacts_xml(set) : text_of(set);
+  return ending == ".xml" ? virtual_contacts_xml(set) : plain_text(set);
 }
 
 void write_virtual_contacts(const VirtualContactSet& set, const fs::path& path) {

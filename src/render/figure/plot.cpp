@@ -27,7 +27,7 @@ constexpr double group_width = 0.8;    // of a category's bars together, of the 
 constexpr float longest_label = 0.3f;  // of an upright category, of the figure's height
 constexpr int min_plot_size = 64, max_plot_size = 8192;
 constexpr size_t max_points = 200'000;
-constexpr double largest_number = 1e300;
+constexpr double largest_shown = 1e300;
 
 const Drawing::Color dark(0.13f, 0.16f, 0.20f), grid(0.88f, 0.89f, 0.91f);
 const Drawing::Color colors[] = {{0.000f, 0.447f, 0.698f}, {0.835f, 0.369f, 0.000f},
@@ -35,7 +35,7 @@ const Drawing::Color colors[] = {{0.000f, 0.447f, 0.698f}, {0.835f, 0.369f, 0.00
                                  {0.902f, 0.624f, 0.000f}, {0.337f, 0.706f, 0.914f},
                                  {0.350f, 0.350f, 0.350f}};
 
-bool shown(double value) { return std::abs(value) <= largest_number; }
+bool shown(double value) { return std::abs(value) <= largest_shown; }
 
 // may its ends be told apart, with room for lines between them?
 bool wide_enough(const Range& range) {

@@ -58,10 +58,10 @@ void divide_by_alpha(Picture& picture) {
     }
 }
 
-class Draft {
+class DraftPainter {
  public:
-  Draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
-        const RenderOptions& options);
+  DraftPainter(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
+               const RenderOptions& options);
   void paint(const Tile& tile, Picture& out);
 
  private:
@@ -96,8 +96,8 @@ class Draft {
   Cover cover_;
 };
 
-Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
-             const RenderOptions& options)
+DraftPainter::DraftPainter(const Programs& programs, MeshStore& store, const Scene& scene,
+                           const Eye& eye, const RenderOptions& options)
     : programs_(programs),
       options_(options),
       extent_(extent_of(scene)),
@@ -115,7 +115,7 @@ Draft::Draft(const Programs& programs, MeshStore& store, const Scene& scene, con
   cast();
 }
 
-void Draft::load(MeshStore& store, const Scene& scene) {
+void DraftPainter::load(MeshStore& store, const Scene& scene) {
   for (const DrawMesh& mesh : scene.meshes) {
     if (!mesh.shape || mesh.opacity == 0) continue;
     options_.progress.tell(0.1, "drawing");
@@ -132,7 +132,7 @@ void Draft::load(MeshStore& store, const Scene& scene) {
   std::ranges::stable_sort(clear_, std::ranges::greater{}, &Placed::distance);
 }
 
-void Draft::load_marks(const Scene& scene) {
+void DraftPainter::load_marks(const Scene& scene) {
   std::vector<Corner> corners;
   std::vector<uint32_t> indices;
   const auto add = [&](Piece piece) {
@@ -146,7 +146,7 @@ void Draft::load_marks(const Scene& scene) {
   marks_->painted = true;
 }
 
-void Draft::load_floor(const Scene& scene) {
+void DraftPainter::load_floor(const Scene& scene) {
   if (!scene.ground) return;
   ground_ = (*scene.ground - extent_.centre.z()) / extent_.scale;
   if (std::abs(ground_) > floor_reach || shading_eye(eye_).z() <= ground_) return;
@@ -159,7 +159,7 @@ void Draft::load_floor(const Scene& scene) {
 }
 
 // what the lamp sees of the bodies that throw shadows
-void Draft::cast() {
+void DraftPainter::cast() {
   to_lamp_ = place_lamp(view_axes(eye_), 1).front().to_light.cast<double>().normalized();
   const Eigen::Vector3d across = to_lamp_.unitOrthogonal();
   map_axes_ << across.transpose(), to_lamp_.cross(across).transpose(), to_lamp_.transpose();
@@ -186,7 +186,7 @@ void Draft::cast() {
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void Draft::give_light(unsigned program) const {
+void DraftPainter::give_light(unsigned program) const {
   gl::bind(program, "map", 0, map_, true);
   gl::set(program, "map_axes", std::vector{Eigen::Matrix3f(map_axes_.cast<float>())});
   gl::set(program, "to_lamp", Eigen::Vector3f(to_lamp_.cast<float>()));
@@ -194,21 +194,22 @@ void Draft::give_light(unsigned program) const {
 }
 
 // of a closed mesh only the side that faces the eye can be nearest
-void Draft::draw_triangles(const StoredMesh& mesh, bool one_side) const {
+void DraftPainter::draw_triangles(const StoredMesh& mesh, bool one_side) const {
   glBindVertexArray(mesh.array);
   if (one_side) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
   glDrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
   if (one_side) glDisable(GL_CULL_FACE);
 }
 
-void Draft::draw_depth(const Placed& placed, const Eigen::Matrix4d& clip, bool one_side) const {
+void DraftPainter::draw_depth(const Placed& placed, const Eigen::Matrix4d& clip,
+                              bool one_side) const {
   gl::set(programs_.draft_shadow, "to_clip",
           Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
   draw_triangles(*placed.mesh, one_side);
 }
 
-void Draft::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& clip,
-                 bool both_sides) const {
+void DraftPainter::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& clip,
+                        bool both_sides) const {
   gl::set(program, "to_scene", Eigen::Matrix4f(placed.to_scene.cast<float>()));
   gl::set(program, "to_clip", Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
   gl::set(program, "painted", placed.mesh->painted ? 1.0f : 0.0f);
@@ -222,7 +223,7 @@ void Draft::draw(const Placed& placed, unsigned program, const Eigen::Matrix4d& 
 }
 
 // far bodies first, and of each its far side; no shadow falls on them
-void Draft::draw_glass(const Eigen::Matrix4d& clip) const {
+void DraftPainter::draw_glass(const Eigen::Matrix4d& clip) const {
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
   for (const Placed& placed : clear_)
@@ -235,16 +236,16 @@ void Draft::draw_glass(const Eigen::Matrix4d& clip) const {
   glDepthMask(GL_TRUE);
 }
 
-Placed Draft::placed_marks() const {
+Placed DraftPainter::placed_marks() const {
   return {&*marks_, Eigen::Matrix4d::Identity(), {0, 0, 0, 1}, false, 0};
 }
 
-void Draft::draw_marks(const Eigen::Matrix4d& clip) const {
+void DraftPainter::draw_marks(const Eigen::Matrix4d& clip) const {
   if (marks_) draw(placed_marks(), programs_.draft_marks, clip);
 }
 
 // what lines are found in, one sample a pixel
-struct Draft::Seen {
+struct DraftPainter::Seen {
   explicit Seen(const Tile& tile)
       : places(texture(gl::Format::rgba32f, tile)),
         facings(texture(gl::Format::rgba16f, tile)),
@@ -260,8 +261,8 @@ struct Draft::Seen {
 };
 
 // drawn again, where what was drawn before does not hide it
-void Draft::lay_lines(const std::vector<Placed>& group, const Seen& seen,
-                      const Eigen::Matrix4d& clip, unsigned target, bool hides) const {
+void DraftPainter::lay_lines(const std::vector<Placed>& group, const Seen& seen,
+                             const Eigen::Matrix4d& clip, unsigned target, bool hides) const {
   if (group.empty()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, seen.target);
   glClearColor(0, 0, 0, 0);
@@ -276,7 +277,7 @@ void Draft::lay_lines(const std::vector<Placed>& group, const Seen& seen,
   glEnable(GL_DEPTH_TEST);
 }
 
-void Draft::paint(const Tile& tile, Picture& out) {
+void DraftPainter::paint(const Tile& tile, Picture& out) {
   const int width = tile.drawn_width(), height = tile.drawn_height();
   const gl::Object colors = gl::make_texture(gl::Format::rgba8, width, height),
                    depths = gl::make_texture(gl::Format::depth, width, height),
@@ -340,7 +341,7 @@ Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, co
               const RenderOptions& options) {
   check(scene);
   Picture out = empty_picture(options);
-  Draft drawing(programs, store, scene, eye, options);
+  DraftPainter drawing(programs, store, scene, eye, options);
   for (const Tile& tile : tiles_of(options)) {
     options.progress.check();
     drawing.paint(tile, out);

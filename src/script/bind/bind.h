@@ -351,6 +351,9 @@ inline size_t owned_bytes(const GraspHandle& handle) {
          handle.grasp.points.size() * sizeof(PointContact);
 }
 
+/// The world whose method is called.
+inline World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
+
 /// The world that the grasp stands in.   throws Error when it stands in none
 const World& world_of(lua_State* L, const GraspHandle& grasp);
 

@@ -7,7 +7,7 @@
 namespace clench {
 
 // (name, hooks, ...) -> a handle: a function of stdlib/dynamics/hooks.lua
-static int call_packed(lua_State* L) {
+static int call_hook(lua_State* L) {
   push_packed(L, "dynamics.hooks");
   lua_pushvalue(L, 1);
   lua_rawget(L, -2);
@@ -22,7 +22,7 @@ static int call_packed(lua_State* L) {
 static int add_hook(lua_State* L, const char* name) {
   const auto& world = self<WorldHandle>(L).world;
   lua_settop(L, 3);
-  lua_pushcfunction(L, guarded<call_packed>);
+  lua_pushcfunction(L, guarded<call_hook>);
   lua_pushstring(L, name);
   push_hooks(L, world, true);
   lua_pushvalue(L, 2);
@@ -40,7 +40,7 @@ static int record(lua_State* L) { return add_hook(L, "record"); }
 static int push_state(lua_State* L) { return add_hook(L, "push"); }
 static int pop_state(lua_State* L) { return add_hook(L, "pop"); }
 
-static const Entry methods[] = {
+static const Entry control_methods[] = {
     {"on_step", guarded<on_step>, R"(
 Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that
 comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
@@ -113,7 +113,7 @@ const Class world_control_class{.name = "world_control",
                                 .variable = "world",
                                 .doc = "Scripts that take part while a world runs.",
                                 .fields = {},
-                                .methods = methods,
+                                .methods = control_methods,
                                 .parent = &world_settings_class};
 
 }  // namespace clench

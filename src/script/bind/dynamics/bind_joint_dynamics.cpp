@@ -82,7 +82,7 @@ static int set_gains(lua_State* L) {
   return 0;
 }
 
-static const Entry fields[] = {
+static const Entry joint_dynamics_fields[] = {
     {"gains", guarded<get_gains>, R"(
 How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60
 rad/s with critical damping, as it stands. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
@@ -102,7 +102,7 @@ rad/s with critical damping, as it stands. Set a list of them, or some by the na
      guarded<set_gains>},
 };
 
-static const Entry methods[] = {
+static const Entry joint_dynamics_methods[] = {
     {"mass_matrix", guarded<mass_matrix>, R"(
 Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it
 carries, its base held. Armature of the joints is in it.
@@ -129,8 +129,8 @@ springs and viscous friction of the joints; not their dry friction.
 const Class joint_dynamics_class{.name = "joint_dynamics",
                                  .variable = "hand",
                                  .doc = "Masses and forces as a robot's DOFs feel them.",
-                                 .fields = fields,
-                                 .methods = methods,
+                                 .fields = joint_dynamics_fields,
+                                 .methods = joint_dynamics_methods,
                                  .parent = &motion_class};
 
 }  // namespace clench

@@ -104,7 +104,7 @@ static int unweld_it(lua_State* L) {
   return 0;
 }
 
-static const Entry fields[] = {
+static const Entry motion_fields[] = {
     {"velocity", guarded<get_velocity>, R"(
 Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
 told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest.
@@ -126,7 +126,7 @@ The body that it is welded to, or nil.
 > flask.welded_to  --> nil)"},
 };
 
-static const Entry methods[] = {
+static const Entry motion_methods[] = {
     {"apply_force", guarded<apply_force>, R"(
 Pushes it in the next step, and in that one alone; pushes add up. Neither an obstacle nor the base of a robot that does not
 float can be pushed.
@@ -158,8 +158,8 @@ It goes on by itself, with the velocity that it has.
 const Class motion_class{.name = "motion",
                          .variable = "body",
                          .doc = "How bodies and robots move: velocity, and what pushes them.",
-                         .fields = fields,
-                         .methods = methods,
+                         .fields = motion_fields,
+                         .methods = motion_methods,
                          .parent = &entity_class};
 
 }  // namespace clench

@@ -164,7 +164,7 @@ static int has_closed_now(lua_State* L) {
   return push(L, has_closed(*robot.world, robot.id));
 }
 
-static const Entry fields[] = {
+static const Entry robot_dynamics_fields[] = {
     {"dof_velocities", guarded<get_dof_velocities>, R"(
 Of its degrees of freedom; a list of its own.
 @type number[]  [rad/s or m/s]
@@ -203,7 +203,7 @@ Is its base free to move? Else it stands, or moves as its velocity says.
      guarded<set_floating>},
 };
 
-static const Entry methods[] = {
+static const Entry robot_dynamics_methods[] = {
     {"set_forces", guarded<set_forces>, R"(
 What each motor gives from now on: beside what its controller does, or alone with the controller "none". DOFs that a table by
 names leaves out keep what they had.
@@ -232,8 +232,8 @@ it was to close?
 const Class robot_dynamics_class{.name = "robot_dynamics",
                                  .variable = "hand",
                                  .doc = "How a robot's motors move it.",
-                                 .fields = fields,
-                                 .methods = methods,
+                                 .fields = robot_dynamics_fields,
+                                 .methods = robot_dynamics_methods,
                                  .parent = &joint_dynamics_class};
 
 }  // namespace clench

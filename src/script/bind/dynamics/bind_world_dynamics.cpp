@@ -11,8 +11,6 @@
 
 namespace clench {
 
-static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
-
 static double check_time(lua_State* L, int i, const char* name, double least) {
   const double time = check_number(L, i, name);
   if (!(time >= least && time <= duration_rule.max))
@@ -216,7 +214,7 @@ static int set_dynamics(lua_State* L) {
   return 0;
 }
 
-static const Entry fields[] = {
+static const Entry world_dynamics_fields[] = {
     {"time", guarded<get_time>, R"(
 How long it has run.
 @type number  [s]
@@ -244,7 +242,7 @@ as velocities [m/s].
 > world.report.failures  --> 0)"},
 };
 
-static const Entry methods[] = {
+static const Entry world_dynamics_methods[] = {
     {"run", guarded<run>, R"(
 Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the
 velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
@@ -290,8 +288,8 @@ const Class world_dynamics_class{
     .name = "world_dynamics",
     .variable = "world",
     .doc = "How a world moves: time, steps, momentum, and what presses on what.",
-    .fields = fields,
-    .methods = methods,
+    .fields = world_dynamics_fields,
+    .methods = world_dynamics_methods,
     .parent = &world_control_class};
 
 }  // namespace clench

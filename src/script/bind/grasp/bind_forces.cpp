@@ -232,7 +232,7 @@ static int jacobian_rows(lua_State* L) {
   return push_rows(L, turns_of(L, g, map).transpose() * dofs);
 }
 
-static const Entry methods[] = {
+static const Entry forces_methods[] = {
     {"contact_forces", guarded<forces>, R"(
 Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx,
 fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its
@@ -294,6 +294,6 @@ const Class forces_class{.name = "forces",
                          .variable = "grasp",
                          .doc = "Contact forces and joint torques of a grasp.",
                          .fields = {},
-                         .methods = methods};
+                         .methods = forces_methods};
 
 }  // namespace clench

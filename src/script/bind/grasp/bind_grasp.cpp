@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "clench/io/grasp_lines.h"
-#include "clench/motion/inverse_kinematics.h"
+#include "clench/planning/apply_by_arm.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
@@ -62,7 +62,7 @@ const World& world_of(lua_State* L, const GraspHandle& grasp) {
   return *grasp.world;
 }
 
-static int get_hand(lua_State* L) {
+static int get_grasp_hand(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   world_of(L, g);
   return push(L, RobotHandle{g.world, g.grasp.hand});
@@ -170,35 +170,9 @@ static int get_epsilon(lua_State* L) {
 }
 
 // what it is in a file
-static int as_json(lua_State* L) {
+static int grasp_as_json(lua_State* L) {
   read_json(L, grasp_line(self<GraspHandle>(L).grasp));
   return 1;
-}
-
-// An arm that carries the hand brings it to where the grasp has it.
-static void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object) {
-  const Robot& robot = world.robot(hand);
-  if (!grasp.X_OH || !robot.mounting || world.robot(robot.mounting->parent).dofs.empty() ||
-      stands_as_grasped(world, grasp, hand, object))
-    return apply_grasp(world, grasp, hand, object);
-  constexpr double exact = 1e-9;  // [m], [rad]
-  const auto arm = robot.mounting->parent;
-  const Eigen::VectorXd before = world.dofs(arm);
-  const IkResult found =
-      inverse_kinematics(world, arm, robot.base, world.pose(object) * *grasp.X_OH,
-                         {.tolerance = exact, .angle_tolerance = exact}, &world.context());
-  if (!found.reached)
-    fail(
-        "grasp of {} by {}: '{}' cannot bring the hand there; at best it stands {:.3g} m and "
-        "{:.3g} rad away",
-        world.body(object).name, robot.name, world.robot(arm).name, found.distance, found.angle);
-  if (found.dofs != before) world.set_dofs(arm, found.dofs);
-  try {
-    apply_grasp(world, grasp, hand, object);
-  } catch (const Error&) {
-    world.set_dofs(arm, before);
-    throw;
-  }
 }
 
 // puts the hand where the grasp has it, and measures it there
@@ -240,13 +214,13 @@ static int apply(lua_State* L) {
   return push_object(L, GraspHandle{world, std::move(measured)});
 }
 
-static int get_contacts(lua_State* L) {
+static int get_grasp_contacts(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   world_of(L, g);
   return push_contacts(L, g.world, g.grasp.contacts);
 }
 
-static int get_points(lua_State* L) {
+static int get_grasp_points(lua_State* L) {
   const Grasp& g = self<GraspHandle>(L).grasp;
   return push_list_of(L, g.points, [&](const PointContact& point) {
     push_list(L, 0, 4);
@@ -257,12 +231,12 @@ static int get_points(lua_State* L) {
   });
 }
 
-static int get_links(lua_State* L) {
+static int get_grasp_links(lua_State* L) {
   return push_list_of(L, self<GraspHandle>(L).grasp.links,
                       [&](const std::string& link) { push(L, std::string_view(link)); });
 }
 
-static int get_edges(lua_State* L) {
+static int get_grasp_edges(lua_State* L) {
   const int edges = self<GraspHandle>(L).grasp.options.edges;
   return edges == round_edges ? push(L, "exact") : push(L, edges);
 }
@@ -311,7 +285,7 @@ static int grasp_text(lua_State* L) {
   return push(L, text);
 }
 
-static const Entry functions[] = {
+static const Entry grasp_functions[] = {
     {"grasp", guarded<measure>, R"(
 The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
 @param hand robot
@@ -323,7 +297,7 @@ The grasp of a hand on an object as it is now. A grasp without contacts is no er
 };
 
 static const Entry grasp_fields[] = {
-    {"hand", guarded<get_hand>, R"(
+    {"hand", guarded<get_grasp_hand>, R"(
 The robot that grasps.
 @type robot
 > grasp.hand == hand  --> true)"},
@@ -390,16 +364,16 @@ Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; fi
 The measure "epsilon", as it was measured or, else, from its points; nil of a grasp from a file that has neither.
 @type number?
 > grasp.epsilon == grasp:quality "epsilon"  --> true)"},
-    {"contacts", guarded<get_contacts>, R"(
+    {"contacts", guarded<get_grasp_contacts>, R"(
 The contacts on the object when the grasp was measured.
 @type contact[]
 > grasp.contacts[1].body == flask  --> true)"},
-    {"points", guarded<get_points>, R"(
+    {"points", guarded<get_grasp_points>, R"(
 The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers.
 @type {point: vec3, normal: vec3, mu: number, torsion_radius: number}[]  [m]
 > again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
 > again:epsilon() == grasp:quality "epsilon"  --> true)"},
-    {"links", guarded<get_links>, R"(
+    {"links", guarded<get_grasp_links>, R"(
 Names of what touches at each of the points.
 @type string[]
 > #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
@@ -411,7 +385,7 @@ Length that torques are divided by.
 The object's centre of mass when the grasp was measured, in the object: torques are about it.
 @type vec3  [m]
 > grasp.com == flask.com  --> true)"},
-    {"edges", guarded<get_edges>, R"(
+    {"edges", guarded<get_grasp_edges>, R"(
 Edges of each friction pyramid, or "exact".
 @type integer|string
 > grasp.edges  --> 8)"},
@@ -452,10 +426,10 @@ in some of the coordinates "fx" to "tz". The same options give the same space, w
 
 static const Entry grasp_operators[] = {
     {"__tostring", guarded<grasp_text>, ""},
-    {"__json", guarded<as_json>, ""},
+    {"__json", guarded<grasp_as_json>, ""},
 };
 
-const Library grasp_library{.name = "clench", .doc = "", .functions = functions};
+const Library grasp_library{.name = "clench", .doc = "", .functions = grasp_functions};
 
 const Class grasp_class{.name = "grasp",
                         .variable = "grasp",

@@ -27,13 +27,13 @@ static int list_grasps(lua_State* L) {
   return push_object(L, std::move(list));
 }
 
-static int add(lua_State* L) {
+static int grasps_add(lua_State* L) {
   auto& list = self<GraspList>(L);
   list.grasps.push_back(check_object<GraspHandle>(L, 2, "grasp"));
   return push(L, static_cast<int>(list.grasps.size()));
 }
 
-static int save(lua_State* L) {
+static int grasps_save(lua_State* L) {
   const auto& list = self<GraspList>(L);
   const std::string path = check_string(L, 2, "path");
   std::vector<GraspSpec> specs;
@@ -46,7 +46,7 @@ static int save(lua_State* L) {
   return 0;
 }
 
-static int item(lua_State* L) {
+static int grasps_item(lua_State* L) {
   const auto& list = self<GraspList>(L);
   const bool is_index = lua_isinteger(L, 2);
   const lua_Integer i = is_index ? lua_tointeger(L, 2) : 0;
@@ -54,11 +54,11 @@ static int item(lua_State* L) {
   return push_object(L, list.grasps[static_cast<size_t>(i) - 1]);
 }
 
-static int length(lua_State* L) {
+static int grasps_length(lua_State* L) {
   return push(L, static_cast<int>(self<GraspList>(L).grasps.size()));
 }
 
-static int as_json(lua_State* L) {
+static int grasps_as_json(lua_State* L) {
   auto& list = self<GraspList>(L);
   return push_list_of(L, list.grasps, [L](const GraspHandle& g) { push_object(L, g); });
 }
@@ -67,7 +67,7 @@ static int list_text(lua_State* L) {
   return push(L, fmt::format("{} grasps", self<GraspList>(L).grasps.size()));
 }
 
-static const Entry functions[] = {
+static const Entry grasps_functions[] = {
     {"grasps", guarded<list_grasps>, R"(
 A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and
 of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture
@@ -87,13 +87,13 @@ and measures, and `apply` puts them into a world.
 > clench.grasps("no.jsonl", {format = "cvs"})  --> error: no such file: no.jsonl)"},
 };
 
-static const Entry methods[] = {
-    {"add", guarded<add>, R"(
+static const Entry grasps_methods[] = {
+    {"add", guarded<grasps_add>, R"(
 Adds a grasp at the end: its value as it is now, measures included.
 @param grasp grasp
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
-    {"save", guarded<save>, R"(
+    {"save", guarded<grasps_save>, R"(
 Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
 `format`; a warning names what a format does not hold. The same list gives the same bytes.
@@ -106,19 +106,19 @@ Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head w
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
 };
 
-static const Entry operators[] = {{"__index", guarded<item>, ""},
-                                  {"__len", guarded<length>, ""},
-                                  {"__json", guarded<as_json>, ""},
-                                  {"__tostring", guarded<list_text>, ""}};
+static const Entry grasps_operators[] = {{"__index", guarded<grasps_item>, ""},
+                                         {"__len", guarded<grasps_length>, ""},
+                                         {"__json", guarded<grasps_as_json>, ""},
+                                         {"__tostring", guarded<list_text>, ""}};
 
-const Library grasps_library{.name = "clench", .doc = "", .functions = functions};
+const Library grasps_library{.name = "clench", .doc = "", .functions = grasps_functions};
 
 const Class grasps_class{
     .name = "grasps",
     .variable = "list",
     .doc = "A list of grasps, made by `clench.grasps`: `list[1]`, `#list`, `ipairs(list)`.",
     .fields = {},
-    .methods = methods,
-    .operators = operators};
+    .methods = grasps_methods,
+    .operators = grasps_operators};
 
 }  // namespace clench

@@ -94,14 +94,14 @@ static int list_measures(lua_State* L) {
   });
 }
 
-static const Entry functions[] = {
+static const Entry measures_functions[] = {
     {"measures", guarded<list_measures>, R"(
 The measures that grasp:quality knows, in the order of the guide.
 @return {name: string, what: string, range: string, unit: string, higher_is_better: boolean, source: string}[]
 > clench.measures()[1].name, clench.measures()[1].source  --> epsilon, Ferrari and Canny (1992))"},
 };
 
-static const Entry methods[] = {
+static const Entry measures_methods[] = {
     {"quality", guarded<quality>, R"(
 A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and
 source. Infinite where there is nothing to measure, as the clearance of a hand alone. The world must stand as it did when
@@ -131,13 +131,13 @@ largest that is resisted whole, by the friction cones of the grasp. World axes, 
 > grasp:resistance{}  --> error: expected one of wrench, wrenches and ellipsoid, got 0 of them)"},
 };
 
-const Library measures_library{.name = "clench", .doc = "", .functions = functions};
+const Library measures_library{.name = "clench", .doc = "", .functions = measures_functions};
 
 const Class measures_class{.name = "measures",
                            .variable = "grasp",
                            .doc = "Measures of a grasp: quality, resistance, wrench spaces.",
                            .fields = {},
-                           .methods = methods,
+                           .methods = measures_methods,
                            .parent = &forces_class};
 
 }  // namespace clench

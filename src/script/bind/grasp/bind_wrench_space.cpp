@@ -187,7 +187,7 @@ static int closes_force(lua_State* L) {
 }
 
 static int get_rank(lua_State* L) { return push(L, space(L).rank()); }
-static int get_norm(lua_State* L) { return push(L, norm_name(space(L))); }
+static int get_wrench_space_norm(lua_State* L) { return push(L, norm_name(space(L))); }
 static int get_coordinates(lua_State* L) {
   return push_coordinate_names(L, space(L).options().coordinates);
 }
@@ -218,7 +218,7 @@ static int space_text(lua_State* L) {
                           s.contacts().size(), s.rank(), s.epsilon(Watching(L).progress())));
 }
 
-static const Entry functions[] = {
+static const Entry wrench_space_functions[] = {
     {"wrench_space", guarded<new_wrench_space>, R"(
 All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf").
 A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
@@ -239,7 +239,7 @@ static const Entry space_fields[] = {
 Dimension that the wrenches span, 0 to that of the space.
 @type integer
 > clench.wrench_space{contacts = {{{1, 0, 0, 0, 0, 0}}}}.rank  --> 1)"},
-    {"norm", guarded<get_norm>, R"(
+    {"norm", guarded<get_wrench_space_norm>, R"(
 "L1" or "Linf".
 @type string
 > grasp:wrench_space().norm  --> L1)"},
@@ -309,7 +309,8 @@ static const Entry space_operators[] = {
     {"__tostring", guarded<space_text>, ""},
 };
 
-const Library wrench_space_library{.name = "clench", .doc = "", .functions = functions};
+const Library wrench_space_library{
+    .name = "clench", .doc = "", .functions = wrench_space_functions};
 
 const Class wrench_space_class{
     .name = "wrench_space",

@@ -52,7 +52,7 @@ static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
   log_warning(L, "chart: drawn as boxes are the letters " + names);
 }
 
-static int draw(lua_State* L) {
+static int chart_draw(lua_State* L) {
   Table options(L, 1);
   Chart chart;
   chart.title = options.string("title", "");
@@ -75,8 +75,8 @@ static int draw(lua_State* L) {
                      PlotHandle{std::make_shared<const Drawing>(draw_chart(chart, drawing, font))});
 }
 
-static const Entry functions[] = {
-    {"chart", guarded<draw>, R"(
+static const Entry chart_functions[] = {
+    {"chart", guarded<chart_draw>, R"(
 Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where
 there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value
 that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts
@@ -87,6 +87,6 @@ that are too long lose their middle. It needs no graphics hardware.
 > clench.chart{series = {}}  --> error: expected at least one series)"},
 };
 
-const Library chart_library{.name = "clench", .doc = "", .functions = functions};
+const Library chart_library{.name = "clench", .doc = "", .functions = chart_functions};
 
 }  // namespace clench

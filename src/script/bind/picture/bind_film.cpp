@@ -46,7 +46,7 @@ static int save_gif(lua_State* L) {
   return 0;
 }
 
-static const Entry functions[] = {
+static const Entry film_functions[] = {
     {"save_gif", guarded<save_gif>, R"(
 Writes pictures of one size as an animated GIF of up to 256 colours that plays again and again.
 @param path string
@@ -57,6 +57,6 @@ Writes pictures of one size as an animated GIF of up to 256 colours that plays a
 > clench.files.save_gif("build/small.gif", {})  --> error: expected at least one picture, got none)"},
 };
 
-const Library film_library{.name = "clench.files", .doc = "", .functions = functions};
+const Library film_library{.name = "clench.files", .doc = "", .functions = film_functions};
 
 }  // namespace clench

@@ -114,7 +114,7 @@ static int get_picture(lua_State* L) {
   return push_object(L, paint(*self<PlotHandle>(L).drawing, Font()));
 }
 
-static int save(lua_State* L) {
+static int plot_save(lua_State* L) {
   const auto& plot = self<PlotHandle>(L);
   const std::string path = check_string(L, 2, "path");
   if (path.ends_with(".svg"))
@@ -129,12 +129,12 @@ static int save(lua_State* L) {
 static int get_width(lua_State* L) { return push(L, self<PlotHandle>(L).drawing->width); }
 static int get_height(lua_State* L) { return push(L, self<PlotHandle>(L).drawing->height); }
 
-static int equal(lua_State* L) {
+static int plot_equal(lua_State* L) {
   const auto *a = to<PlotHandle>(L, 1), *b = to<PlotHandle>(L, 2);
   return push(L, a && b && svg_text(*a->drawing) == svg_text(*b->drawing));
 }
 
-static int text(lua_State* L) {
+static int plot_text(lua_State* L) {
   const Drawing& drawing = *self<PlotHandle>(L).drawing;
   return push(L, fmt::format("plot of {} x {} pixels", drawing.width, drawing.height));
 }
@@ -173,7 +173,7 @@ static int make_sheet(lua_State* L) {
   return push_object(L, std::move(out));
 }
 
-static const Entry functions[] = {
+static const Entry plot_functions[] = {
     {"plot", guarded<make_plot>, R"(
 Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers
 over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no
@@ -196,7 +196,7 @@ Several pictures in one, in rows, each with its caption under it.
 > clench.sheet{pictures = {}}  --> error: expected at least one picture, got none)"},
 };
 
-static const Entry fields[] = {
+static const Entry plot_fields[] = {
     {"picture", guarded<get_picture>, R"(
 It as pixels, on white.
 @type picture
@@ -211,25 +211,26 @@ Its height [pixels].
 > clench.plot{series = {{y = {1, 2}}}}.height  --> 480)"},
 };
 
-static const Entry methods[] = {
-    {"save", guarded<save>, R"(
+static const Entry plot_methods[] = {
+    {"save", guarded<plot_save>, R"(
 Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
 @param path string
 > clench.plot{series = {{y = {1, 2}}}}:save "build/line.svg"
 > clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},
 };
 
-static const Entry operators[] = {{"__tostring", guarded<text>, ""}, {"__eq", guarded<equal>, ""}};
+static const Entry plot_operators[] = {{"__tostring", guarded<plot_text>, ""},
+                                       {"__eq", guarded<plot_equal>, ""}};
 
-const Library plot_library{.name = "clench", .doc = "", .functions = functions};
+const Library plot_library{.name = "clench", .doc = "", .functions = plot_functions};
 
 const Class plot_class{.name = "plot",
                        .variable = "plot",
                        .doc =
                            "Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with "
                            "the same contents are equal.",
-                       .fields = fields,
-                       .methods = methods,
-                       .operators = operators};
+                       .fields = plot_fields,
+                       .methods = plot_methods,
+                       .operators = plot_operators};
 
 }  // namespace clench

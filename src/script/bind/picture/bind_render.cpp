@@ -189,7 +189,7 @@ static void read_cones(Table& options, const GivenForces& given, SceneOptions& s
                         : Framing::contacts;
 }
 
-static int draw(lua_State* L) {
+static int render_draw(lua_State* L) {
   const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
   Table options(L, 2);
   SceneOptions showing;
@@ -209,7 +209,7 @@ static int draw(lua_State* L) {
   return push_object(L, draw_scene(L, options, std::move(scene)));
 }
 
-static int save(lua_State* L) {
+static int render_save(lua_State* L) {
   const Picture& picture = self<Picture>(L);
   const std::string path = check_string(L, 2, "path");
   if (!path.ends_with(".png"))
@@ -237,18 +237,18 @@ static int alpha(lua_State* L) {
   return push(L, p.alpha.empty() ? 255 : static_cast<int>(p.alpha[at]));
 }
 
-static int text(lua_State* L) {
+static int render_text(lua_State* L) {
   const Picture& p = self<Picture>(L);
   return push(L, fmt::format("picture of {} x {} pixels", p.width, p.height));
 }
 
-static int equal(lua_State* L) {
+static int render_equal(lua_State* L) {
   const auto *a = to<Picture>(L, 1), *b = to<Picture>(L, 2);
   return push(L, a && b && *a == *b);
 }
 
-static const Entry functions[] = {
-    {"render", guarded<draw>, R"(
+static const Entry render_functions[] = {
+    {"render", guarded<render_draw>, R"(
 Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
 all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the
 links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes.
@@ -268,7 +268,7 @@ It needs EGL and OpenGL, but no display. What a picture needs is kept for the ne
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
 };
 
-static const Entry fields[] = {
+static const Entry render_fields[] = {
     {"width", getter<[](const Picture& x) { return x.width; }>, R"(
 Its width.
 @type integer  pixels
@@ -279,8 +279,8 @@ Its height.
 > clench.render(world, {size = {64, 48}}).height  --> 48)"},
 };
 
-static const Entry methods[] = {
-    {"save", guarded<save>, R"(
+static const Entry render_methods[] = {
+    {"save", guarded<render_save>, R"(
 Writes a PNG file, with alpha where the background is transparent.
 @param path string
 > clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
@@ -302,12 +302,12 @@ How much a pixel covers, 0 to 255: less than 255 where a transparent background 
 > clench.render(world, {size = {64, 48}, background = "transparent"}):alpha(1, 1)  --> 0)"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
-    {"__eq", guarded<equal>, ""},
+static const Entry render_operators[] = {
+    {"__tostring", guarded<render_text>, ""},
+    {"__eq", guarded<render_equal>, ""},
 };
 
-const Library render_library{.name = "clench", .doc = "", .functions = functions};
+const Library render_library{.name = "clench", .doc = "", .functions = render_functions};
 
 const Class picture_class{
     .name = "picture",
@@ -315,8 +315,8 @@ const Class picture_class{
     .doc =
         "A picture: red, green and blue, 8 bits each, and how much each pixel covers. "
         "`==` compares every pixel.",
-    .fields = fields,
-    .methods = methods,
-    .operators = operators};
+    .fields = render_fields,
+    .methods = render_methods,
+    .operators = render_operators};
 
 }  // namespace clench

@@ -85,7 +85,7 @@ static int arrays(lua_State* L) {
   return 1;
 }
 
-static const Entry functions[] = {
+static const Entry arrays_functions[] = {
     {"save_arrays", guarded<save_arrays>, R"(
 Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
 @param path string  .npz
@@ -101,6 +101,6 @@ The arrays of such a file: lists of numbers or texts, or of rows, all indices bu
 > clench.files.arrays "no.npz"  --> error: no such file: no.npz)"},
 };
 
-const Library arrays_library{.name = "clench.files", .doc = "", .functions = functions};
+const Library arrays_library{.name = "clench.files", .doc = "", .functions = arrays_functions};
 
 }  // namespace clench

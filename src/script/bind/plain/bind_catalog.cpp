@@ -106,7 +106,7 @@ static int kind_of_file(lua_State* L) {
   return push(L, kind_name(file_kind(find_file(path, {}, reading))));
 }
 
-static const Entry functions[] = {
+static const Entry catalog_functions[] = {
     {"file_kind", guarded<kind_of_file>, R"(
 What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
 stand.
@@ -122,6 +122,6 @@ Paths of the models and worlds that come with Clench, sorted.
 > type(clench.catalog().hands)  --> table)"},
 };
 
-const Library catalog_library{.name = "clench", .doc = "", .functions = functions};
+const Library catalog_library{.name = "clench", .doc = "", .functions = catalog_functions};
 
 }  // namespace clench

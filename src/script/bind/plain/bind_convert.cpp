@@ -36,7 +36,7 @@ static int convert(lua_State* L) {
   return push(L, kind_name(as_world ? FileKind::world : kind));
 }
 
-static const Entry functions[] = {
+static const Entry convert_functions[] = {
     {"convert", guarded<convert>, R"(
 Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
 .urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is
@@ -53,6 +53,6 @@ told in warnings.
 > clench.convert("models/objects/flask.iv", "flask.egr")  --> error: expected a body to .xml, .iv, .obj, .off, .ply or .stl, got '.egr')"},
 };
 
-const Library convert_library{.name = "clench", .doc = "", .functions = functions};
+const Library convert_library{.name = "clench", .doc = "", .functions = convert_functions};
 
 }  // namespace clench

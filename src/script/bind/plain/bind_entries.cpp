@@ -50,13 +50,13 @@ static int entries(lua_State* L) {
   return 1;
 }
 
-static const Entry functions[] = {
+static const Entry entries_functions[] = {
     {"entries", guarded<entries>, R"(
 The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.
 @return {libraries: table[], classes: table[], files: table[]}
 > clench.entries().libraries[1].name  --> clench)"},
 };
 
-const Library entries_library{.name = "clench", .doc = "", .functions = functions};
+const Library entries_library{.name = "clench", .doc = "", .functions = entries_functions};
 
 }  // namespace clench

@@ -220,7 +220,7 @@ static int glove_poses(lua_State* L) {
   });
 }
 
-static const Entry functions[] = {
+static const Entry files_functions[] = {
     {"eigengrasps", guarded<eigengrasps>, R"(
 Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
 @param path string
@@ -329,6 +329,6 @@ Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0
 const Library files_library{
     .name = "clench.files",
     .doc = "The small files around hands and planners, read as tables and written from them.",
-    .functions = functions};
+    .functions = files_functions};
 
 }  // namespace clench

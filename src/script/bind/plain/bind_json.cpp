@@ -58,7 +58,7 @@ static int null(lua_State* L) {
   return 1;
 }
 
-static const Entry functions[] = {
+static const Entry json_functions[] = {
     {"encode", guarded<encode>, R"(
 A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay
 integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
@@ -76,7 +76,7 @@ The value of a JSON text. A null in a list is `clench.json.null`; in an object i
 > clench.json.decode '{"a": 1,}'  --> error: line 1, column 9: expected a name in double quotes, got '}')"},
 };
 
-static const Entry fields[] = {
+static const Entry json_fields[] = {
     {"null", guarded<null>, R"(
 The value that stands for null in a list.
 @type userdata
@@ -85,7 +85,7 @@ The value that stands for null in a list.
 
 const Library json_library{.name = "clench.json",
                            .doc = "Values as JSON text, and back.",
-                           .functions = functions,
-                           .fields = fields};
+                           .functions = json_functions,
+                           .fields = json_fields};
 
 }  // namespace clench

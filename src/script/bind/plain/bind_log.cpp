@@ -118,7 +118,7 @@ static int sink(lua_State* L) {
   return 0;
 }
 
-static const Entry functions[] = {
+static const Entry log_functions[] = {
     {"debug", guarded<log_at<LogLevel::debug>>, R"(
 Logs what only a developer wants to read.
 @param ... any
@@ -166,6 +166,6 @@ const Library log_library{.name = "clench.log",
                           .doc =
                               "Messages of scripts and of the engine, to stderr, so that they "
                               "never mix with a script's output.",
-                          .functions = functions};
+                          .functions = log_functions};
 
 }  // namespace clench

@@ -183,7 +183,7 @@ static int interpolate_to(lua_State* L) {
   return push(L, interpolate(from, check_pose(L, 2, "other"), t));
 }
 
-static int multiply(lua_State* L) {
+static int pose_multiply(lua_State* L) {
   const Pose& left = check_object<Pose>(L, 1, "left of *");
   if (const Pose* right = to<Pose>(L, 2)) return push(L, left * *right);
   if (lua_type(L, 2) != LUA_TTABLE && !to<Vector3d>(L, 2))
@@ -191,12 +191,12 @@ static int multiply(lua_State* L) {
   return push(L, Vector3d(left * check_vec3(L, 2, "right of *")));
 }
 
-static int equal(lua_State* L) {
+static int pose_equal(lua_State* L) {
   const auto *a = to<Pose>(L, 1), *b = to<Pose>(L, 2);
   return push(L, a && b && *a == *b);
 }
 
-static int text(lua_State* L) {
+static int pose_text(lua_State* L) {
   const Pose& pose = self<Pose>(L);
   const Vector3d& p = pose.position;
   const Quaterniond& q = pose.rotation;
@@ -207,7 +207,7 @@ static int text(lua_State* L) {
              q.z() + 0.0));
 }
 
-static int as_json(lua_State* L) {
+static int pose_as_json(lua_State* L) {
   const Pose pose = self<Pose>(L);
   push_list(L, 0, 2);
   push_numbers(L, {pose.position.data(), 3});
@@ -217,7 +217,7 @@ static int as_json(lua_State* L) {
   return 1;
 }
 
-static const Entry functions[] = {
+static const Entry pose_functions[] = {
     {"pose", guarded<make_pose>, R"(
 A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
 @param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where two of the frame's axes point, z_axis, else x_axis, exactly, the other as nearly as a right angle allows
@@ -238,7 +238,7 @@ The pose of a camera at `eye` that sees `target`: it looks along its -z, with y 
 > clench.look_at({0, 0, 1}, {0, 0, 0})  --> error: expected eye and target apart, and up not along the view)"},
 };
 
-static const Entry fields[] = {
+static const Entry pose_fields[] = {
     {"position", getter<[](const Pose& x) { return x.position; }>, R"(
 Where the frame's origin is.
 @type vec3  [m]
@@ -253,7 +253,7 @@ The rotation as turns about the fixed x, y and z axes, in this order.
 > clench.pose{rpy = {0.1, 0.2, 0.3}}.rpy  --> (0.1, 0.2, 0.3))"},
 };
 
-static const Entry methods[] = {
+static const Entry pose_methods[] = {
     {"inverse", guarded<inverse>, R"(
 The inverse: `p:inverse() * p` is the identity.
 @return pose
@@ -279,14 +279,14 @@ The pose between this one (t = 0) and another (t = 1): straight line, shortest t
 > clench.pose{}:interpolate(clench.pose{xyz = {4, 0, 0}}, 0.25).position  --> (1, 0, 0))"},
 };
 
-static const Entry operators[] = {
-    {"__mul", guarded<multiply>, ""},
-    {"__eq", guarded<equal>, ""},
-    {"__tostring", guarded<text>, ""},
-    {"__json", guarded<as_json>, ""},
+static const Entry pose_operators[] = {
+    {"__mul", guarded<pose_multiply>, ""},
+    {"__eq", guarded<pose_equal>, ""},
+    {"__tostring", guarded<pose_text>, ""},
+    {"__json", guarded<pose_as_json>, ""},
 };
 
-const Library pose_library{.name = "clench", .doc = "", .functions = functions};
+const Library pose_library{.name = "clench", .doc = "", .functions = pose_functions};
 
 const Class pose_class{.name = "pose",
                        .variable = "pose",
@@ -295,8 +295,8 @@ const Class pose_class{.name = "pose",
                            "* v` takes a point along, `==` "
                            "compares bit by bit. Wherever a pose is expected, the table that "
                            "`clench.pose` takes will do.",
-                       .fields = fields,
-                       .methods = methods,
-                       .operators = operators};
+                       .fields = pose_fields,
+                       .methods = pose_methods,
+                       .operators = pose_operators};
 
 }  // namespace clench

@@ -47,7 +47,7 @@ static int new_progress(lua_State* L) {
   return 1;
 }
 
-static int step(lua_State* L) {
+static int progress_step(lua_State* L) {
   auto& progress = self<ProgressHandle>(L);
   const double by = given(L, 2) ? check_number(L, 2, "count") : 1;
   if (!(by >= 0)) fail("{}: count: expected a number >= 0, got {}", subject(L), by);
@@ -87,7 +87,7 @@ static int progress_text(lua_State* L) {
   return push(L, fmt::format("progress: {:.15g} of {:.15g}", progress.done, progress.total));
 }
 
-static const Entry functions[] = {
+static const Entry progress_functions[] = {
     {"progress", guarded<new_progress>, R"(
 Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list
 it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end,
@@ -102,8 +102,8 @@ or by `close`.
 > clench.progress(-1)  --> error: expected a number >= 0)"},
 };
 
-static const Entry methods[] = {
-    {"step", guarded<step>, R"(
+static const Entry progress_methods[] = {
+    {"step", guarded<progress_step>, R"(
 Counts so many more steps as done.
 @param count? number  default 1
 @param text? string  shown beside the bar from now on
@@ -118,7 +118,7 @@ Removes the bar; a variable declared <close> does so by itself.
 > p  --> progress: 0 of 10)"},
 };
 
-static const Entry fields[] = {
+static const Entry progress_fields[] = {
     {"done", getter<[](const ProgressHandle& x) { return x.done; }>, R"(
 Steps that are done.
 @type number
@@ -129,16 +129,16 @@ Steps in all; 0 when that is not known.
 > clench.progress(10).total  --> 10.0)"},
 };
 
-static const Entry operators[] = {{"__tostring", guarded<progress_text>, ""},
-                                  {"__call", guarded<next>, ""}};
+static const Entry progress_operators[] = {{"__tostring", guarded<progress_text>, ""},
+                                           {"__call", guarded<next>, ""}};
 
-const Library progress_library{.name = "clench", .doc = "", .functions = functions};
+const Library progress_library{.name = "clench", .doc = "", .functions = progress_functions};
 
 const Class progress_class{.name = "progress",
                            .variable = "progress",
                            .doc = "How far a script's loop is, as `clench.progress` shows it.",
-                           .fields = fields,
-                           .methods = methods,
-                           .operators = operators};
+                           .fields = progress_fields,
+                           .methods = progress_methods,
+                           .operators = progress_operators};
 
 }  // namespace clench

@@ -55,12 +55,12 @@ static int rotation(lua_State* L) {
   }
 }
 
-static int text(lua_State* L) {
+static int random_text(lua_State* L) {
   self<Random>(L);
   return push(L, "random numbers");
 }
 
-static const Entry functions[] = {
+static const Entry random_functions[] = {
     {"random", guarded<make_random>, R"(
 A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
 @param seed integer
@@ -70,7 +70,7 @@ A stream of random numbers, fixed by a seed and the stream's number, the same on
 > clench.random(1, 2):uniform() == clench.random(1, 3):uniform()  --> false)"},
 };
 
-static const Entry methods[] = {
+static const Entry random_methods[] = {
     {"uniform", guarded<uniform>, R"(
 A number from low (included, default 0) to high (excluded, default 1).
 @param low? number
@@ -99,15 +99,15 @@ A pose at the origin, each rotation as likely.
 > clench.random(7):rotation().position  --> (0, 0, 0))"},
 };
 
-static const Entry operators[] = {{"__tostring", guarded<text>, ""}};
+static const Entry random_operators[] = {{"__tostring", guarded<random_text>, ""}};
 
-const Library random_library{.name = "clench", .doc = "", .functions = functions};
+const Library random_library{.name = "clench", .doc = "", .functions = random_functions};
 
 const Class random_class{.name = "random",
                          .variable = "random",
                          .doc = "A stream of random numbers, made by `clench.random`.",
                          .fields = {},
-                         .methods = methods,
-                         .operators = operators};
+                         .methods = random_methods,
+                         .operators = random_operators};
 
 }  // namespace clench

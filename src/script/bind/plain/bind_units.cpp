@@ -21,7 +21,7 @@ static int clock_now(lua_State* L) {
   return push(L, std::chrono::duration<double>(now).count());
 }
 
-static const Entry functions[] = {
+static const Entry units_functions[] = {
     {"rad", guarded<rad>, R"(
 Degrees to radians.
 @param degrees number
@@ -45,7 +45,7 @@ Seconds of a clock that runs evenly from some moment: how long something took.
 > clench.clock() >= before  --> true)"},
 };
 
-static const Entry fields[] = {
+static const Entry units_fields[] = {
     {"version", guarded<version>, R"(
 Version of the engine, major.minor.patch.
 @type string
@@ -59,7 +59,7 @@ const Library units_library{
         "masses "
         "kilograms, forces "
         "newtons; poses and vectors are in the world frame unless a text says otherwise.",
-    .functions = functions,
-    .fields = fields};
+    .functions = units_functions,
+    .fields = units_fields};
 
 }  // namespace clench

@@ -40,7 +40,7 @@ static int unit(lua_State* L) {
   return push(L, Vector3d((v / largest).normalized()));
 }
 
-static int add(lua_State* L) {
+static int vec3_add(lua_State* L) {
   return push(L, Vector3d(check_vec3(L, 1, "left of +") + check_vec3(L, 2, "right of +")));
 }
 
@@ -48,7 +48,7 @@ static int subtract(lua_State* L) {
   return push(L, Vector3d(check_vec3(L, 1, "left of -") - check_vec3(L, 2, "right of -")));
 }
 
-static int multiply(lua_State* L) {
+static int vec3_multiply(lua_State* L) {
   const bool left = to<Vector3d>(L, 1), right = to<Vector3d>(L, 2);
   if (left && right) fail("vec3: two vectors have no product *; use a:dot(b) or a:cross(b)");
   if (left) return push(L, Vector3d(*to<Vector3d>(L, 1) * check_number(L, 2, "right of *")));
@@ -63,14 +63,14 @@ static int divide(lua_State* L) {
 
 static int negate(lua_State* L) { return push(L, Vector3d(-self<Vector3d>(L))); }
 
-static int equal(lua_State* L) {
+static int vec3_equal(lua_State* L) {
   const auto *a = to<Vector3d>(L, 1), *b = to<Vector3d>(L, 2);
   return push(L, a && b && *a == *b);
 }
 
-static int length(lua_State* L) { return push(L, 3); }
+static int vec3_length(lua_State* L) { return push(L, 3); }
 
-static int item(lua_State* L) {
+static int vec3_item(lua_State* L) {
   const Vector3d& v = self<Vector3d>(L);
   if (lua_type(L, 2) == LUA_TNUMBER) {
     const double i = lua_tonumber(L, 2);
@@ -79,14 +79,14 @@ static int item(lua_State* L) {
   return 0;
 }
 
-static int text(lua_State* L) { return push(L, vec3_text(self<Vector3d>(L))); }
+static int vec3_text(lua_State* L) { return push(L, vec3_text(self<Vector3d>(L))); }
 
-static int as_json(lua_State* L) {
+static int vec3_as_json(lua_State* L) {
   const Vector3d v = self<Vector3d>(L);
   return push_numbers(L, {v.data(), 3});
 }
 
-static const Entry functions[] = {
+static const Entry vec3_functions[] = {
     {"vec3", guarded<make_vec3>, R"(
 A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
 @param x number[]|number
@@ -99,7 +99,7 @@ A vector of three finite numbers, from a list or one by one. Wherever a vec3 is 
 > clench.vec3(1e308, 0, 0) * 10  --> error: vec3: the result is not finite, got (inf, 0, 0))"},
 };
 
-static const Entry fields[] = {
+static const Entry vec3_fields[] = {
     {"x", getter<[](const Vector3d& x) { return x.x(); }>, R"(
 First coordinate.
 @type number
@@ -115,7 +115,7 @@ Third coordinate.
 > clench.vec3(1, 2, 3)[3]  --> 3.0)"},
 };
 
-static const Entry methods[] = {
+static const Entry vec3_methods[] = {
     {"dot", guarded<dot>, R"(
 Scalar product.
 @param other vec3
@@ -137,15 +137,15 @@ The same direction, length 1.
 > clench.vec3(0, 0, 0):unit()  --> error: length 0)"},
 };
 
-static const Entry operators[] = {
-    {"__add", guarded<add>, ""},       {"__sub", guarded<subtract>, ""},
-    {"__mul", guarded<multiply>, ""},  {"__div", guarded<divide>, ""},
-    {"__unm", guarded<negate>, ""},    {"__eq", guarded<equal>, ""},
-    {"__len", guarded<length>, ""},    {"__index", guarded<item>, ""},
-    {"__tostring", guarded<text>, ""}, {"__json", guarded<as_json>, ""},
+static const Entry vec3_operators[] = {
+    {"__add", guarded<vec3_add>, ""},       {"__sub", guarded<subtract>, ""},
+    {"__mul", guarded<vec3_multiply>, ""},  {"__div", guarded<divide>, ""},
+    {"__unm", guarded<negate>, ""},         {"__eq", guarded<vec3_equal>, ""},
+    {"__len", guarded<vec3_length>, ""},    {"__index", guarded<vec3_item>, ""},
+    {"__tostring", guarded<vec3_text>, ""}, {"__json", guarded<vec3_as_json>, ""},
 };
 
-const Library vec3_library{.name = "clench", .doc = "", .functions = functions};
+const Library vec3_library{.name = "clench", .doc = "", .functions = vec3_functions};
 
 const Class vec3_class{.name = "vec3",
                        .variable = "vec3",
@@ -153,8 +153,8 @@ const Class vec3_class{.name = "vec3",
                            "A vector of three numbers. It never changes: operators `+ - * /`, "
                            "`==`, unary `-` and `#` make new "
                            "values; `v[1]`, `v[2]`, `v[3]` are `v.x`, `v.y`, `v.z`.",
-                       .fields = fields,
-                       .methods = methods,
-                       .operators = operators};
+                       .fields = vec3_fields,
+                       .methods = vec3_methods,
+                       .operators = vec3_operators};
 
 }  // namespace clench

@@ -101,7 +101,7 @@ int check_steps(lua_State* L, int i, const char* name) {
   return steps;
 }
 
-int run(lua_State* L) {
+int run_search(lua_State* L) {
   const auto search = self<AnnealingHandle>(L).search;
   const int steps = check_steps(L, 2, "steps");
   const Watching watching(L);
@@ -131,7 +131,7 @@ int run_all(lua_State* L) {
   return push_list_of(L, shares, [L](const Share& share) { push(L, share.taken); });
 }
 
-int push_state(lua_State* L, const Annealing& search, const FoundState& found) {
+int push_search_state(lua_State* L, const Annealing& search, const FoundState& found) {
   push_list(L, 0, 5);
   set_field(L, "energy", found.energy);
   set_field(L, "step", static_cast<double>(found.step));
@@ -146,7 +146,7 @@ int push_state(lua_State* L, const Annealing& search, const FoundState& found) {
 int get_best(lua_State* L) {
   const Annealing& search = *self<AnnealingHandle>(L).search;
   return push_list_of(L, search.best().states(),
-                      [&](const FoundState& found) { push_state(L, search, found); });
+                      [&](const FoundState& found) { push_search_state(L, search, found); });
 }
 
 int get_values(lua_State* L) {
@@ -156,9 +156,9 @@ int get_values(lua_State* L) {
 
 int get_state(lua_State* L) {
   const Annealing& search = *self<AnnealingHandle>(L).search;
-  return push_state(L, search,
-                    {search.values(), search.space().state(search.values()), search.energy(),
-                     search.counts().steps});
+  return push_search_state(L, search,
+                           {search.values(), search.space().state(search.values()), search.energy(),
+                            search.counts().steps});
 }
 
 int get_counts(lua_State* L) {
@@ -175,7 +175,7 @@ int get_counts(lua_State* L) {
   return 1;
 }
 
-int get_energy(lua_State* L) {
+int get_search_energy(lua_State* L) {
   return push_unbounded(L, self<AnnealingHandle>(L).search->energy());
 }
 int get_first(lua_State* L) {
@@ -183,7 +183,7 @@ int get_first(lua_State* L) {
 }
 
 // {pose =, dofs =} of the hand, the pose in the object, as `best` lists them
-HandState read_state(lua_State* L, int i, const Annealing& search) {
+HandState read_search_state(lua_State* L, int i, const Annealing& search) {
   Table of(L, i, subject(L) + ": state");
   HandState out{of.pose("pose"), {}};
   const auto dofs =
@@ -196,14 +196,14 @@ HandState read_state(lua_State* L, int i, const Annealing& search) {
 
 int avoid(lua_State* L) {
   Annealing& search = *self<AnnealingHandle>(L).search;
-  search.best().avoid(read_state(L, 2, search));
+  search.best().avoid(read_search_state(L, 2, search));
   return 0;
 }
 
 int go_to(lua_State* L) {
   Annealing& search = *self<AnnealingHandle>(L).search;
   const CallingState calling(L);
-  search.go_to(search.space().values(read_state(L, 2, search)));
+  search.go_to(search.space().values(read_search_state(L, 2, search)));
   return get_values(L);
 }
 
@@ -217,7 +217,7 @@ int clear(lua_State* L) {
   return 0;
 }
 
-int text(lua_State* L) {
+int annealing_text(lua_State* L) {
   const Annealing& search = *self<AnnealingHandle>(L).search;
   return push(L, fmt::format("annealing after {} steps, energy {:.6g}", search.counts().steps,
                              search.energy()));
@@ -225,7 +225,7 @@ int text(lua_State* L) {
 
 }  // namespace
 
-static const Entry functions[] = {
+static const Entry annealing_functions[] = {
     {"annealing", guarded<make_annealing>, R"(
 A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.
 @param options {hand: robot, object: body, energy: energy|function, world?: world, position?: string, posture?: string, semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: string, variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table}  world: a clone to move instead; position: "axis_angle" (default: Tx Ty Tz theta phi alpha), "complete", "ellipsoid", "approach", "fixed"; posture: "eigengrasps" (default), "dofs", "fixed"; limits: {Tx = {min, max}}; values: where variables begin, and stay when they are `fixed`; start: "hand", from where it is; targets: {Tx = {value, confidence}} draw neighbours near them; variables: the user's own, {name = {min =, max =, value =, jump =, circular =}}; schedule: "default", "loop", "modified", "strict", "online", or {like =, t0 =, first_step =, ...}; collisions = false: states that collide are legal; best: {size = 20, distance = 0.2, posture = true, max_energy =}
@@ -249,7 +249,7 @@ Runs several chains at once, each in a world of its own; what they find does not
 > clench.run_annealings({a, a}, {5, 5})  --> error: need a world each)"},
 };
 
-static const Entry fields[] = {
+static const Entry annealing_fields[] = {
     {"best", guarded<get_best>, R"(
 The best states met, no two alike: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables
 by name.
@@ -267,7 +267,7 @@ Values of its variables by name.
 @type table
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
 > search.values.Tz  --> 0.35)"},
-    {"energy", guarded<get_energy>, R"(
+    {"energy", guarded<get_search_energy>, R"(
 Of the state that the chain is at; infinite where it begins in collision.
 @type number
 > clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.energy  --> 2.0)"},
@@ -284,8 +284,8 @@ their ranges; `stuck`: how often all tries of a step failed.
 > search.counts.steps  --> 5)"},
 };
 
-static const Entry methods[] = {
-    {"run", guarded<run>, R"(
+static const Entry annealing_methods[] = {
+    {"run", guarded<run_search>, R"(
 Takes steps, each to a legal neighbour that is accepted or not.
 @param steps integer
 @return integer taken  fewer where 10,000 tries in a row found no legal neighbour
@@ -316,15 +316,15 @@ Empties the list of the best states; what is avoided stays so.
 > #search.best  --> 0)"},
 };
 
-static const Entry operators[] = {{"__tostring", guarded<text>, ""}};
+static const Entry annealing_operators[] = {{"__tostring", guarded<annealing_text>, ""}};
 
-const Library annealing_library{.name = "clench", .doc = "", .functions = functions};
+const Library annealing_library{.name = "clench", .doc = "", .functions = annealing_functions};
 
 const Class annealing_class{.name = "annealing",
                             .variable = "search",
                             .doc = "A chain of simulated annealing, made by `clench.annealing`.",
-                            .fields = fields,
-                            .methods = methods,
-                            .operators = operators};
+                            .fields = annealing_fields,
+                            .methods = annealing_methods,
+                            .operators = annealing_operators};
 
 }  // namespace clench

@@ -267,7 +267,7 @@ int call(lua_State* L) {
   return push_unbounded(L, energy->value(*world));
 }
 
-int text(lua_State* L) {
+int energy_text(lua_State* L) {
   return push(L, self<EnergyHandle>(L).energy->any_thread() ? "energy"
                                                             : "energy with a function of a script");
 }
@@ -278,7 +278,7 @@ EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world) {
   return read_term(L, index, world);
 }
 
-static const Entry functions[] = {
+static const Entry energy_functions[] = {
     {"contact", guarded<contact>, R"(
 How far the hand's virtual contacts are from the object, and how they face it: the mean of distance [mm] +
 normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
@@ -367,7 +367,7 @@ collides. A search with this term and `collisions = false` may cross states that
 > clench.energy.penetration {hand = hand}()  --> 0.0)"},
 };
 
-static const Entry fields[] = {
+static const Entry energy_fields[] = {
     {"any_thread", getter<[](const EnergyHandle& x) { return x.energy->any_thread(); }>, R"(
 Is it made of the engine's terms alone? One with a function of a script runs on the script's thread, and in its world.
 @type boolean
@@ -375,7 +375,7 @@ Is it made of the engine's terms alone? One with a function of a script runs on 
 > e.any_thread, (e + function() return 1 end).any_thread  --> true, false)"},
 };
 
-static const Entry methods[] = {
+static const Entry energy_methods[] = {
     {"within", guarded<within>, R"(
 The same, but never below `low` nor above `high`; nil: no such bound.
 @param low? number
@@ -384,11 +384,11 @@ The same, but never below `low` nor above `high`; nil: no such bound.
 > clench.energy.contact {hand = hand, object = flask}:within(nil, 1)() <= 1  --> true)"},
 };
 
-static const Entry operators[] = {
+static const Entry energy_operators[] = {
     {"__add", guarded<add>, ""},
     {"__mul", guarded<multiply>, ""},
     {"__call", guarded<call>, ""},
-    {"__tostring", guarded<text>, ""},
+    {"__tostring", guarded<energy_text>, ""},
 };
 
 const Library energy_library{
@@ -399,14 +399,14 @@ const Library energy_library{
         "number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions "
         "of a script among "
         "them. Distances count in millimetres, so that the numbers are those of GraspIt!.",
-    .functions = functions};
+    .functions = energy_functions};
 
 const Class energy_class{
     .name = "energy",
     .variable = "energy",
     .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
-    .fields = fields,
-    .methods = methods,
-    .operators = operators};
+    .fields = energy_fields,
+    .methods = energy_methods,
+    .operators = energy_operators};
 
 }  // namespace clench

@@ -14,7 +14,7 @@ static int set_name(lua_State* L) {
   return 0;
 }
 
-static int set_pose(lua_State* L) {
+static int set_body_pose(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   body.world->set_pose(body.id, check_pose(L, 2));
   return 0;
@@ -32,7 +32,7 @@ static int get_robot(lua_State* L) {
   return 1;
 }
 
-static int get_bounds(lua_State* L) {
+static int get_body_bounds(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   if (!body->shape) {
     lua_pushnil(L);
@@ -45,7 +45,7 @@ static int get_bounds(lua_State* L) {
   return 1;
 }
 
-static int get_tracker(lua_State* L) {
+static int get_body_tracker(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   if (body->tracker) return push(L, *body->tracker);
   lua_pushnil(L);
@@ -63,23 +63,23 @@ int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
   return 1;
 }
 
-static int move_to(lua_State* L) {
+static int body_move_to(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   return push_move(L, body.world, move_body(*body.world, body.id, check_pose(L, 2, "pose")));
 }
 
-static int text(lua_State* L) {
+static int body_text(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   if (!body.world->alive(body.id)) return push(L, "removed body");
   return push(L, fmt::format("{} '{}'", kind_name(body->kind), body->name));
 }
 
-static int equal(lua_State* L) {
+static int body_equal(lua_State* L) {
   const auto *a = to<BodyHandle>(L, 1), *b = to<BodyHandle>(L, 2);
   return push(L, a && b && a->world == b->world && a->id == b->id);
 }
 
-static const Entry fields[] = {
+static const Entry body_fields[] = {
     {"name", getter<[](const BodyHandle& x) { return x->name; }>, R"(
 Unique in its world.
 @type string
@@ -92,7 +92,7 @@ move with the robot.
 @type pose
 > flask.pose = {xyz = {0, 0, 1}}
 > flask.pose.position  --> (0, 0, 1))",
-     guarded<set_pose>},
+     guarded<set_body_pose>},
     {"kind", getter<[](const BodyHandle& x) { return kind_name(x->kind); }>, R"(
 "object", "obstacle", "base", "link" or "mount".
 @type string
@@ -101,7 +101,7 @@ move with the robot.
 The robot that it is a part of; nil for objects and obstacles.
 @type robot?
 > hand.links[1].robot == hand  --> true)"},
-    {"bounds_in_world", guarded<get_bounds>, R"(
+    {"bounds_in_world", guarded<get_body_bounds>, R"(
 Least and largest coordinates of its surface in the world frame; nil when it has none.
 @type {low: vec3, high: vec3}?  [m]
 > box = world:add_object(clench.shapes.box {1, 2, 4}, {pose = {xyz = {9, 0, 0}, rpy = {0, 0, clench.rad(90)}}})
@@ -110,14 +110,14 @@ Least and largest coordinates of its surface in the world frame; nil when it has
 File that it was read from; empty when it was made by a script.
 @type string
 > world:add_object(clench.shapes.box {1, 1, 1}).source == ""  --> true)"},
-    {"tracker", guarded<get_tracker>, R"(
+    {"tracker", guarded<get_body_tracker>, R"(
 Number of the position sensor that is to move it; nil when its file names none.
 @type integer?
 > flask.tracker  --> nil)"},
 };
 
-static const Entry methods[] = {
-    {"move_to", guarded<move_to>, R"(
+static const Entry body_methods[] = {
+    {"move_to", guarded<body_move_to>, R"(
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
 remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
 @param pose pose
@@ -128,9 +128,9 @@ remains is within the contact threshold. One that starts in contact may slide or
 > world:distance(cube, floor) <= world.contact_threshold  --> true)"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
-    {"__eq", guarded<equal>, ""},
+static const Entry body_operators[] = {
+    {"__tostring", guarded<body_text>, ""},
+    {"__eq", guarded<body_equal>, ""},
 };
 
 const Class body_class{.name = "body",
@@ -138,9 +138,9 @@ const Class body_class{.name = "body",
                        .doc =
                            "A rigid body in a world: an object, an "
                            "obstacle, or a part of a robot.",
-                       .fields = fields,
-                       .methods = methods,
-                       .operators = operators,
+                       .fields = body_fields,
+                       .methods = body_methods,
+                       .operators = body_operators,
                        .parent = &motion_class};
 
 }  // namespace clench

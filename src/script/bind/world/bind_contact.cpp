@@ -83,7 +83,7 @@ static int fit_patch(lua_State* L) {
   return push_patch(L, c.contact, std::move(patch));
 }
 
-static int text(lua_State* L) {
+static int contact_text(lua_State* L) {
   const auto& c = self<ContactHandle>(L);
   const Eigen::Vector3d& p = c.contact.p_W;
   const auto name = [&](Id<Body> id) {
@@ -122,7 +122,7 @@ static int get_other_feature(lua_State* L) {
   return push_feature(L, self<ContactHandle>(L).contact.other_feature);
 }
 
-static const Entry fields[] = {
+static const Entry contact_fields[] = {
     {"body", getter<[](const ContactHandle& c) {
        return BodyHandle{c.world, c.contact.body};
      }>,
@@ -201,7 +201,7 @@ whose neighbourhoods overlap have one patch. A corner or an edge is logged as a 
 > world:contacts(hand, flask)[1].patch.radius < 0.004  --> true)"},
 };
 
-static const Entry methods[] = {
+static const Entry contact_methods[] = {
     {"fit_patch", guarded<fit_patch>, R"(
 The patch of a soft contact by options of one's own; nil of others.
 @param options? {radius?: number, max_radius?: number, fit?: string}  radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; max_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
@@ -211,8 +211,8 @@ The patch of a soft contact by options of one's own; nil of others.
 > world:contacts(hand, flask)[1]:fit_patch{fit = "jets"}  --> error: did you mean 'jet'?)"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
+static const Entry contact_operators[] = {
+    {"__tostring", guarded<contact_text>, ""},
 };
 
 const Class contact_class{.name = "contact",
@@ -220,8 +220,8 @@ const Class contact_class{.name = "contact",
                           .doc =
                               "A point where one body touches another, as "
                               "it was when it was asked for.",
-                          .fields = fields,
-                          .methods = methods,
-                          .operators = operators};
+                          .fields = contact_fields,
+                          .methods = contact_methods,
+                          .operators = contact_operators};
 
 }  // namespace clench

@@ -198,7 +198,7 @@ static int move_dofs(lua_State* L) {
   return push_drive(L, robot.world, drive_to(*robot.world, robot.id, targets, driving));
 }
 
-static const Entry fields[] = {
+static const Entry dofs_fields[] = {
     {"dofs", guarded<get_dofs>, R"(
 Values of its degrees of freedom; a list of its own, set as by set_dofs.
 @type number[]  [rad or m]
@@ -229,7 +229,7 @@ Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 > hand.dof_names[1]  --> dof1)"},
 };
 
-static const Entry methods[] = {
+static const Entry dofs_methods[] = {
     {"set_dofs", guarded<set_dofs>, R"(
 Sets DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their
 springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
@@ -279,8 +279,8 @@ const Class dofs_class{.name = "dofs",
                        .doc =
                            "What every robot can do with its degrees of freedom: set them, drive "
                            "them, close and open.",
-                       .fields = fields,
-                       .methods = methods,
+                       .fields = dofs_fields,
+                       .methods = dofs_methods,
                        .parent = &kinematics_class};
 
 }  // namespace clench

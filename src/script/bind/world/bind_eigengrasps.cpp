@@ -89,7 +89,7 @@ static int get_count(lua_State* L) { return push(L, ready(L).size()); }
 static int get_vectors(lua_State* L) { return push_rows(L, ready(L).vectors()); }
 static int get_eigenvalues(lua_State* L) { return push_vector(L, ready(L).eigenvalues()); }
 static int get_origin(lua_State* L) { return push_vector(L, ready(L).origin()); }
-static int get_norm(lua_State* L) { return push_vector(L, ready(L).norm()); }
+static int get_eigengrasps_norm(lua_State* L) { return push_vector(L, ready(L).norm()); }
 
 static int push_ranges(lua_State* L, const std::vector<Range>& ranges) {
   return push_list_of(L, ranges, [L](const Range& range) { push_numbers(L, range); });
@@ -104,7 +104,7 @@ static int get_limits(lua_State* L) {
 
 static int get_range(lua_State* L) { return push_ranges(L, ready(L).range()); }
 
-static int get_hand(lua_State* L) {
+static int get_eigengrasps_hand(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
   if (handle.robot.world) return push(L, handle.robot);
   lua_pushnil(L);
@@ -133,14 +133,14 @@ static int dofs(lua_State* L) {
   return push_vector(L, from ? grasps.posture(amplitudes, *from) : grasps.posture(amplitudes));
 }
 
-static int save(lua_State* L) {
+static int eigengrasps_save(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
   write_eigengrasps(handle.value(), check_string(L, 2, "path"),
                     [L](const std::string& message) { log_warning(L, message); });
   return 0;
 }
 
-static int text(lua_State* L) {
+static int eigengrasps_text(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
   if (handle.robot.world && !handle.robot.world->alive(handle.robot.id))
     return push(L, "eigengrasps of a removed robot");
@@ -151,7 +151,7 @@ static int text(lua_State* L) {
 
 // --- tables ---
 
-static const Entry functions[] = {
+static const Entry eigengrasps_functions[] = {
     {"eigengrasps", guarded<make>, R"(
 A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or
 `vectors`, which are made unit. Of each principal component the largest entry is positive, and its eigenvalue is the
@@ -165,7 +165,7 @@ variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengr
 > clench.eigengrasps{postures = {{0, 0}}}  --> error: expected at least 2 postures, got 1)"},
 };
 
-static const Entry fields[] = {
+static const Entry eigengrasps_fields[] = {
     {"vectors", guarded<get_vectors>, R"(
 A unit vector for each eigengrasp, one number per DOF.
 @type number[][]
@@ -179,7 +179,7 @@ Weight of each eigengrasp: of principal components the variance of the postures 
 The posture of zero amplitudes, within the DOF limits. Where no file says it, the middle of the limits.
 @type number[]  [rad or m]
 > #hand.eigengrasps.origin  --> 12)"},
-    {"norm", guarded<get_norm>, R"(
+    {"norm", guarded<get_eigengrasps_norm>, R"(
 Scale of the vectors' entries, one per DOF.
 @type number[]
 > clench.eigengrasps{vectors = {{1, 1}}}.norm  --> {1.0, 1.0})"},
@@ -195,7 +195,7 @@ Range of each amplitude overall: what its file says, else the least and largest 
 @type number[][]  {least, largest} each
 > range = hand.eigengrasps.range[1]
 > range[1] < range[2]  --> true)"},
-    {"hand", guarded<get_hand>, R"(
+    {"hand", guarded<get_eigengrasps_hand>, R"(
 The hand whose set it is; nil for a set by itself.
 @type robot?
 > hand.eigengrasps.hand == hand  --> true
@@ -215,7 +215,7 @@ How many there are, as # says.
 > clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
 };
 
-static const Entry methods[] = {
+static const Entry eigengrasps_methods[] = {
     {"amplitudes", guarded<amplitudes>, R"(
 Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
 @param dofs? number[]  [rad or m]
@@ -233,15 +233,15 @@ amplitudes is kept.
 > set:dofs{2, 5}  --> {2.0, 3.0, 4.0}
 > set:dofs({2, 5}, {from = {0, 4, -3}})  --> {2.0, 7.0, 1.0}
 > set:dofs{1}  --> error: expected 2 amplitudes, got 1)"},
-    {"save", guarded<save>, R"(
+    {"save", guarded<eigengrasps_save>, R"(
 Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
 @param path string
 > hand.eigengrasps:save "eigengrasps.doc"  --> error: expected a file of eigengrasps, .egr or .xml, got '.doc')"},
 };
 
-static const Entry operators[] = {
+static const Entry eigengrasps_operators[] = {
     {"__len", guarded<get_count>, ""},
-    {"__tostring", guarded<text>, ""},
+    {"__tostring", guarded<eigengrasps_text>, ""},
 };
 
 const Class eigengrasps_class{
@@ -250,10 +250,10 @@ const Class eigengrasps_class{
     .doc =
         "A few postures whose sums are a hand's: each posture is an origin "
         "and an amplitude for each eigengrasp.",
-    .fields = fields,
-    .methods = methods,
-    .operators = operators};
+    .fields = eigengrasps_fields,
+    .methods = eigengrasps_methods,
+    .operators = eigengrasps_operators};
 
-const Library eigengrasps_library{.name = "clench", .doc = "", .functions = functions};
+const Library eigengrasps_library{.name = "clench", .doc = "", .functions = eigengrasps_functions};
 
 }  // namespace clench

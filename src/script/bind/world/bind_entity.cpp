@@ -125,7 +125,7 @@ static int set_poisson_ratio(lua_State* L) {
   return 0;
 }
 
-static int get_contacts(lua_State* L) {
+static int get_entity_contacts(lua_State* L) {
   const auto body = self_body(L);
   const std::array on{body.id};
   return push_contacts(L, body.world, contacts(*body.world, body.world->bodies(), on));
@@ -158,7 +158,7 @@ static int set_transparency(lua_State* L) {
   return 0;
 }
 
-static const Entry fields[] = {
+static const Entry entity_fields[] = {
     {"world", guarded<get_world>, R"(
 The world that it is in.
 @type world
@@ -231,7 +231,7 @@ Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / 
 > flask.poisson_ratio  --> 0.0
 > flask.poisson_ratio = 0.5  --> error: expected a number from 0 to 0.499999, got 0.5)",
      guarded<set_poisson_ratio>},
-    {"contacts", guarded<get_contacts>, R"(
+    {"contacts", guarded<get_entity_contacts>, R"(
 Contacts of other bodies with it now.
 @type contact[]
 > #flask.contacts == #world:contacts(hand, flask)  --> true)"},
@@ -254,7 +254,7 @@ const Class entity_class{.name = "entity",
                          .doc =
                              "What bodies and robots have in common; a robot "
                              "has what its base has.",
-                         .fields = fields,
+                         .fields = entity_fields,
                          .methods = {}};
 
 }  // namespace clench

@@ -213,7 +213,7 @@ static int get_glove(lua_State* L) {
   return 1;
 }
 
-static int get_tracker(lua_State* L) {
+static int get_hand_tracker(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   if (!robot->tracker) {
     lua_pushnil(L);
@@ -315,7 +315,7 @@ static int get_actuators(lua_State* L) {
 
 // --- tables ---
 
-static const Entry fields[] = {
+static const Entry hand_fields[] = {
     {"eigengrasps", guarded<get_eigengrasps>, R"(
 Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 @type eigengrasps
@@ -352,7 +352,7 @@ Calibration of the data glove that its file names: `slopes` (a row per DOF, a nu
 DOF = intercept + slopes * raw. nil when there is none.
 @type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
 > hand.glove  --> nil)"},
-    {"tracker", guarded<get_tracker>, R"(
+    {"tracker", guarded<get_hand_tracker>, R"(
 Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 @type {number: integer, pose: pose}?
 > hand.tracker  --> nil)"},
@@ -380,7 +380,7 @@ no effect.
 > #hand.tactile_sensors  --> 0)"},
 };
 
-static const Entry methods[] = {
+static const Entry hand_methods[] = {
     {"set_amplitudes", guarded<set_amplitudes>, R"(
 Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
 @param amplitudes number[]
@@ -431,8 +431,8 @@ const Class hand_class{.name = "hand",
                        .doc =
                            "What every robot has for grasping: eigengrasps, virtual contacts, a "
                            "glove, a position sensor.",
-                       .fields = fields,
-                       .methods = methods,
+                       .fields = hand_fields,
+                       .methods = hand_methods,
                        .parent = &robot_dynamics_class};
 
 }  // namespace clench

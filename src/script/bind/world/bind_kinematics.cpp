@@ -68,7 +68,7 @@ static int random_posture(lua_State* L) {
       L, clench::random_posture(*robot.world, robot.id, check_object<Random>(L, 2, "random")));
 }
 
-static const Entry methods[] = {
+static const Entry kinematics_methods[] = {
     {"ik", guarded<ik>, R"(
 Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. Where none are
 found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
@@ -107,7 +107,7 @@ const Class kinematics_class{.name = "kinematics",
                                  "What every robot knows of where its DOFs take its links: inverse "
                                  "kinematics and Jacobians.",
                              .fields = {},
-                             .methods = methods,
+                             .methods = kinematics_methods,
                              .parent = &hand_class};
 
 }  // namespace clench

@@ -26,7 +26,7 @@ static int is_watertight(lua_State* L) { return push(L, shape_of(L).closed()); }
 
 static int get_centroid(lua_State* L) { return push(L, shape_of(L).solid().centroid); }
 
-static int get_bounds(lua_State* L) {
+static int get_mesh_bounds(lua_State* L) {
   push_list(L, 0, 2);
   set_field(L, "low", shape_of(L).bounds().low);
   set_field(L, "high", shape_of(L).bounds().high);
@@ -93,12 +93,12 @@ static int sample(lua_State* L) {
   return 1;
 }
 
-static int save(lua_State* L) {
+static int mesh_save(lua_State* L) {
   write_mesh(shape_of(L).mesh(), check_string(L, 2, "path"));
   return 0;
 }
 
-static int text(lua_State* L) {
+static int mesh_text(lua_State* L) {
   const Shape& shape = shape_of(L);
   const Eigen::Vector3d size = shape.bounds().size();
   return push(L, fmt::format("mesh of {} triangles, {:.4g} x {:.4g} x {:.4g} m, {}",
@@ -106,12 +106,12 @@ static int text(lua_State* L) {
                              shape.faults().describe()));
 }
 
-static int equal(lua_State* L) {
+static int mesh_equal(lua_State* L) {
   const auto *a = to<ShapePtr>(L, 1), *b = to<ShapePtr>(L, 2);
   return push(L, a && b && *a == *b);
 }
 
-static const Entry fields[] = {
+static const Entry mesh_fields[] = {
     {"triangle_count", guarded<get_triangle_count>, R"(
 How many triangles it has.
 @type integer
@@ -120,7 +120,7 @@ How many triangles it has.
 How many vertices it has.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.vertex_count  --> 8)"},
-    {"bounds", guarded<get_bounds>, R"(
+    {"bounds", guarded<get_mesh_bounds>, R"(
 Axis-aligned bounds in the body frame.
 @type {low: vec3, high: vec3}  [m]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.bounds.high  --> (0.5, 1, 2))"},
@@ -150,7 +150,7 @@ A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
 > #world:add_object(clench.shapes.box {1, 1, 1}).mesh.triangles  --> 12)"},
 };
 
-static const Entry methods[] = {
+static const Entry mesh_methods[] = {
     {"is_watertight", guarded<is_watertight>, R"(
 Does the surface bound a solid: every edge between two triangles that agree?
 @return boolean
@@ -173,7 +173,7 @@ Points of the surface at random, each piece of it as likely as its area, with th
 @return {point: vec3, normal: vec3, triangle: integer}[]  [m]
 > points = flask.mesh:sample(clench.random(1), 3)
 > #points, flask.mesh:closest_point(points[1].point).distance < 1e-9  --> 3, true)"},
-    {"save", guarded<save>, R"(
+    {"save", guarded<mesh_save>, R"(
 Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
 @param path string  .obj .off .ply .stl
 > path = os.tmpname() .. ".obj"
@@ -183,9 +183,9 @@ Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
 > flask.mesh:save "flask.glb"  --> error: flask.glb: expected a mesh to .obj, .off, .ply or .stl, got '.glb')"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
-    {"__eq", guarded<equal>, ""},
+static const Entry mesh_operators[] = {
+    {"__tostring", guarded<mesh_text>, ""},
+    {"__eq", guarded<mesh_equal>, ""},
 };
 
 const Class mesh_class{.name = "mesh",
@@ -193,8 +193,8 @@ const Class mesh_class{.name = "mesh",
                        .doc =
                            "The triangles of a body's surface. Meshes never "
                            "change, and clones of a world share them.",
-                       .fields = fields,
-                       .methods = methods,
-                       .operators = operators};
+                       .fields = mesh_fields,
+                       .methods = mesh_methods,
+                       .operators = mesh_operators};
 
 }  // namespace clench

@@ -56,7 +56,7 @@ static int get_directions(lua_State* L) {
   });
 }
 
-static int get_points(lua_State* L) {
+static int get_patch_points(lua_State* L) {
   const auto& p = self<PatchHandle>(L);
   return push_sides(L, [&](int side) {
     push_list_of(L, p.patch->points[side],
@@ -106,7 +106,7 @@ static int patch_text(lua_State* L) {
                      patch.relative_radii[1], patch.at_edge ? ", on a corner or an edge" : ""));
 }
 
-static const Entry fields[] = {
+static const Entry patch_fields[] = {
     {"relative_radii", guarded<get_relative_radii>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
 Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands
@@ -135,7 +135,7 @@ Of the relative radii: unit, orthogonal to each other and to the contact's norma
 The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighbourhoods overlap.
 @type vec3  [m]
 > (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},
-    {"points", guarded<get_points>, R"(
+    {"points", guarded<get_patch_points>, R"(
 What was fitted: points of both surfaces, in the world frame.
 @type {body: vec3[], other: vec3[]}  [m]
 > #patch.points.other > 100  --> true)"},
@@ -154,7 +154,7 @@ touches.
 > patch.at_edge  --> false)"},
 };
 
-static const Entry methods[] = {
+static const Entry patch_methods[] = {
     {"ellipse", guarded<ellipse>, R"(
 Where the bodies press on each other, after the bed-of-springs model (Winkler foundation): its semi-axes along
 `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric
@@ -175,7 +175,7 @@ The largest torque about the normal that the contact resists, at rest: mu F time
 > patch:torsion_limit{force = 10} > patch:torsion_limit{force = 5}  --> true)"},
 };
 
-static const Entry operators[] = {
+static const Entry patch_operators[] = {
     {"__tostring", guarded<patch_text>, ""},
 };
 
@@ -184,8 +184,8 @@ const Class patch_class{.name = "patch",
                         .doc =
                             "The surfaces of two bodies around a soft contact, and the torsional "
                             "friction that it transmits.",
-                        .fields = fields,
-                        .methods = methods,
-                        .operators = operators};
+                        .fields = patch_fields,
+                        .methods = patch_methods,
+                        .operators = patch_operators};
 
 }  // namespace clench

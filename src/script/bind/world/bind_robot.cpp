@@ -11,13 +11,13 @@
 
 namespace clench {
 
-static int set_pose(lua_State* L) {
+static int set_robot_pose(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   robot.world->set_pose(robot.id, check_pose(L, 2));
   return 0;
 }
 
-static int get_bodies(lua_State* L) {
+static int get_robot_bodies(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   push_bodies(L, robot.world, robot.world->bodies_of(robot.id));
   return set_finder(L, "world:body", body_class);
@@ -29,7 +29,7 @@ static std::vector<Id<Body>> links_of(const Robot& robot) {
   return links;
 }
 
-static int get_links(lua_State* L) {
+static int get_robot_links(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   push_bodies(L, robot.world, links_of(*robot));
   return set_finder(L, "hand:link", body_class);
@@ -112,7 +112,7 @@ static int link(lua_State* L) {
   return push(L, BodyHandle{robot.world, find_link(robot, check_string(L, 2, "name"), subject(L))});
 }
 
-static int move_to(lua_State* L) {
+static int robot_move_to(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   return push_move(L, robot.world, move_robot(*robot.world, robot.id, check_pose(L, 2, "pose")));
 }
@@ -171,19 +171,19 @@ static int mount_on(lua_State* L) {
   return 0;
 }
 
-static int text(lua_State* L) {
+static int robot_text(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   if (!robot.world->alive(robot.id)) return push(L, "removed robot");
   return push(L, fmt::format("robot '{}' of {} DOFs, {} chains, {} links", robot->name,
                              robot->dofs.size(), robot->chains.size(), links_of(*robot).size()));
 }
 
-static int equal(lua_State* L) {
+static int robot_equal(lua_State* L) {
   const auto *a = to<RobotHandle>(L, 1), *b = to<RobotHandle>(L, 2);
   return push(L, a && b && a->world == b->world && a->id == b->id);
 }
 
-static const Entry fields[] = {
+static const Entry robot_fields[] = {
     {"name", getter<[](const RobotHandle& x) { return x->name; }>, R"(
 Unique in its world.
 @type string
@@ -193,8 +193,8 @@ Where its base is, in the world frame. Setting it moves the robot at once, with 
 @type pose
 > hand.pose = {xyz = {0, 0, 1}}
 > hand.base.pose.position  --> (0, 0, 1))",
-     guarded<set_pose>},
-    {"links", guarded<get_links>, R"(
+     guarded<set_robot_pose>},
+    {"links", guarded<get_robot_links>, R"(
 Its links, chain by chain, without the base.
 @type body[]
 > #hand.links  --> 12)"},
@@ -214,7 +214,7 @@ m^2 or kg], of joints that have them).
 Its base: palm or stand.
 @type body
 > hand.base.kind  --> base)"},
-    {"bodies", guarded<get_bodies>, R"(
+    {"bodies", guarded<get_robot_bodies>, R"(
 Base, links, and mount if it has one.
 @type body[]
 > #hand.bodies  --> 13)"},
@@ -241,14 +241,14 @@ Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration
 > type(hand.files)  --> table)"},
 };
 
-static const Entry methods[] = {
+static const Entry robot_methods[] = {
     {"link", guarded<link>, R"(
 A link, or the base, by its name, whole or without the robot's.
 @param name string
 @return body
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
-    {"move_to", guarded<move_to>, R"(
+    {"move_to", guarded<robot_move_to>, R"(
 Moves the whole robot until it first touches something, as a body's move_to.
 @param pose pose
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
@@ -277,9 +277,9 @@ Takes the robot off the one that carries it: it stays where it is, without its a
 > hand:dismount()  --> error: is carried by nobody)"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
-    {"__eq", guarded<equal>, ""},
+static const Entry robot_operators[] = {
+    {"__tostring", guarded<robot_text>, ""},
+    {"__eq", guarded<robot_equal>, ""},
 };
 
 const Class robot_class{.name = "robot",
@@ -287,9 +287,9 @@ const Class robot_class{.name = "robot",
                         .doc =
                             "A hand or an arm: a base, chains of links, and "
                             "the degrees of freedom that move them.",
-                        .fields = fields,
-                        .methods = methods,
-                        .operators = operators,
+                        .fields = robot_fields,
+                        .methods = robot_methods,
+                        .operators = robot_operators,
                         .parent = &dofs_class};
 
 }  // namespace clench

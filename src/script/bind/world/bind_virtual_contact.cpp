@@ -121,7 +121,7 @@ static int get_normal(lua_State* L) {
   const Pose frame = frame_of(self<VirtualContactHandle>(L));
   return push(L, Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
 }
-static int get_edges(lua_State* L) {
+static int get_virtual_contact_edges(lua_State* L) {
   return push_rows(L, self<VirtualContactHandle>(L).contact.edges.transpose());
 }
 
@@ -135,7 +135,7 @@ static int get_kind(lua_State* L) {
   return push(L, torsion_radius(contact) > 0 ? "soft" : "point");
 }
 
-static int text(lua_State* L) {
+static int virtual_contact_text(lua_State* L) {
   const auto& c = self<VirtualContactHandle>(L);
   if (!c.robot.world->alive(c.robot.id)) return push(L, "virtual contact of a removed robot");
   const Eigen::Vector3d p = frame_of(c).position;
@@ -143,7 +143,7 @@ static int text(lua_State* L) {
                              p.x(), p.y(), p.z()));
 }
 
-static const Entry fields[] = {
+static const Entry virtual_contact_fields[] = {
     {"link", getter<[](const VirtualContactHandle& x) { return link_of(x); }>, R"(
 The link that it lies on, or the base.
 @type body
@@ -175,7 +175,7 @@ Contact frame in the link's.
 Coulomb coefficient that it counts with.
 @type number
 > hand.virtual_contacts[1].mu > 0  --> true)"},
-    {"edges", guarded<get_edges>, R"(
+    {"edges", guarded<get_virtual_contact_edges>, R"(
 What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
 @type number[][]  torques [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
@@ -194,8 +194,8 @@ Largest torque about the normal that a unit normal force carries, over mu; 0 for
 > hand.virtual_contacts[1].kind  --> point)"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
+static const Entry virtual_contact_operators[] = {
+    {"__tostring", guarded<virtual_contact_text>, ""},
 };
 
 const Class virtual_contact_class{.name = "virtual_contact",
@@ -203,8 +203,8 @@ const Class virtual_contact_class{.name = "virtual_contact",
                                   .doc =
                                       "A place on a link where a hand would like to touch what it "
                                       "grasps; it moves with the link.",
-                                  .fields = fields,
+                                  .fields = virtual_contact_fields,
                                   .methods = {},
-                                  .operators = operators};
+                                  .operators = virtual_contact_operators};
 
 }  // namespace clench

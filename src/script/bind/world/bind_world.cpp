@@ -16,8 +16,6 @@
 
 namespace clench {
 
-static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
-
 // --- making ---
 
 static int new_world(lua_State* L) {
@@ -91,7 +89,7 @@ static int remove(lua_State* L) {
 
 // --- finding ---
 
-static int get_bodies(lua_State* L) {
+static int get_world_bodies(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
   push_bodies(L, handle.world, handle.world->bodies());
   return set_finder(L, "world:body", body_class);
@@ -159,7 +157,7 @@ static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L
 
 static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
 
-static int text(lua_State* L) {
+static int world_text(lua_State* L) {
   const World& world = world_of(L);
   const auto several = [](size_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
@@ -168,7 +166,7 @@ static int text(lua_State* L) {
                              several(world.robots().size(), "robot", "robots")));
 }
 
-static int equal(lua_State* L) {
+static int world_equal(lua_State* L) {
   const auto *a = to<WorldHandle>(L, 1), *b = to<WorldHandle>(L, 2);
   return push(L, a && b && a->world == b->world);
 }
@@ -180,7 +178,7 @@ static int snapshot_text(lua_State* L) {
 
 // --- tables ---
 
-static const Entry functions[] = {
+static const Entry world_functions[] = {
     {"world", guarded<new_world>, R"(
 An empty world.
 @param options? {contact_threshold?: number, gravity?: vec3, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}}  contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; gravity: {0, 0, -9.81} by default [m/s^2]; dynamics: as of world.dynamics
@@ -201,8 +199,8 @@ of a robot or a body comes a world with that one thing in it.
 > clench.load("no/such.wld")  --> error: no/such.wld)"},
 };
 
-static const Entry fields[] = {
-    {"bodies", guarded<get_bodies>, R"(
+static const Entry world_fields[] = {
+    {"bodies", guarded<get_world_bodies>, R"(
 All bodies in creation order: objects, obstacles, robot bases, links, mounts.
 @type body[]
 > world.bodies[1] ~= nil  --> true)"},
@@ -224,7 +222,7 @@ File that the world was loaded from; empty when it was made by a script.
 > clench.world().source == ""  --> true)"},
 };
 
-static const Entry methods[] = {
+static const Entry world_methods[] = {
     {"body", guarded<body>, R"(
 The body of a name.
 @param name string
@@ -298,25 +296,25 @@ Fingerprint of the state: equal bits, equal text.
 > #world:hash()  --> 16)"},
 };
 
-static const Entry operators[] = {
-    {"__tostring", guarded<text>, ""},
-    {"__eq", guarded<equal>, ""},
+static const Entry world_operators[] = {
+    {"__tostring", guarded<world_text>, ""},
+    {"__eq", guarded<world_equal>, ""},
 };
 
 static const Entry snapshot_operators[] = {
     {"__tostring", guarded<snapshot_text>, ""},
 };
 
-const Library world_library{.name = "clench", .doc = "", .functions = functions};
+const Library world_library{.name = "clench", .doc = "", .functions = world_functions};
 
 const Class world_class{.name = "world",
                         .variable = "world",
                         .doc =
                             "Bodies and robots, what may collide with what, "
                             "friction. Lists are in creation order.",
-                        .fields = fields,
-                        .methods = methods,
-                        .operators = operators,
+                        .fields = world_fields,
+                        .methods = world_methods,
+                        .operators = world_operators,
                         .parent = &world_queries_class};
 
 const Class snapshot_class{

@@ -71,7 +71,7 @@ static int find_contacts(lua_State* L) {
 
 // --- tables ---
 
-static const Entry methods[] = {
+static const Entry world_queries_methods[] = {
     {"raycast", guarded<cast>, R"(
 What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
 @param origin vec3
@@ -118,7 +118,7 @@ const Class world_queries_class{
         "What every world answers: what collides, how far things are apart, where "
         "they touch, what a ray meets.",
     .fields = {},
-    .methods = methods,
+    .methods = world_queries_methods,
     .parent = &world_dynamics_class};
 
 }  // namespace clench

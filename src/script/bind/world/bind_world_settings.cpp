@@ -11,8 +11,6 @@
 
 namespace clench {
 
-static World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
-
 // --- what may collide ---
 
 static int set_collision(lua_State* L) {
@@ -179,7 +177,7 @@ static int add_keyframe(lua_State* L) {
 
 // --- tables ---
 
-static const Entry fields[] = {
+static const Entry world_settings_fields[] = {
     {"contact_threshold", guarded<get_contact_threshold>, R"(
 Surfaces closer than this touch; motion stops with a gap below it.
 @type number  [m]
@@ -212,7 +210,7 @@ Names of its named states, those of its file first; `set_keyframe` goes there.
 > #world.keyframes  --> 0)"},
 };
 
-static const Entry methods[] = {
+static const Entry world_settings_methods[] = {
     {"set_collision", guarded<set_collision>, R"(
 Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
 @param on boolean
@@ -266,7 +264,7 @@ const Class world_settings_class{
     .doc =
         "What holds for all of a world: friction of materials, what may collide, "
         "gravity, its camera, its named states.",
-    .fields = fields,
-    .methods = methods};
+    .fields = world_settings_fields,
+    .methods = world_settings_methods};
 
 }  // namespace clench

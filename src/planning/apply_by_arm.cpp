@@ -1,0 +1,33 @@
+#include "clench/planning/apply_by_arm.h"
+
+#include "clench/base/error.h"
+#include "clench/motion/inverse_kinematics.h"
+
+namespace clench {
+
+void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object) {
+  const Robot& robot = world.robot(hand);
+  if (!grasp.X_OH || !robot.mounting || world.robot(robot.mounting->parent).dofs.empty() ||
+      stands_as_grasped(world, grasp, hand, object))
+    return apply_grasp(world, grasp, hand, object);
+  constexpr double exact = 1e-9;  // [m], [rad]
+  const auto arm = robot.mounting->parent;
+  const Eigen::VectorXd before = world.dofs(arm);
+  const IkResult found =
+      inverse_kinematics(world, arm, robot.base, world.pose(object) * *grasp.X_OH,
+                         {.tolerance = exact, .angle_tolerance = exact}, &world.context());
+  if (!found.reached)
+    fail(
+        "grasp of {} by {}: '{}' cannot bring the hand there; at best it stands {:.3g} m and "
+        "{:.3g} rad away",
+        world.body(object).name, robot.name, world.robot(arm).name, found.distance, found.angle);
+  if (found.dofs != before) world.set_dofs(arm, found.dofs);
+  try {
+    apply_grasp(world, grasp, hand, object);
+  } catch (const Error&) {
+    world.set_dofs(arm, before);
+    throw;
+  }
+}
+
+}  // namespace clench
