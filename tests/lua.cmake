@@ -35,8 +35,8 @@ add_executable(recompute_epsilon app/recompute_epsilon.cpp bench/peer_qhull.cpp)
 target_include_directories(recompute_epsilon PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 pkg_check_modules(EIGEN REQUIRED IMPORTED_TARGET eigen3)
 target_link_libraries(recompute_epsilon PRIVATE PkgConfig::EIGEN nlohmann_json::nlohmann_json PkgConfig::QHULL_R)
-set_source_files_properties(${app_sources} PROPERTIES COMPILE_DEFINITIONS
-  "CLENCH_COMMAND=\"$<TARGET_FILE:clench_app>\";RECOMPUTE_EPSILON=\"$<TARGET_FILE:recompute_epsilon>\"")
+target_compile_definitions(test_app PRIVATE
+  CLENCH_COMMAND="$<TARGET_FILE:clench_app>" RECOMPUTE_EPSILON="$<TARGET_FILE:recompute_epsilon>")
 add_dependencies(test_app clench_app recompute_epsilon)
 if(CLENCH_SANITIZE)
   lua_test(test_app test_app)
