@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int max_primitive_visits = 100'000;  // of nodes, shared ones each time
-constexpr size_t max_found = 10'000;
+constexpr size_t max_found = 10'000;           // primitives
 constexpr double digits =
     1e-4;  // matrices of scene graphs have six digits, and several are multiplied
 

@@ -33,12 +33,6 @@ MassProperties solid_of(const GeometryPiece& piece) {
   return piece.solid ? *piece.solid : solid_mass(piece.geometry->mesh);
 }
 
-double size_of(const Mesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : mesh.vertices) box.extend(p);
-  return box.isEmpty() ? 0 : box.sizes().maxCoeff();
-}
-
 /// Equal for pieces that make equal shapes.
 static std::string key_of(const std::vector<GeometryPiece>& pieces) {
   std::string key;

@@ -7,7 +7,7 @@
 namespace clench {
 
 // (name, hooks, ...) -> a handle: a function of stdlib/dynamics/hooks.lua
-static int call_hook(lua_State* L) {
+static int call_hooks_module(lua_State* L) {
   push_packed(L, "dynamics.hooks");
   lua_pushvalue(L, 1);
   lua_rawget(L, -2);
@@ -22,7 +22,7 @@ static int call_hook(lua_State* L) {
 static int add_hook(lua_State* L, const char* name) {
   const auto& world = self<WorldHandle>(L).world;
   lua_settop(L, 3);
-  lua_pushcfunction(L, guarded<call_hook>);
+  lua_pushcfunction(L, guarded<call_hooks_module>);
   lua_pushstring(L, name);
   push_hooks(L, world, true);
   lua_pushvalue(L, 2);
