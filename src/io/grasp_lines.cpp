@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 static constexpr const char* format_name = "clench grasps";
 static constexpr const char* unit_names = "m, kg, s, rad, N";
-static constexpr int version = 1;
+static constexpr int format_version = 1;
 static constexpr size_t max_grasps = 10'000'000, max_values = 10'000;  // of a list in a grasp
 
 // --- writing ---
@@ -84,7 +84,7 @@ std::string grasp_line(const GraspSpec& grasp) { return line_of(json_of(grasp));
 
 std::string grasps_head() {
   return line_of({{"format", format_name},
-                  {"version", version},
+                  {"version", format_version},
                   {"units", unit_names},
                   {"pose", "of the hand's base in the object's frame; quat is w x y z"}});
 }
@@ -299,8 +299,8 @@ void check_head(const Json& json, const std::string& place) {
   if (!ours)
     Fields::refuse(place, fmt::format("a list of grasps, \"format\": \"{}\"", format_name), json);
   const Json* number = json.contains("version") ? &json["version"] : nullptr;
-  if (!number || *number != version)
-    fail("{}: expected version {}, got {}", place, version,
+  if (!number || *number != format_version)
+    fail("{}: expected version {}, got {}", place, format_version,
          number ? excerpt(number->dump()) : "none");
   if (json.contains("units") && json["units"] != unit_names)
     Fields::refuse(place + ": units", fmt::format("\"{}\"", unit_names), json["units"]);

@@ -13,13 +13,13 @@ static BodySpec read_ply_text(const std::string& content, const ReadOptions& opt
   return read_body(folder.write("q.ply", content), options);
 }
 
-static const std::string points =
+static const std::string vertex_lines =
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 static const std::string faces = "element face 2\nproperty list uchar int vertex_index\n";
 static const std::string point_rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
 
 TEST_CASE("faces, strips and polygons of a PLY file are cut alike") {
-  const std::string head = "ply\nformat ascii 1.0\n" + points;
+  const std::string head = "ply\nformat ascii 1.0\n" + vertex_lines;
   const Mesh two = read_ply_text(head + faces + "end_header\n" + point_rows + "3 0 1 2\n3 2 1 3\n")
                        .shape->mesh();
   const Mesh strip =
@@ -38,7 +38,7 @@ TEST_CASE("faces, strips and polygons of a PLY file are cut alike") {
 
 TEST_CASE("colours of a PLY file stand at its vertices or its faces") {
   const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  const std::string head = "ply\nformat ascii 1.0\n" + points;
+  const std::string head = "ply\nformat ascii 1.0\n" + vertex_lines;
   const Appearance by_face = read_ply_text(head + faces + color + "end_header\n" + point_rows +
                                            "3 0 1 2 255 0 0\n3 0 2 3 0 0 255\n")
                                  .appearance;
@@ -76,21 +76,21 @@ TEST_CASE("what is wrong in the header of a PLY file is told by line") {
   refused("ply\nelem face 1\n", ":2: expected a line of a PLY header, got 'elem'");
   refused("ply\nend_header\n", ":2: expected a line 'format' before end_header");
   refused("ply\nformat ascii 1.0\n", ":2: expected end_header, got the end of the file");
-  refused("ply\nformat ascii 1.0\n" + faces + points + "end_header\n",
+  refused("ply\nformat ascii 1.0\n" + faces + vertex_lines + "end_header\n",
           ": expected the vertices before the faces");
   refused(
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 "
       "0\n",
       ": expected x, y and z of every vertex, got none of 'z'");
-  refused("ply\nformat ascii 1.0\n" + points + points + "end_header\n" + point_rows,
+  refused("ply\nformat ascii 1.0\n" + vertex_lines + vertex_lines + "end_header\n" + point_rows,
           ": expected one element vertex, got two");
-  refused("ply\nformat ascii 1.0\n" + points + "element face 1\nproperty int a\nend_header\n" +
-              point_rows,
+  refused("ply\nformat ascii 1.0\n" + vertex_lines +
+              "element face 1\nproperty int a\nend_header\n" + point_rows,
           ": expected a list vertex_indices of every face, got none");
 }
 
 TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
-  const std::string head = "ply\nformat ascii 1.0\n" + points + faces + "end_header\n";
+  const std::string head = "ply\nformat ascii 1.0\n" + vertex_lines + faces + "end_header\n";
   const auto refused = [&](const std::string& rows, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_ply_text(head + rows), ("q.ply:" + sentence).c_str(), Error);
   };
@@ -105,7 +105,7 @@ TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
   refused(point_rows + "4e9 0 1 2\n",
           "14: expected a count of vertex_index up to 1073741824, got 4000000000");
   Warnings warnings;
-  read_ply_text("ply\nformat ascii 1.0\n" + points + faces +
+  read_ply_text("ply\nformat ascii 1.0\n" + vertex_lines + faces +
                     "element edge 1\nproperty int a\nend_header\n" + point_rows +
                     "3 0 1 2 9\n3 0 1 3\n5\nmore\n",
                 warnings.options());

@@ -23,14 +23,14 @@ class Hand {
   TemporaryFolder folder;
 };
 
-const std::string set = "DIMENSIONS 1\nEG\n0.5\n2\n";
+const std::string eigengrasp_text = "DIMENSIONS 1\nEG\n0.5\n2\n";
 const std::string sites = "hand\n1\n0 0\n0\n0 0 0\n1 0 0 0\n0 0 0\n0 0 1\n0.5\n";
 
 }  // namespace
 
 TEST_CASE("the files that a robot's file names are read with it") {
   Hand hand;
-  hand.folder.write("eigen/a.egr", set);
+  hand.folder.write("eigen/a.egr", eigengrasp_text);
   hand.folder.write("a.vgr", sites);
   hand.folder.write("glove.txt", "1 2\n1 2\n3\n");
   const auto robot =
@@ -75,7 +75,7 @@ TEST_CASE("files that do not fit the robot are refused") {
 
 TEST_CASE("the files that the options choose replace the robot's own, and must exist") {
   Hand hand;
-  hand.folder.write("a.egr", set);
+  hand.folder.write("a.egr", eigengrasp_text);
   const auto chosen = hand.folder.write("b.egr", "DIMENSIONS 1\nEG\n0.5\n3\n");
   ReadOptions options;
   options.eigengrasps = chosen.string();
@@ -91,7 +91,7 @@ TEST_CASE("the files that the options choose replace the robot's own, and must e
 
 TEST_CASE("names are looked up in the folder of the options when the file lies elsewhere") {
   Hand hand;
-  hand.folder.write("a.egr", set);
+  hand.folder.write("a.egr", eigengrasp_text);
   TemporaryFolder elsewhere;
   const auto copy = elsewhere.write("cut.cfg",
                                     "Hand\nbox.iv\n1\nr 1 5e9 1e9 1e7 20\n1\n1\n1\nd0 0 10 0 0 "

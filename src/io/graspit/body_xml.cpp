@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const XmlKnown known = {.once = {"material", "youngs", "normalCompliance", "shearCompliance",
-                                 "useFlockOfBirds", "geometryFile", "geometryScaling",
-                                 "geometryScalingX", "geometryScalingY", "geometryScalingZ",
-                                 "geometryOffset", "mass", "cog", "inertia_matrix"}};
+const XmlKnown known_elements = {
+    .once = {"material", "youngs", "normalCompliance", "shearCompliance", "useFlockOfBirds",
+             "geometryFile", "geometryScaling", "geometryScalingX", "geometryScalingY",
+             "geometryScalingZ", "geometryOffset", "mass", "cog", "inertia_matrix"}};
 
 /// absent  what stands for 0; 0: nothing does
 double number_of(const XmlElement& element, const Quantity& quantity, Repairs& repairs,
@@ -167,7 +167,7 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
 }
 
 BodySpec read_body_element(const XmlElement& element, const fs::path& path, FileCache& cache) {
-  element.check(known, cache.options().warn);
+  element.check(known_elements, cache.options().warn);
   BodySpec body;
   Repairs repairs(cache.options().listeners());
   read_matter(element, cache, repairs, body);
@@ -201,8 +201,9 @@ void check_body_root(const XmlFile& file) {
     if (file.root().name() == other)
       file.root().fail("expected a body, got <{}>", excerpt(file.root().name()));
   const auto children = file.root().children();
-  if (std::ranges::none_of(
-          children, [](const XmlElement& e) { return std::ranges::count(known.once, e.name()); }))
+  if (std::ranges::none_of(children, [](const XmlElement& e) {
+        return std::ranges::count(known_elements.once, e.name());
+      }))
     file.root().fail("expected a body with geometryFile, mass or the like, got <{}> without any",
                      excerpt(file.root().name()));
 }

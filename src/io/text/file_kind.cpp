@@ -50,7 +50,7 @@ struct Root {
 };
 
 // the outermost element of a body is called as its author likes
-constexpr Root roots[] = {
+constexpr Root root_elements[] = {
     {"world", FileKind::world},
     {"robot", FileKind::robot},
     {"mujoco", FileKind::robot},
@@ -158,7 +158,7 @@ FileKind file_kind(const std::filesystem::path& path) {
   const std::string ending = ending_of(path);
   if (ending == ".xml") {
     const std::string text = read_text(path);
-    const Root* root = find(roots, xml_root_name(text));
+    const Root* root = find(root_elements, xml_root_name(text));
     return root ? root->kind : FileKind::body;
   }
   if (const Ending* known = find(known_endings, ending)) return known->kind;

@@ -30,10 +30,10 @@ constexpr size_t max_points = 200'000;
 constexpr double largest_shown = 1e300;
 
 const Drawing::Color dark(0.13f, 0.16f, 0.20f), grid(0.88f, 0.89f, 0.91f);
-const Drawing::Color colors[] = {{0.000f, 0.447f, 0.698f}, {0.835f, 0.369f, 0.000f},
-                                 {0.000f, 0.620f, 0.451f}, {0.800f, 0.475f, 0.655f},
-                                 {0.902f, 0.624f, 0.000f}, {0.337f, 0.706f, 0.914f},
-                                 {0.350f, 0.350f, 0.350f}};
+const Drawing::Color series_colors[] = {{0.000f, 0.447f, 0.698f}, {0.835f, 0.369f, 0.000f},
+                                        {0.000f, 0.620f, 0.451f}, {0.800f, 0.475f, 0.655f},
+                                        {0.902f, 0.624f, 0.000f}, {0.337f, 0.706f, 0.914f},
+                                        {0.350f, 0.350f, 0.350f}};
 
 bool shown(double value) { return std::abs(value) <= largest_shown; }
 
@@ -240,7 +240,7 @@ float Figure::draw_heading() {
     const std::string name = font_.shortened(series.name, text_height, room - sample_length - gap);
     const float needed = sample_length + gap + width_of(name);
     if (x > border && x + needed > border + room) x = border, top += text_height + gap;
-    const Drawing::Color& color = colors[i % std::size(colors)];
+    const Drawing::Color& color = series_colors[i % std::size(series_colors)];
     const float middle = top - text_height / 2;
     if (series.kind == PlotKind::line)
       line({{x, middle}, {x + sample_length, middle}}, line_width, color);
@@ -390,7 +390,7 @@ Drawing Figure::draw() {
   set_scales(draw_heading());
   draw_axes();
   for (size_t i = 0; i < plot_.series.size(); ++i)
-    draw_series(plot_.series[i], colors[i % std::size(colors)]);
+    draw_series(plot_.series[i], series_colors[i % std::size(series_colors)]);
   line({{x_.from, y_.to}, {x_.from, y_.from}, {x_.to, y_.from}}, frame_width, dark);
   // what bars stand on, where some hang from it
   if (any_bars(plot_) && y_.range[0] < 0 && y_.range[1] > 0)
