@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/model/dof.h"
 #include "clench/script/bind/bind.h"

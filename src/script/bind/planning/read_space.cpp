@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "clench/base/error.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/push.h"
 
