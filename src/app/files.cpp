@@ -9,6 +9,11 @@
 
 namespace clench {
 
+std::vector<std::string> words_of(const ReadingOptions& reading) {
+  return {reading.root, reading.folder, reading.package, reading.unit,
+          reading.strict ? "strict" : ""};
+}
+
 // `main` of stdlib/host/<verb>.lua returns the exit code
 static int run_in_state(const std::string& verb, std::vector<std::string> arguments,
                         const ReadingOptions& reading, std::string& exit_asked) {
@@ -17,8 +22,8 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
   if (!reading.confine.empty()) state.set_confine(reading.confine);
   catch_interrupts();
   const Interruptible running(state, 2);
-  arguments.insert(arguments.begin(), {reading.root, reading.folder, reading.package, reading.unit,
-                                       reading.strict ? "strict" : ""});
+  const auto said = words_of(reading);
+  arguments.insert(arguments.begin(), said.begin(), said.end());
   const auto result = state.call("host." + verb, "main", arguments);
   std::fflush(stdout);
   if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, result.error);

@@ -116,61 +116,66 @@ static const CLI::Validator list_format(
     },
     "");
 
-// what is typed as a number is looked at here, and handed on as it is
-static void add_plan(CLI::App& verb, PlanOptions& plan) {
-  verb.add_option("HAND", plan.hand, "a robot's file")->required();
-  verb.add_option("OBJECT", plan.object, "a body's file, or a mesh")->required();
-  const auto several = [&](const char* name, std::vector<std::string>& list, const char* text) {
-    return verb.add_option(name, list, text)->allow_extra_args(false);
+// a function that adds the name of an option and its value
+static auto noted_as(const char* option, std::vector<std::string>& words) {
+  std::string name = lower_case(option);
+  name.erase(0, name.find_first_not_of('-'));
+  return [&words, name](const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {name, value});
   };
-  several("--obstacle", plan.obstacles, "a body that stands in the way; may be repeated")
-      ->type_name("FILE");
-  verb.add_option("--pose", plan.pose, "where the object stands [m, degrees]; default: at 0,0,0")
+}
+
+// what is typed as a number is looked at here, and handed on as it is
+static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
+  const auto add = [&](const char* name, const char* text) {
+    return verb.add_option_function<std::string>(name, noted_as(name, words), text);
+  };
+  const auto several = [&](const char* name, const char* text) {
+    const auto note_all = [note = noted_as(name, words)](const std::vector<std::string>& values) {
+      for (const std::string& value : values) note(value);
+    };
+    return verb.add_option_function<std::vector<std::string>>(name, note_all, text)
+        ->allow_extra_args(false);
+  };
+  const auto flag = [&](const char* name, const char* text) {
+    verb.add_flag_callback(
+        name, [note = noted_as(name, words)] { note("yes"); }, text);
+  };
+  add("HAND", "a robot's file")->required();
+  add("OBJECT", "a body's file, or a mesh")->required();
+  several("--obstacle", "a body that stands in the way; may be repeated")->type_name("FILE");
+  add("--pose", "where the object stands [m, degrees]; default: at 0,0,0")
       ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
-  several("--obstacle-pose", plan.obstacle_poses, "the same of each obstacle, in their order")
-      ->type_name("POSE");
-  verb.add_option("--mass", plan.mass, "of the object, instead of its file's [kg]")
-      ->type_name("KG")
-      ->check(mass);
-  verb.add_option("--count", plan.count,
-                  "the best so many are kept; default: 20, or all of --seconds")
+  several("--obstacle-pose", "the same of each obstacle, in their order")->type_name("POSE");
+  add("--mass", "of the object, instead of its file's [kg]")->type_name("KG")->check(mass);
+  add("--count", "the best so many are kept; default: 20, or all of --seconds")
       ->type_name("N")
       ->check(whole_number(1, 1000000));
-  verb.add_option("--seconds", plan.seconds, "search no longer than this")
-      ->type_name("S")
-      ->check(positive);
-  verb.add_option("--seed", plan.seed, "of the random numbers; default: 1")
+  add("--seconds", "search no longer than this")->type_name("S")->check(positive);
+  add("--seed", "of the random numbers; default: 1")
       ->type_name("N")
       ->check(
           whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
-  verb.add_option("--threads", plan.threads, "default: all cores; the grasps are the same")
+  add("--threads", "default: all cores; the grasps are the same")
       ->type_name("N")
       ->check(whole_number(1, 1024));
-  verb.add_option("--contacts", plan.contacts,
-                  "fingertip: with the last links alone; power: with the palm, too; default: any")
+  add("--contacts", "fingertip: with the last links alone; power: with the palm, too; default: any")
       ->type_name("KIND")
       ->check(CLI::IsMember({"fingertip", "power", "any"}));
-  verb.add_option(
-          "--force-ratio", plan.force_ratio,
-          "times the object's weight that all fingers together press with at most; default: 10")
+  add("--force-ratio",
+      "times the object's weight that all fingers together press with at most; default: 10")
       ->type_name("N")
       ->check(positive);
-  verb.add_option("-o", plan.out,
-                  "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
-      ->type_name("FILE");
-  verb.add_option("--format", plan.format, "of -o, where the ending does not say: graspgen ...")
+  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")->type_name("FILE");
+  add("--format", "of -o, where the ending does not say: graspgen ...")
       ->type_name("NAME")
       ->check(list_format);
-  verb.add_option("--report", plan.report, "a page with a table, pictures and each grasp in 3-D")
-      ->type_name("FILE.html");
-  verb.add_option("--sheet", plan.sheet, "pictures of the best grasps, in one")
-      ->type_name("FILE.png");
-  verb.add_flag("--verify", plan.shaken,
-                "shake each grasp in simulation, too, by the object's weight along six directions");
-  verb.add_flag("--keep-lost", plan.keep_lost,
-                "with --verify: keep grasps that are lost, and mark them");
-  verb.add_flag("--no-verify", plan.unverified,
-                "keep all in force closure, loads and errors unseen");
+  add("--report", "a page with a table, pictures and each grasp in 3-D")->type_name("FILE.html");
+  add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png");
+  flag("--verify",
+       "shake each grasp in simulation, too, by the object's weight along six directions");
+  flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
+  flag("--no-verify", "keep all in force closure, loads and errors unseen");
 }
 
 // what --help says of every verb that loads
@@ -203,73 +208,69 @@ static int refuse_extra(const CLI::App& app) {
   return 2;
 }
 
-static int main_of(int argc, char** argv) {
-  CommandLine line = split(argc, argv);
-  CLI::App app("Clench closes robot hands on objects and judges the grasps.", "clench");
-  app.footer(
-      "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
-      "clench -i scene.lua\n"
-      "  clench repl\n\nExit code: 0 done, 1 failed, 2 wrong usage. `clench VERB --help` says "
-      "more.");
-  app.set_version_flag("--version", "clench " CLENCH_VERSION);
-  app.require_subcommand(0, 1);
-
+// what the options of all verbs say
+struct Said {
   RunOptions run;
-  std::string interactive, test_path, confine, doc_folder;
-  bool check = false;
-  app.add_flag("-q,--quiet", run.quiet, "show errors only");
-  app.add_option("-e", run.code, "run this code")->type_name("CODE")->allow_extra_args(false);
-  app.add_option("-i", interactive, "run a script, then open a console")->type_name("FILE");
-  add_confine(app, confine);
+  CheckOptions check;
+  ConvertOptions convert;
+  PlanOptions plan;
+  std::string interactive, test_path, doc_folder, confine;
+  bool check_docs = false;
+};
 
-  auto* run_verb = app.add_subcommand("run", "run a script");
-  run_verb
-      ->add_option("FILE", run.file, "a Lua script, or - for stdin; what follows are its arguments")
+static void add_script_verbs(CLI::App& app, Said& said) {
+  auto* run = app.add_subcommand("run", "run a script");
+  run->add_option("FILE", said.run.file,
+                  "a Lua script, or - for stdin; what follows are its arguments")
       ->required();
-  run_verb->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10" +
-                   trust);
-  auto* repl_verb = app.add_subcommand("repl", "open a console");
-  repl_verb->footer(
+  run->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10" +
+              trust);
+  auto* repl = app.add_subcommand("repl", "open a console");
+  repl->footer(
       "Examples:\n  clench repl\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
-      "prints, "
-      "help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves." +
+      "prints, help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves." +
       trust);
-  auto* test_verb = app.add_subcommand("test", "run every *_test.lua of a folder");
-  test_verb->add_option("DIR", test_path, "a folder, or one file")->required();
-  test_verb->footer("Example:\n  clench test tests/lua" + trust);
-  auto* doc_verb =
-      app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
-  doc_verb->add_option("DIR", doc_folder, "where to; default: docs/api, where there is one");
-  doc_verb->add_flag("--check", check, "write nothing; fail when a page is not what it should be");
-  doc_verb->footer("Examples:\n  clench doc\n  clench doc --check");
-  CheckOptions checking;
-  auto* check_verb = app.add_subcommand("check", "read files and say what was parsed");
-  check_verb
-      ->add_option("FILE", checking.files, "robots, bodies, worlds, eigengrasps, virtual contacts")
+  auto* test = app.add_subcommand("test", "run every *_test.lua of a folder");
+  test->add_option("DIR", said.test_path, "a folder, or one file")->required();
+  test->footer("Example:\n  clench test tests/lua" + trust);
+  auto* doc = app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
+  doc->add_option("DIR", said.doc_folder, "where to; default: docs/api, where there is one");
+  doc->add_flag("--check", said.check_docs,
+                "write nothing; fail when a page is not what it should be");
+  doc->footer("Examples:\n  clench doc\n  clench doc --check");
+}
+
+static void add_check(CLI::App& app, CheckOptions& check) {
+  auto* verb = app.add_subcommand("check", "read files and say what was parsed");
+  verb->add_option("FILE", check.files, "robots, bodies, worlds, eigengrasps, virtual contacts")
       ->required();
-  add_reading(*check_verb, checking.reading);
-  check_verb->add_flag("--json", checking.json, "as JSON");
-  check_verb->footer(
+  add_reading(*verb, check.reading);
+  verb->add_flag("--json", check.json, "as JSON");
+  verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
       "Exit code: 1 when a file could not be read; with --strict also when something in one was "
       "repaired, is not used or looks wrong." +
       trust);
-  ConvertOptions converting;
-  auto* convert_verb = app.add_subcommand("convert", "write what a file holds as another format");
-  convert_verb->add_option("IN", converting.from, "a file of any kind that is read")->required();
-  convert_verb->add_option("OUT", converting.to, "what to write; its ending says how")->required();
-  add_reading(*convert_verb, converting.reading);
-  convert_verb->footer(
+}
+
+static void add_convert(CLI::App& app, ConvertOptions& convert) {
+  auto* verb = app.add_subcommand("convert", "write what a file holds as another format");
+  verb->add_option("IN", convert.from, "a file of any kind that is read")->required();
+  verb->add_option("OUT", convert.to, "what to write; its ending says how")->required();
+  add_reading(*verb, convert.reading);
+  verb->footer(
       "Examples:\n  clench convert --unit mm mug.stl mug.xml\n"
       "  clench convert models/hands/barrett/barrett.cfg barrett.urdf\n"
       "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n\n"
       "What the new format cannot hold is told in warnings." +
       trust);
-  PlanOptions planning;
-  auto* plan_verb = app.add_subcommand("plan", "search for grasps of a hand on an object");
-  add_plan(*plan_verb, planning);
-  add_reading(*plan_verb, planning.reading);
-  plan_verb->footer(
+}
+
+static void add_plan(CLI::App& app, PlanOptions& plan) {
+  auto* verb = app.add_subcommand("plan", "search for grasps of a hand on an object");
+  add_plan_options(*verb, plan.words);
+  add_reading(*verb, plan.reading);
+  verb->footer(
       "Examples:\n  clench plan models/hands/barrett/barrett.cfg models/objects/flask.iv -o "
       "flask.jsonl\n"
       "  clench plan --seconds 30 --unit mm hand.urdf mug.stl --obstacle table.iv --report "
@@ -277,23 +278,85 @@ static int main_of(int argc, char** argv) {
       "Exit code: 1 when nothing was found, and the report says why; 130 after Ctrl-C, with the "
       "grasps so far written. See docs/guide/plan_command.md." +
       trust);
-  for (auto* verb : {run_verb, repl_verb, test_verb, check_verb, convert_verb, plan_verb})
-    add_confine(*verb, confine);
-  for (auto* verb : {run_verb, repl_verb, test_verb, doc_verb, check_verb, convert_verb, plan_verb})
-    verb->fallthrough();
+}
 
+static void add_all(CLI::App& app, Said& said) {
+  app.footer(
+      "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
+      "clench -i scene.lua\n"
+      "  clench repl\n\nExit code: 0 done, 1 failed, 2 wrong usage. `clench VERB --help` says "
+      "more.");
+  app.set_version_flag("--version", "clench " CLENCH_VERSION);
+  app.require_subcommand(0, 1);
+  app.add_flag("-q,--quiet", said.run.quiet, "show errors only");
+  app.add_option("-e", said.run.code, "run this code")->type_name("CODE")->allow_extra_args(false);
+  app.add_option("-i", said.interactive, "run a script, then open a console")->type_name("FILE");
+  add_confine(app, said.confine);
+  add_script_verbs(app, said);
+  add_check(app, said.check);
+  add_convert(app, said.convert);
+  add_plan(app, said.plan);
+  for (CLI::App* verb : app.get_subcommands({})) {
+    if (verb->get_name() != "doc") add_confine(*verb, said.confine);
+    verb->fallthrough();
+  }
+}
+
+// Says what is wrong when the first word should be a verb and is none.
+static bool refuse_verb(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> verbs;
+  for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (first.front() == '-' || std::ranges::find(verbs, first) != verbs.end()) return false;
+  const bool script = first.ends_with(".lua") || std::filesystem::exists(first);
+  std::fprintf(stderr, "clench: there is no verb '%s'%s\n", first.c_str(),
+               script ? fmt::format("; to run a script: clench run {}", first).c_str()
+                      : did_you_mean(first, verbs).c_str());
+  return true;
+}
+
+// scripts and consoles: the verbs run and repl, or none
+static int run_scripts_of(const CLI::App& app, Said& said) {
+  const bool repl = app.got_subcommand("repl"), terminal = isatty(STDIN_FILENO);
+  const bool nothing =
+      !repl && !app.got_subcommand("run") && said.run.code.empty() && said.interactive.empty();
+  // clench < script.lua, as Lua does; in the background there is no input
+  bool piped = false;
+  if (nothing && !terminal) {
+    const int first = std::getc(stdin);
+    piped = first != EOF && std::ungetc(first, stdin) == first;
+  }
+  if (nothing && !piped && !terminal) {
+    std::fputs(app.help().c_str(), stdout);
+    return 0;
+  }
+  if (piped) said.run.file = "-";
+  if (said.run.file.empty()) said.run.file = said.interactive;
+  said.run.console = repl || !said.interactive.empty() || (nothing && !piped);
+  return run_scripts(said.run);
+}
+
+static int run_verb(const CLI::App& app, Said& said) {
+  for (std::string* folder : {&said.run.confine, &said.check.reading.confine,
+                              &said.convert.reading.confine, &said.plan.reading.confine})
+    *folder = said.confine;
+  said.plan.quiet = said.run.quiet;
+  if (app.got_subcommand("test")) return run_tests(said.test_path, said.confine, said.run.quiet);
+  if (app.got_subcommand("check")) return check_files(said.check);
+  if (app.got_subcommand("convert")) return convert_file(said.convert);
+  if (app.got_subcommand("plan")) return plan_grasps(said.plan);
+  if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);
+  return run_scripts_of(app, said);
+}
+
+static int main_of(int argc, char** argv) {
+  CommandLine line = split(argc, argv);
+  CLI::App app("Clench closes robot hands on objects and judges the grasps.", "clench");
+  Said said;
+  add_all(app, said);
   if (!line.ours.empty()) {
     std::string& first = line.ours.front();
     if (first == "help" || first == "version") first.insert(0, "--");
-    std::vector<std::string> verbs;
-    for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-    if (first.front() != '-' && std::ranges::find(verbs, first) == verbs.end()) {
-      const bool script = first.ends_with(".lua") || std::filesystem::exists(first);
-      std::fprintf(stderr, "clench: there is no verb '%s'%s\n", first.c_str(),
-                   script ? fmt::format("; to run a script: clench run {}", first).c_str()
-                          : did_you_mean(first, verbs).c_str());
-      return 2;
-    }
+    if (refuse_verb(app, first)) return 2;
   }
   try {
     // it takes the words from the back
@@ -304,32 +367,8 @@ static int main_of(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
-
-  run.arguments = line.script;
-  run.confine = checking.reading.confine = converting.reading.confine = confine;
-  planning.reading.confine = confine;
-  planning.quiet = run.quiet;
-  if (test_verb->parsed()) return run_tests(test_path, confine, run.quiet);
-  if (check_verb->parsed()) return check_files(checking);
-  if (convert_verb->parsed()) return convert_file(converting);
-  if (plan_verb->parsed()) return plan_grasps(planning);
-  if (doc_verb->parsed()) return write_docs(doc_folder, check);
-  const bool nothing =
-      !run_verb->parsed() && !repl_verb->parsed() && run.code.empty() && interactive.empty();
-  // clench < script.lua, as Lua does; in the background there is no input
-  bool piped = false;
-  if (nothing && !isatty(STDIN_FILENO)) {
-    const int first = std::getc(stdin);
-    piped = first != EOF && std::ungetc(first, stdin) == first;
-  }
-  if (piped) run.file = "-";
-  if (nothing && !piped && !isatty(STDIN_FILENO)) {
-    std::fputs(app.help().c_str(), stdout);
-    return 0;
-  }
-  run.console = repl_verb->parsed() || !interactive.empty() || (nothing && !piped);
-  if (run.file.empty()) run.file = interactive;
-  return run_scripts(run);
+  said.run.arguments = line.script;
+  return run_verb(app, said);
 }
 
 }  // namespace clench

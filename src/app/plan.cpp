@@ -12,36 +12,6 @@ namespace clench {
 
 using Words = std::vector<std::string>;
 
-// what the options say, as pairs of a name and a value
-static Words words_of(const PlanOptions& options) {
-  const ReadingOptions& reading = options.reading;
-  Words words = {reading.root, reading.folder, reading.package, reading.unit,
-                 reading.strict ? "strict" : ""};
-  const auto add = [&](const char* name, const std::string& value) {
-    if (!value.empty()) words.insert(words.end(), {name, value});
-  };
-  add("hand", options.hand);
-  add("object", options.object);
-  for (const auto& path : options.obstacles) add("obstacle", path);
-  for (const auto& pose : options.obstacle_poses) add("obstacle-pose", pose);
-  add("pose", options.pose);
-  add("mass", options.mass);
-  add("count", options.count);
-  add("seconds", options.seconds);
-  add("seed", options.seed);
-  add("threads", options.threads);
-  add("verify", options.shaken ? "yes" : "");
-  add("keep-lost", options.keep_lost ? "yes" : "");
-  add("contacts", options.contacts);
-  add("force-ratio", options.force_ratio);
-  add("no-verify", options.unverified ? "yes" : "");
-  add("o", options.out);
-  add("format", options.format);
-  add("report", options.report);
-  add("sheet", options.sheet);
-  return words;
-}
-
 // a function of the module, which the first Ctrl-C interrupts and the second ends
 static std::string call(State& state, const std::string& function, const Words& words) {
   const Interruptible running(state, 2);
@@ -58,7 +28,9 @@ int plan_grasps(const PlanOptions& options) {
   if (options.quiet) state.set_quiet();
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);
   catch_interrupts();
-  std::string done = call(state, "search", words_of(options));
+  Words words = words_of(options.reading);
+  words.insert(words.end(), options.words.begin(), options.words.end());
+  std::string done = call(state, "search", words);
   // what an interrupted search has found is written in a run that Ctrl-C has not touched
   if (done == "finish" || done == "interrupted") done = call(state, "finish", {done});
   return std::atoi(done.c_str());

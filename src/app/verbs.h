@@ -32,6 +32,9 @@ struct ReadingOptions {
   bool strict = false;  ///< is what is warned of an error?
 };
 
+/// As the modules of stdlib/host take them, before all else.
+std::vector<std::string> words_of(const ReadingOptions& reading);
+
 struct CheckOptions {
   std::vector<std::string> files;
   ReadingOptions reading;
@@ -49,18 +52,10 @@ struct ConvertOptions {
 /// Writes what a file holds as another format, and says what that cannot hold.
 int convert_file(const ConvertOptions& options);
 
-/// Empty: not said. Numbers are as they were typed; the command line has looked at them.
 struct PlanOptions {
-  std::string hand, object;                            ///< files
-  std::vector<std::string> obstacles, obstacle_poses;  ///< files, and where they stand, in order
-  std::string pose, mass;                              ///< of the object
-  std::string count, seconds, seed, threads;
-  std::string out, format, report, sheet;  ///< what is written
-  bool shaken = false,
-       keep_lost = false;   ///< is each grasp shaken in simulation, and kept when it is lost?
-  std::string contacts;     ///< which links may or must touch
-  std::string force_ratio;  ///< all normal forces together, in weights of the object
-  bool unverified = false;  ///< is force closure enough?
+  /// Name, value, name, value ... of the options that are said, as they were typed; the command
+  /// line has looked at the numbers.
+  std::vector<std::string> words;
   bool quiet = false;
   ReadingOptions reading;
 };
