@@ -7,6 +7,7 @@
 #include "clench/base/text.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/stack.h"
 
 namespace clench {
@@ -47,9 +48,7 @@ static int find_name(lua_State* L) {
 
 int set_finder(lua_State* L, const char* finder, const Class& kind) {
   const Entry* field = running_entry(L);
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, field) != LUA_TTABLE) {
-    lua_pop(L, 1);
-    lua_newtable(L);
+  if (push_kept_table(L, field)) {
     // as every list has it
     lua_getmetatable(L, -2);
     for (const char* event : {"__tostring", "__contents"}) {
@@ -62,8 +61,6 @@ int set_finder(lua_State* L, const char* finder, const Class& kind) {
     lua_pushlightuserdata(L, const_cast<Class*>(&kind));
     lua_pushcclosure(L, find_name, 3);
     lua_setfield(L, -2, "__index");
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, field);
   }
   lua_setmetatable(L, -2);
   return 1;

@@ -1,7 +1,8 @@
 #include "clench/script/lua/owned.h"
 
 #include <algorithm>
-#include <new>
+
+#include "clench/script/lua/kept.h"
 
 namespace clench {
 
@@ -14,26 +15,12 @@ struct OwnedMemory {
   int64_t now = 0, limit = min_growth;
 };
 
-const char owned_key = 0;  // its address names the state's
-
-OwnedMemory& owned_memory(lua_State* L) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &owned_key) != LUA_TUSERDATA) {
-    lua_pop(L, 1);
-    new (lua_newuserdatauv(L, sizeof(OwnedMemory), 0)) OwnedMemory;
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &owned_key);
-  }
-  auto& memory = *static_cast<OwnedMemory*>(lua_touserdata(L, -1));
-  lua_pop(L, 1);
-  return memory;
-}
-
 }  // namespace
 
-void count_owned(lua_State* L, int64_t kilobytes) { owned_memory(L).now += kilobytes; }
+void count_owned(lua_State* L, int64_t kilobytes) { kept<OwnedMemory>(L).now += kilobytes; }
 
 void collect_owned(lua_State* L) {
-  OwnedMemory& memory = owned_memory(L);
+  auto& memory = kept<OwnedMemory>(L);
   // a collector that is stopped, or that runs this very code, is left alone
   if (memory.now < memory.limit || lua_gc(L, LUA_GCISRUNNING) != 1) return;
   lua_gc(L, LUA_GCCOLLECT);

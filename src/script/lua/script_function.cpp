@@ -1,38 +1,16 @@
 #include "clench/script/lua/script_function.h"
 
-#include <new>
-
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/read.h"
 
 namespace clench {
 
 namespace {
 
-using Current = std::shared_ptr<lua_State*>;
-
-// its address names the place of the state's Current
-const char current_key = 0;
-
-int drop_current(lua_State* L) {
-  static_cast<Current*>(lua_touserdata(L, 1))->~Current();
-  return 0;
-}
-
-const Current& current_of(lua_State* L) {
-  const bool known = lua_rawgetp(L, LUA_REGISTRYINDEX, &current_key) == LUA_TUSERDATA;
-  auto* held = static_cast<Current*>(lua_touserdata(L, -1));
-  lua_pop(L, 1);
-  if (known) return *held;
-  held = new (lua_newuserdatauv(L, sizeof(Current), 0)) Current();
-  lua_createtable(L, 0, 1);
-  lua_pushcfunction(L, drop_current);
-  lua_setfield(L, -2, "__gc");
-  lua_setmetatable(L, -2);
-  *held = std::make_shared<lua_State*>(nullptr);
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &current_key);
-  return *held;
-}
+struct Current {
+  std::shared_ptr<lua_State*> state = std::make_shared<lua_State*>(nullptr);
+};
 
 // a function kept in the registry until nobody wants it
 struct Reference {
@@ -46,7 +24,7 @@ struct Reference {
 
 }  // namespace
 
-CallingState::CallingState(lua_State* L) : current_(current_of(L)), before_(*current_) {
+CallingState::CallingState(lua_State* L) : current_(kept<Current>(L).state), before_(*current_) {
   *current_ = L;
 }
 
@@ -56,11 +34,11 @@ std::function<double()> script_number(lua_State* L, int index) {
   lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_MAINTHREAD);
   lua_State* const main = lua_tothread(L, -1);
   lua_pop(L, 1);
-  const auto kept = std::make_shared<Reference>(main, number);
-  return [kept, current = current_of(L)] {
+  const auto function = std::make_shared<Reference>(main, number);
+  return [function, current = kept<Current>(L).state] {
     lua_State* const now = *current;
     if (!now || !lua_checkstack(now, 4)) fail("a script's function: there is no script that waits");
-    lua_rawgeti(now, LUA_REGISTRYINDEX, kept->number);
+    lua_rawgeti(now, LUA_REGISTRYINDEX, function->number);
     protected_call(now, 0, 1);
     if (lua_type(now, -1) != LUA_TNUMBER) {
       const std::string got = described(now, -1);

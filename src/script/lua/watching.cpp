@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <new>
 
 #include "clench/base/convert.h"
 #include "clench/base/text.h"
+#include "clench/script/lua/kept.h"
 
 namespace clench {
 
@@ -54,30 +54,15 @@ void Bar::draw(double fraction, std::string_view text) {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-// its address names the place of the state's bar
-static const char bar_key = 0;
+namespace {
 
-using Held = std::shared_ptr<Bar>;
+struct KeptBar {
+  std::shared_ptr<Bar> bar = std::make_shared<Bar>();
+};
 
-static int drop_bar(lua_State* L) {
-  static_cast<Held*>(lua_touserdata(L, 1))->~Held();
-  return 0;
-}
+}  // namespace
 
-const std::shared_ptr<Bar>& bar_of(lua_State* L) {
-  const bool known = lua_rawgetp(L, LUA_REGISTRYINDEX, &bar_key) == LUA_TUSERDATA;
-  auto* held = static_cast<Held*>(lua_touserdata(L, -1));
-  lua_pop(L, 1);
-  if (known) return *held;
-  held = new (lua_newuserdatauv(L, sizeof(Held), 0)) Held();
-  lua_createtable(L, 0, 1);
-  lua_pushcfunction(L, drop_bar);
-  lua_setfield(L, -2, "__gc");
-  lua_setmetatable(L, -2);
-  *held = std::make_shared<Bar>();
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &bar_key);
-  return *held;
-}
+const std::shared_ptr<Bar>& bar_of(lua_State* L) { return kept<KeptBar>(L).bar; }
 
 Watching::Watching(lua_State* L) : bar_(bar_of(L)), progress_(bar_) { bar_->begin(); }
 

@@ -9,6 +9,7 @@
 #include "clench/base/text.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/script_place.h"
 
@@ -50,12 +51,7 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
 }
 
 bool first_time(lua_State* L, const void* key, const std::string& about) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) != LUA_TTABLE) {
-    lua_newtable(L);
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, key);
-    lua_replace(L, -2);
-  }
+  push_kept_table(L, key);
   const bool told = lua_getfield(L, -1, about.c_str()) == LUA_TBOOLEAN;
   lua_pushboolean(L, true);
   lua_setfield(L, -3, about.c_str());

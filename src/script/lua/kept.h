@@ -1,0 +1,44 @@
+// What a state of Lua keeps until it closes, in its registry.
+#pragma once
+#include <lua.hpp>
+#include <new>
+#include <type_traits>
+
+namespace clench {
+
+/// Leaves the table that the address of `key` names on the stack, made when it is first asked for.
+/// returns  is it new?
+inline bool push_kept_table(lua_State* L, const void* key) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return false;
+  lua_pop(L, 1);
+  lua_newtable(L);
+  lua_pushvalue(L, -1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+  return true;
+}
+
+/// The one T of the state, made when it is first asked for.
+template <class T>
+T& kept(lua_State* L) {
+  static const char key = 0;  // its address names the T
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TUSERDATA) {
+    lua_pop(L, 1);
+    new (lua_newuserdatauv(L, sizeof(T), 0)) T();
+    if constexpr (!std::is_trivially_destructible_v<T>) {
+      lua_createtable(L, 0, 1);
+      lua_pushcfunction(L, [](lua_State* state) {
+        static_cast<T*>(lua_touserdata(state, 1))->~T();
+        return 0;
+      });
+      lua_setfield(L, -2, "__gc");
+      lua_setmetatable(L, -2);
+    }
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
+  }
+  T& value = *static_cast<T*>(lua_touserdata(L, -1));
+  lua_pop(L, 1);
+  return value;
+}
+
+}  // namespace clench
