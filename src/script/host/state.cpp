@@ -308,12 +308,9 @@ State::Result State::run_code(const std::string& code, const std::string& name) 
 
 // (module, function, arguments...)
 static int call_packed(lua_State* L) {
-  push_packed(L, lua_tostring(L, 1));
-  lua_pushvalue(L, 2);
-  lua_rawget(L, -2);
-  lua_replace(L, 2);
+  lua_rotate(L, 1, -1);  // the module behind its function and the arguments
+  take_packed_function(L, lua_tostring(L, -1));
   lua_pop(L, 1);
-  lua_remove(L, 1);
   lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
   for (int i = 1; i <= lua_gettop(L); ++i) {
     luaL_tolstring(L, i, nullptr);
@@ -360,11 +357,7 @@ static int show_results(lua_State* L) {
 
 // (function of host.session, arguments...)
 static int call_session(lua_State* L) {
-  push_packed(L, "host.session");
-  lua_pushvalue(L, 1);
-  lua_rawget(L, -2);
-  lua_replace(L, 1);
-  lua_pop(L, 1);
+  take_packed_function(L, "host.session");
   lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
   return lua_gettop(L);
 }

@@ -56,6 +56,14 @@ void push_packed(lua_State* L, const char* module) {
   lua_pop(L, 1);
 }
 
+void take_packed_function(lua_State* L, const char* module) {
+  push_packed(L, module);
+  lua_pushvalue(L, 1);
+  lua_rawget(L, -2);
+  lua_replace(L, 1);
+  lua_pop(L, 1);
+}
+
 // the loader that require calls with the name
 static int run_packed(lua_State* L) {
   const char* name = luaL_checkstring(L, 1);

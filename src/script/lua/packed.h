@@ -22,6 +22,9 @@ const PackedFile* find_packed(std::string_view module);
 /// "clench.<module>". Raises Lua errors, so no C++ object may be alive.
 void push_packed(lua_State* L, const char* module);
 
+/// Puts a function of a module in the place of its name, at index 1. Raises Lua errors, too.
+void take_packed_function(lua_State* L, const char* module);
+
 /// Makes require take "clench" and "clench.<module>" from here, before it looks anywhere else and
 /// whatever files lie around.
 /// module  index of what "clench" is

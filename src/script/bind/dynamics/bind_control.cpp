@@ -8,11 +8,7 @@ namespace clench {
 
 // (name, hooks, ...) -> a handle: a function of stdlib/dynamics/hooks.lua
 static int call_hooks_module(lua_State* L) {
-  push_packed(L, "dynamics.hooks");
-  lua_pushvalue(L, 1);
-  lua_rawget(L, -2);
-  lua_replace(L, 1);
-  lua_pop(L, 1);
+  take_packed_function(L, "dynamics.hooks");
   protected_call(L, lua_gettop(L) - 1, 1);
   return 1;
 }
@@ -112,7 +108,6 @@ Goes back to the state that was pushed last, and takes it from the stack.
 const Class world_control_class{.name = "world_control",
                                 .variable = "world",
                                 .doc = "Scripts that take part while a world runs.",
-                                .fields = {},
                                 .methods = control_methods,
                                 .parent = &world_settings_class};
 
