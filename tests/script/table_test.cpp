@@ -14,7 +14,7 @@ int close_hand(lua_State* L) {
   const double speed = t.positive("speed", 1);
   const int edges = t.integer("edges", 8);
   const bool stop = t.boolean("stop_at_contact", false);
-  const auto norm = t.choice("norm", {"L1", "Linf"}, "L1");
+  const auto* norm = t.choice("norm", {{"L1", "L1"}, {"Linf", "Linf"}}, "L1");
   const auto point = t.vec3("point", {0, 0, 0});
   const Pose pose = t.pose("pose", Pose());
   const auto dofs = t.has("dofs") ? t.numbers("dofs", 3) : std::vector<double>();

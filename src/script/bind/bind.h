@@ -30,23 +30,19 @@
 
 namespace clench {
 
-// --- vec3 and pose: see values.h. ---
+// --- Libraries whose files say what they are for. ---
 
-extern const Library vec3_library, pose_library;
-
-// --- The module's version, and the units that people think in. ---
-
-extern const Library units_library;
+extern const Library units_library, vec3_library, pose_library, random_library, progress_library,
+    log_library, parallel_library, json_library, catalog_library, convert_library, entries_library,
+    files_library, arrays_library, film_library, chart_library, plot_library, render_library,
+    eigengrasps_library, wrench_space_library, grasp_library, grasps_library, measures_library;
 
 // --- clench.random: random numbers that are the same on every machine. ---
 
 extern const Class random_class;
-extern const Library random_library;
 
 template <>
-inline const Class& class_of<Random>() {
-  return random_class;
-}
+inline constexpr const Class* script_class<Random> = &random_class;
 
 // --- progress: a bar for a script's own loops. ---
 
@@ -66,16 +62,11 @@ struct ProgressHandle {
 };
 
 extern const Class progress_class;
-extern const Library progress_library;
 
 template <>
-inline const Class& class_of<ProgressHandle>() {
-  return progress_class;
-}
+inline constexpr const Class* script_class<ProgressHandle> = &progress_class;
 
 // --- The log: the only thing that prints unasked. To stderr, or to a script's function. ---
-
-extern const Library log_library;
 
 enum class LogLevel { debug, info, warning, error, quiet };
 
@@ -105,42 +96,12 @@ void suspect_millimetres(lua_State* L, const std::string& subject, double distan
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
 
-// --- clench.parallel: items in many states; in host, which makes states. ---
-
-extern const Library parallel_library;
-
-// --- clench.json: values as text for other programs. ---
-
-extern const Library json_library;
-
-// --- clench.catalog: our own hands, arms, objects, obstacles and worlds. ---
-
-extern const Library catalog_library;
-
-// --- clench.convert: a file written as another format. ---
-
-extern const Library convert_library;
-
-// --- clench.entries: the bindings about themselves. ---
-
-extern const Library entries_library;
-
-// --- clench.files: the small files around hands and planners, as tables. ---
-
-extern const Library files_library, arrays_library, film_library;
-
-// --- clench.chart: numbers as a picture. ---
-
-extern const Library chart_library;
-
 // --- mesh: the surface of a body, immutable. ---
 
 extern const Class mesh_class;
 
 template <>
-inline const Class& class_of<ShapePtr>() {
-  return mesh_class;
-}
+inline constexpr const Class* script_class<ShapePtr> = &mesh_class;
 
 inline size_t owned_bytes(const ShapePtr& shape) {
   return shape.use_count() == 1 ? shape->bytes() : 0;
@@ -159,9 +120,7 @@ struct PatchHandle {
 extern const Class patch_class;
 
 template <>
-inline const Class& class_of<PatchHandle>() {
-  return patch_class;
-}
+inline constexpr const Class* script_class<PatchHandle> = &patch_class;
 
 inline size_t owned_bytes(const PatchHandle& handle) {
   const auto& points = handle.patch->points;
@@ -184,9 +143,7 @@ struct ContactHandle {
 extern const Class contact_class;
 
 template <>
-inline const Class& class_of<ContactHandle>() {
-  return contact_class;
-}
+inline constexpr const Class* script_class<ContactHandle> = &contact_class;
 
 /// A list of contacts.
 int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts);
@@ -206,6 +163,9 @@ int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result);
 
 /// fields and methods of every robot
 extern const Class hand_class;
+
+/// {slopes, intercepts}
+int push(lua_State* L, const GloveCalibration& glove);
 
 /// What a drive came to: {moved, stops, stopped_by, queries, events}.
 int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result);
@@ -242,12 +202,9 @@ struct EigengraspsHandle {
 };
 
 extern const Class eigengrasps_class;
-extern const Library eigengrasps_library;
 
 template <>
-inline const Class& class_of<EigengraspsHandle>() {
-  return eigengrasps_class;
-}
+inline constexpr const Class* script_class<EigengraspsHandle> = &eigengrasps_class;
 
 inline size_t owned_bytes(const EigengraspsHandle& handle) {
   if (!handle.set) return 0;  // the robot's
@@ -269,9 +226,7 @@ struct VirtualContactHandle {
 extern const Class virtual_contact_class;
 
 template <>
-inline const Class& class_of<VirtualContactHandle>() {
-  return virtual_contact_class;
-}
+inline constexpr const Class* script_class<VirtualContactHandle> = &virtual_contact_class;
 
 inline size_t owned_bytes(const VirtualContactHandle& handle) {
   return static_cast<size_t>(handle.contact.edges.size()) * sizeof(double);
@@ -300,16 +255,15 @@ WrenchSpaceOptions read_space_options(Table& options);
 
 /// a list of names of coordinates; empty when absent
 std::optional<std::vector<int>> read_coordinates(Table& options, const char* key);
-int push_coordinate_names(lua_State* L, std::span<const int> coordinates);
+std::vector<const char*> names_of(std::span<const int> coordinates);
+inline constexpr Word<WrenchNorm> norm_words[] = {{"L1", WrenchNorm::l1},
+                                                  {"Linf", WrenchNorm::linf}};
 const char* norm_name(const WrenchSpace& s);
 
 extern const Class wrench_space_class;
-extern const Library wrench_space_library;
 
 template <>
-inline const Class& class_of<WrenchSpacePtr>() {
-  return wrench_space_class;
-}
+inline constexpr const Class* script_class<WrenchSpacePtr> = &wrench_space_class;
 
 /// with what it works out when it is asked
 size_t owned_bytes(const WrenchSpacePtr& space);
@@ -328,9 +282,7 @@ int project_space(lua_State* L);
 extern const Class projection_class;
 
 template <>
-inline const Class& class_of<ProjectionHandle>() {
-  return projection_class;
-}
+inline constexpr const Class* script_class<ProjectionHandle> = &projection_class;
 
 inline size_t owned_bytes(const ProjectionHandle& handle) {
   // its mesh lies in both
@@ -362,12 +314,9 @@ const World& world_of(lua_State* L, const GraspHandle& grasp);
 PerContact read_per_contact(Table& options, const char* key);
 
 extern const Class grasp_class;
-extern const Library grasp_library;
 
 template <>
-inline const Class& class_of<GraspHandle>() {
-  return grasp_class;
-}
+inline constexpr const Class* script_class<GraspHandle> = &grasp_class;
 
 // --- grasps: lists of them, from files and to files. ---
 
@@ -376,12 +325,9 @@ struct GraspList {
 };
 
 extern const Class grasps_class;
-extern const Library grasps_library;
 
 template <>
-inline const Class& class_of<GraspList>() {
-  return grasps_class;
-}
+inline constexpr const Class* script_class<GraspList> = &grasps_class;
 
 // --- What every grasp can say of forces: the methods of grasp that balance loads. ---
 
@@ -390,7 +336,6 @@ extern const Class forces_class;
 // --- What every grasp can say of its worth: the methods of grasp that measure it. ---
 
 extern const Class measures_class;
-extern const Library measures_library;
 
 // --- picture: what clench.render gives. ---
 
@@ -401,12 +346,9 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene);
 void warn_without_letters(lua_State* L, const Font& font);
 
 extern const Class picture_class;
-extern const Library render_library;
 
 template <>
-inline const Class& class_of<Picture>() {
-  return picture_class;
-}
+inline constexpr const Class* script_class<Picture> = &picture_class;
 
 inline size_t owned_bytes(const Picture& picture) {
   return picture.pixels.capacity() + picture.alpha.capacity();
@@ -419,12 +361,9 @@ struct PlotHandle {
 };
 
 extern const Class plot_class;
-extern const Library plot_library;
 
 template <>
-inline const Class& class_of<PlotHandle>() {
-  return plot_class;
-}
+inline constexpr const Class* script_class<PlotHandle> = &plot_class;
 
 inline size_t owned_bytes(const PlotHandle& handle) {
   return handle.drawing->items.size() * (sizeof(Drawing::Item) + 4 * sizeof(Eigen::Vector2f));

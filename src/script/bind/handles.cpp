@@ -42,6 +42,10 @@ Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std:
   fail("{}: robot '{}' has no link '{}'{}", subject, robot->name, name, instead_of(name, names));
 }
 
+int push(lua_State* L, const Bounds& bounds) {
+  return push_record(L, {{"low", bounds.low}, {"high", bounds.high}});
+}
+
 int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>& ids) {
   return push_list_of(L, ids, [&](Id<Body> id) { push(L, BodyHandle{world, id}); });
 }

@@ -15,6 +15,8 @@ using WorldPtr = std::shared_ptr<World>;
 
 struct WorldHandle {
   WorldPtr world;
+
+  bool operator==(const WorldHandle&) const = default;
 };
 
 struct BodyHandle {
@@ -23,6 +25,7 @@ struct BodyHandle {
 
   const Body& operator*() const { return world->body(id); }
   const Body* operator->() const { return &world->body(id); }
+  bool operator==(const BodyHandle&) const = default;
 };
 
 struct RobotHandle {
@@ -31,6 +34,7 @@ struct RobotHandle {
 
   const Robot& operator*() const { return world->robot(id); }
   const Robot* operator->() const { return &world->robot(id); }
+  bool operator==(const RobotHandle&) const = default;
 };
 
 /// Leaves a world that nobody has yet on the stack; handles of what is in it own nothing.
@@ -48,32 +52,18 @@ extern const Class world_class, body_class, robot_class, snapshot_class;
 extern const Library world_library;
 
 template <>
-inline const Class& class_of<WorldHandle>() {
-  return world_class;
-}
+inline constexpr const Class* script_class<WorldHandle> = &world_class;
 template <>
-inline const Class& class_of<BodyHandle>() {
-  return body_class;
-}
+inline constexpr const Class* script_class<BodyHandle> = &body_class;
 template <>
-inline const Class& class_of<RobotHandle>() {
-  return robot_class;
-}
+inline constexpr const Class* script_class<RobotHandle> = &robot_class;
 template <>
-inline const Class& class_of<SnapshotHandle>() {
-  return snapshot_class;
-}
+inline constexpr const Class* script_class<SnapshotHandle> = &snapshot_class;
 
 inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.moment->bytes(); }
 
-inline int push(lua_State* L, const BodyHandle& body) { return push_object(L, body); }
-inline int push(lua_State* L, const RobotHandle& robot) { return push_object(L, robot); }
-
-/// A list of the numbers of an Eigen vector.
-template <class Vector>
-int push_vector(lua_State* L, const Vector& v) {
-  return push_numbers(L, {v.data(), static_cast<size_t>(v.size())});
-}
+/// {low, high}
+int push(lua_State* L, const Bounds& bounds);
 
 /// A link of the robot, or its base, by its name, whole or without the robot's.
 /// throws  Error "subject: robot 'dlr' has no link 'thum'; did you mean 'thumb'?"
@@ -90,5 +80,10 @@ std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const 
 
 /// The body that a body or robot (its base) at argument 1 stands for: fields that both have.
 BodyHandle self_body(lua_State* L);
+
+/// That body, for getters and setters (getter.h).
+struct Entity : BodyHandle {
+  static Entity from_self(lua_State* L) { return {self_body(L)}; }
+};
 
 }  // namespace clench

@@ -32,11 +32,8 @@ Parcel::Node Parcel::pack(Packing& packing, int index, const std::string& what, 
     case LUA_TNUMBER:
       if (lua_isinteger(L, index)) return {lua_tointeger(L, index)};
       return {lua_tonumber(L, index)};
-    case LUA_TSTRING: {
-      size_t size = 0;
-      const char* text = lua_tolstring(L, index, &size);
-      return {std::string(text, size)};
-    }
+    case LUA_TSTRING:
+      return {std::string(string_at(L, index))};
     case LUA_TTABLE:
       return pack_table(packing, index, what, depth);
     case LUA_TUSERDATA:

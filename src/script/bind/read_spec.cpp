@@ -14,8 +14,6 @@ namespace clench {
 
 // a unit by its name, or by its length in metres
 static std::optional<double> read_unit(Table& options) {
-  static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
-  static constexpr double lengths[] = {1e-3, 1e-2, 1, 0.0254, 0.3048};
   const bool named = options.has("unit"), scaled = options.has("mesh_scale");
   if (named && scaled) fail("{}: expected unit or mesh_scale, got both", options.subject());
   if (scaled) {
@@ -24,8 +22,8 @@ static std::optional<double> read_unit(Table& options) {
     return scale;
   }
   if (!named) return {};
-  const std::string name = options.choice("unit", names, "");
-  return lengths[std::find(names.begin(), names.end(), name) - names.begin()];
+  return options.choice(
+      "unit", {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"inch", 0.0254}, {"foot", 0.3048}}, 1.0);
 }
 
 std::filesystem::path read_confine(lua_State* L, Table& options) {

@@ -9,10 +9,11 @@
 //     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
 //     returns push...(). Bad input throws clench::Error; guarded adds the script's line. Messages
 //     begin with subject(L), "hand:autograsp", found by itself. Arguments beyond the doc's `@param`
-//     lines have been refused before.
-//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). class_of<T>() ties a
-//     C++ type to its Class; push_object(L, T{...}) makes a value of it, to<T> and check_object<T>
-//     read one.
+//     lines have been refused before. What one expression gets or sets is a getter<...> or
+//     setter<...> (getter.h).
+//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). script_class<T> ties a
+//     C++ type to its Class; push(L, T{...}) makes a value of it, to<T> and check_object<T> read
+//     one.
 //  4. Nothing that can raise a Lua error may run while C++ objects with destructors live, because
 //     a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with metamethods,
 //     lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing may raise only
@@ -54,8 +55,8 @@ struct Class {
   const char* name;      ///< "robot"
   const char* variable;  ///< what messages and examples call one: "hand"
   const char* doc;
-  std::span<const Entry> fields;
-  std::span<const Entry> methods;
+  std::span<const Entry> fields = {};
+  std::span<const Entry> methods = {};
   /// "__add", "__tostring"; "__index", "__newindex": keys that are no string
   std::span<const Entry> operators = {};
   const Class* parent = nullptr;  ///< its fields and methods are had too

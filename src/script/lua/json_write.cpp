@@ -6,6 +6,7 @@
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
 #include "clench/script/lua/read.h"
+#include "clench/script/lua/stack.h"
 
 namespace clench {
 
@@ -24,12 +25,9 @@ class Writer {
       case LUA_TNUMBER:
         number(index);
         break;
-      case LUA_TSTRING: {
-        size_t size = 0;
-        const char* text = lua_tolstring(L_, index, &size);
-        string({text, size});
+      case LUA_TSTRING:
+        string(string_at(L_, index));
         break;
-      }
       case LUA_TTABLE:
       case LUA_TUSERDATA:
       case LUA_TLIGHTUSERDATA:
@@ -116,9 +114,7 @@ class Writer {
     lua_Integer items = 0;
     for (lua_pushnil(L_); lua_next(L_, index); lua_pop(L_, 1)) {
       if (lua_type(L_, -2) == LUA_TSTRING) {
-        size_t length = 0;
-        const char* name = lua_tolstring(L_, -2, &length);
-        names.emplace_back(name, length);
+        names.emplace_back(string_at(L_, -2));
       } else if (lua_isinteger(L_, -2) && lua_tointeger(L_, -2) >= 1 &&
                  lua_tointeger(L_, -2) <= size) {
         ++items;

@@ -15,9 +15,14 @@
 
 namespace clench {
 
-/// The Class that stands for T; specialised beside each class's declaration.
+/// The Class that stands for T, set beside each class's declaration; null: scripts hold no T.
 template <class T>
-const Class& class_of();
+inline constexpr const Class* script_class = nullptr;
+
+template <class T>
+const Class& class_of() {
+  return *script_class<T>;
+}
 
 /// How a value lies in its userdata: aligned by hand, because Lua aligns to 8 bytes only.
 template <class T>

@@ -3,10 +3,16 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/packed.h"
 #include "clench/spec/valid.h"
 
 namespace clench {
+
+int push_nil(lua_State* L) {
+  lua_pushnil(L);
+  return 1;
+}
 
 int push(lua_State* L, double x) {
   if (!std::isfinite(x)) fail("{}: the result is not finite, got {}", subject(L), x);
@@ -55,20 +61,26 @@ int push(lua_State* L, const Pose& pose) {
   return push_object(L, pose);
 }
 
-int push_numbers(lua_State* L, std::span<const double> numbers) {
+int push(lua_State* L, std::span<const double> numbers) {
   return push_list_of(L, numbers, [L](double x) { lua_pushnumber(L, x); });
 }
 
 int push_rows(lua_State* L, const Eigen::MatrixXd& rows) {
   push_list(L, static_cast<int>(rows.rows()));
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    push_list(L, static_cast<int>(rows.cols()));
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) {
-      lua_pushnumber(L, rows(i, j));
-      lua_rawseti(L, -2, j + 1);
-    }
+    push(L, Eigen::VectorXd(rows.row(i)));
     lua_rawseti(L, -2, i + 1);
   }
+  return 1;
+}
+
+void set_fields(lua_State* L, std::initializer_list<Field> fields) {
+  for (const Field& field : fields) field.set(L);
+}
+
+int push_record(lua_State* L, std::initializer_list<Field> fields) {
+  push_list(L, 0, static_cast<int>(fields.size()));
+  set_fields(L, fields);
   return 1;
 }
 
@@ -84,15 +96,11 @@ static const char list_key = 0;  // its address names the lists' metatable
 
 int push_list(lua_State* L, int expected_items, int expected_fields) {
   lua_createtable(L, expected_items, expected_fields);
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &list_key) != LUA_TTABLE) {
-    lua_pop(L, 1);
-    lua_newtable(L);
+  if (push_kept_table(L, &list_key)) {
     lua_pushcfunction(L, list_text);
     lua_setfield(L, -2, "__tostring");
     lua_pushboolean(L, 1);
     lua_setfield(L, -2, "__contents");  // its text is its contents: show need not ask it again
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &list_key);
   }
   lua_setmetatable(L, -2);
   return 1;

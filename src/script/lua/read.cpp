@@ -177,6 +177,17 @@ std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what
   return rows;
 }
 
+Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> columns_of(const std::vector<std::vector<double>>& rows) {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> columns(6, std::ssize(rows));
+  for (Eigen::Index c = 0; c < columns.cols(); ++c)
+    columns.col(c) = vector_of(rows[static_cast<size_t>(c)]);
+  return columns;
+}
+
 Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what) {
   const auto rows = read_rows(L, i, what, 3);
   if (rows.size() != 3) fail("{}: expected 3 rows, got {}", what.text(), rows.size());

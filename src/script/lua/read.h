@@ -6,6 +6,7 @@
 #include <lua.hpp>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "clench/math/pose.h"
@@ -48,9 +49,49 @@ int read_list_size(lua_State* L, int i, const What& what, std::string_view expec
 /// finite numbers; count < 0: any number of them
 /// throws  Error "...: expected 12 numbers, got 3"
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count = -1);
+Eigen::VectorXd vector_of(const std::vector<double>& numbers);
 /// 3 rows of 3
 Eigen::Matrix3d read_matrix3(lua_State* L, int i, const What& what);
 /// lists of numbers; columns < 0: any length
 std::vector<std::vector<double>> read_rows(lua_State* L, int i, const What& what, int columns = -1);
+
+/// Rows of six as columns.
+Eigen::Matrix<double, 6, Eigen::Dynamic> columns_of(const std::vector<std::vector<double>>& rows);
+
+/// One of the above, by its type; an optional one is empty for nil.
+template <class T>
+T read_as(lua_State* L, int i, const What& what) {
+  if constexpr (std::is_same_v<T, double>) {
+    return read_number(L, i, what);
+  } else if constexpr (std::is_same_v<T, int>) {
+    return read_int(L, i, what);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return read_boolean(L, i, what);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return read_string(L, i, what);
+  } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
+    return read_vec3(L, i, what);
+  } else if constexpr (std::is_same_v<T, Eigen::Matrix3d>) {
+    return read_matrix3(L, i, what);
+  } else if constexpr (std::is_same_v<T, Pose>) {
+    return read_pose(L, i, what);
+  } else {
+    return lua_isnoneornil(L, i) ? T() : read_as<typename T::value_type>(L, i, what);
+  }
+}
+
+/// Calls read(index, what) with each item of a list, on top of the stack.
+/// throws  as read_list_size, and what read throws
+template <class Read>
+void each_item(lua_State* L, int list, const What& what, std::string_view expected, Read read,
+               const char* extra = nullptr) {
+  list = lua_absindex(L, list);
+  const int count = read_list_size(L, list, what, expected, extra);
+  for (int i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, i);
+    read(lua_gettop(L), what.item(i));
+    lua_pop(L, 1);
+  }
+}
 
 }  // namespace clench

@@ -33,19 +33,23 @@ void Table::push_required(const char* key) {
       refuse(lua_absindex(L_, -2));
 }
 
-bool Table::has(const char* key) {
-  const bool there = push(key) != LUA_TNIL;
+int Table::type(const char* key) {
+  const int type = push(key);
   lua_pop(L_, 1);
-  return there;
+  return type;
 }
 
-double Table::number(const char* key) {
+bool Table::has(const char* key) { return type(key) != LUA_TNIL; }
+
+template <class T>
+T Table::required(const char* key) {
   push_required(key);
-  const double x = read_number(L_, -1, what(key));
+  T value = read_as<T>(L_, -1, what(key));
   lua_pop(L_, 1);
-  return x;
+  return value;
 }
 
+double Table::number(const char* key) { return required<double>(key); }
 double Table::number(const char* key, double fallback) { return has(key) ? number(key) : fallback; }
 
 double Table::positive(const char* key, double fallback) {
@@ -54,13 +58,7 @@ double Table::positive(const char* key, double fallback) {
   return x;
 }
 
-int Table::integer(const char* key) {
-  push_required(key);
-  const int n = read_int(L_, -1, what(key));
-  lua_pop(L_, 1);
-  return n;
-}
-
+int Table::integer(const char* key) { return required<int>(key); }
 int Table::integer(const char* key, int fallback) { return has(key) ? integer(key) : fallback; }
 
 uint64_t Table::seed(const char* key, uint64_t fallback) {
@@ -72,51 +70,29 @@ uint64_t Table::seed(const char* key, uint64_t fallback) {
 }
 
 bool Table::boolean(const char* key, bool fallback) {
-  if (!has(key)) return fallback;
-  push(key);
-  const bool b = read_boolean(L_, -1, what(key));
-  lua_pop(L_, 1);
-  return b;
+  return has(key) ? required<bool>(key) : fallback;
 }
 
-std::string Table::string(const char* key) {
-  push_required(key);
-  std::string text = read_string(L_, -1, what(key));
-  lua_pop(L_, 1);
-  return text;
-}
-
+std::string Table::string(const char* key) { return required<std::string>(key); }
 std::string Table::string(const char* key, const std::string& fallback) {
   return has(key) ? string(key) : fallback;
 }
 
-std::string Table::choice(const char* key, const std::vector<std::string>& names,
-                          const std::string& fallback) {
-  const std::string name = string(key, fallback);
-  if (std::find(names.begin(), names.end(), name) == names.end())
+size_t Table::place_of_word(const char* key, const std::vector<std::string>& words) {
+  const std::string name = string(key);
+  const auto found = std::find(words.begin(), words.end(), name);
+  if (found == words.end())
     fail("{}: unknown {} {}, expected one of {}{}", subject_, key, in_quotes(name),
-         name_list(names), did_you_mean(name, names));
-  return name;
+         name_list(words), did_you_mean(name, words));
+  return static_cast<size_t>(found - words.begin());
 }
 
-Eigen::Vector3d Table::vec3(const char* key) {
-  push_required(key);
-  const Eigen::Vector3d v = read_vec3(L_, -1, what(key));
-  lua_pop(L_, 1);
-  return v;
-}
-
+Eigen::Vector3d Table::vec3(const char* key) { return required<Eigen::Vector3d>(key); }
 Eigen::Vector3d Table::vec3(const char* key, const Eigen::Vector3d& fallback) {
   return has(key) ? vec3(key) : fallback;
 }
 
-Pose Table::pose(const char* key) {
-  push_required(key);
-  const Pose pose = read_pose(L_, -1, what(key));
-  lua_pop(L_, 1);
-  return pose;
-}
-
+Pose Table::pose(const char* key) { return required<Pose>(key); }
 Pose Table::pose(const char* key, const Pose& fallback) { return has(key) ? pose(key) : fallback; }
 
 std::vector<double> Table::numbers(const char* key, int count) {
@@ -124,6 +100,12 @@ std::vector<double> Table::numbers(const char* key, int count) {
   auto list = read_numbers(L_, -1, what(key), count);
   lua_pop(L_, 1);
   return list;
+}
+
+Eigen::VectorXd Table::vector(const char* key, int count) { return vector_of(numbers(key, count)); }
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> Table::wrenches(const char* key) {
+  return columns_of(rows(key, 6));
 }
 
 std::vector<std::vector<double>> Table::rows(const char* key, int columns) {

@@ -1,11 +1,37 @@
 // The options of a call: one Lua table, read key by key, where a key that nobody read is an error.
 #pragma once
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "clench/script/lua/check.h"
 
 namespace clench {
+
+/// A word, and what it stands for.
+template <class T>
+struct Word {
+  const char* word;
+  T value;
+};
+
+/// Words of one kind, as {{"L1", WrenchNorm::l1}, {"Linf", WrenchNorm::linf}} or an array of such.
+template <class T>
+struct Words : std::span<const Word<T>> {
+  using std::span<const Word<T>>::span;
+  Words(std::initializer_list<Word<T>> words)
+      : std::span<const Word<T>>(words.begin(), words.size()) {}
+};
+
+/// The word that stands for a value; the last one where none does.
+template <class T>
+const char* word_of(const T& value, std::type_identity_t<Words<T>> words) {
+  for (const Word<T>& word : words)
+    if (word.value == value) return word.word;
+  return words.back().word;
+}
 
 /// Messages: "hand:autograsp: speed: expected a number, got 'fast'",
 /// "hand:autograsp: unknown key 'sped'; did you mean 'speed'?".
@@ -17,6 +43,7 @@ class Table {
   Table(lua_State* L, int index, std::string subject = "");
 
   bool has(const char* key);
+  int type(const char* key);  ///< of Lua's
   double number(const char* key);
   double number(const char* key, double fallback);
   double positive(const char* key, double fallback);  ///< > 0
@@ -26,16 +53,22 @@ class Table {
   bool boolean(const char* key, bool fallback);
   std::string string(const char* key);
   std::string string(const char* key, const std::string& fallback);
-  /// one of the names
+  /// what one of the words stands for
   /// throws  Error "...: unknown norm 'L3'; did you mean 'L1'?"
-  std::string choice(const char* key, const std::vector<std::string>& names,
-                     const std::string& fallback);
+  template <class T>
+  T choice(const char* key, std::type_identity_t<Words<T>> words, T fallback);
   Eigen::Vector3d vec3(const char* key);
   Eigen::Vector3d vec3(const char* key, const Eigen::Vector3d& fallback);
   Pose pose(const char* key);
   Pose pose(const char* key, const Pose& fallback);
+  /// finite numbers; count < 0: any number of them
   std::vector<double> numbers(const char* key, int count = -1);
+  Eigen::VectorXd vector(const char* key, int count = -1);
   std::vector<std::vector<double>> rows(const char* key, int columns = -1);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches(const char* key);  ///< rows as columns
+  /// Calls read(index, what) with each item of a list.
+  template <class Read>
+  void each(const char* key, std::string_view expected, Read read);
   /// a userdata, or null when the key is absent
   template <class T>
   T* object(const char* key);
@@ -57,12 +90,31 @@ class Table {
   [[noreturn]] void refuse(int key) const;
   /// throws Error when the key is absent, and one that nobody asked for reads nearly like it
   void push_required(const char* key);
+  template <class T>
+  T required(const char* key);
+  /// The place among the words of the one that the key holds.
+  size_t place_of_word(const char* key, const std::vector<std::string>& words);
 
   lua_State* L_;
   int index_;  // 0: no table
   std::string subject_;
   std::vector<std::string> known_;
 };
+
+template <class T>
+T Table::choice(const char* key, std::type_identity_t<Words<T>> words, T fallback) {
+  if (!has(key)) return fallback;
+  std::vector<std::string> names;
+  for (const Word<T>& word : words) names.emplace_back(word.word);
+  return words[place_of_word(key, names)].value;
+}
+
+template <class Read>
+void Table::each(const char* key, std::string_view expected, Read read) {
+  push(key);
+  each_item(L_, -1, what(key), expected, read);
+  lua_pop(L_, 1);
+}
 
 template <class T>
 T* Table::object(const char* key) {

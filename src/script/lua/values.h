@@ -10,13 +10,9 @@ namespace clench {
 extern const Class vec3_class, pose_class;
 
 template <>
-inline const Class& class_of<Eigen::Vector3d>() {
-  return vec3_class;
-}
+inline constexpr const Class* script_class<Eigen::Vector3d> = &vec3_class;
 template <>
-inline const Class& class_of<Pose>() {
-  return pose_class;
-}
+inline constexpr const Class* script_class<Pose> = &pose_class;
 
 /// "(0.1, 0, -2)", six digits
 std::string vec3_text(const Eigen::Vector3d& v);

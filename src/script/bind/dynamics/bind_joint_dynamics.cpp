@@ -2,6 +2,7 @@
 #include "clench/dynamics/control/motors.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -12,21 +13,13 @@ static JointDynamics of_robot(const RobotHandle& robot) {
   return joint_dynamics(*robot.world, robot.id);
 }
 
-static int mass_matrix(lua_State* L) {
-  return push_rows(L, of_robot(self<RobotHandle>(L)).mass_matrix);
-}
-
-static int bias_forces(lua_State* L) { return push_vector(L, of_robot(self<RobotHandle>(L)).bias); }
-
 static int inverse_dynamics(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto given = check_numbers(L, 2, "accelerations", static_cast<int>(robot->dofs.size()));
   for (const double a : given)
     check(Quantity{"acceleration", "rad/s^2 or m/s^2", -1e12, 1e12}, a, subject(L));
   const JointDynamics d = of_robot(robot);
-  const Eigen::Map<const Eigen::VectorXd> accelerations(given.data(),
-                                                        static_cast<Eigen::Index>(given.size()));
-  return push_vector(L, Eigen::VectorXd(d.mass_matrix * accelerations + d.bias + d.passive));
+  return push(L, d.mass_matrix * vector_of(given) + d.bias + d.passive);
 }
 
 static int get_gains(lua_State* L) {
@@ -36,9 +29,7 @@ static int get_gains(lua_State* L) {
   return push_list_of(L, robot->dofs, [&](const DofSpec&) {
     const Gains gains = gains_of(*robot.world, robot.id, dof, inertia[dof]);
     ++dof;
-    push_list(L, 0, 2);
-    set_field(L, "kp", gains.kp);
-    set_field(L, "kd", gains.kd);
+    push_record(L, {{"kp", gains.kp}, {"kd", gains.kd}});
   });
 }
 
@@ -103,13 +94,13 @@ rad/s with critical damping, as it stands. Set a list of them, or some by the na
 };
 
 static const Entry joint_dynamics_methods[] = {
-    {"mass_matrix", guarded<mass_matrix>, R"(
+    {"mass_matrix", method<[](const RobotHandle& x) { return of_robot(x).mass_matrix; }>, R"(
 Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it
 carries, its base held. Armature of the joints is in it.
 @return number[][] rows  one row and one column per DOF [kg m^2, kg m or kg]
 > M = hand:mass_matrix()
 > #M, #M[1], M[1][2] == M[2][1]  --> 12, 12, true)"},
-    {"bias_forces", guarded<bias_forces>, R"(
+    {"bias_forces", method<[](const RobotHandle& x) { return of_robot(x).bias; }>, R"(
 Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, unless its motors compensate that: what motors have to
 give so that no DOF accelerates, joints without springs and friction.
 @return number[] forces  one per DOF [N m or N]

@@ -1,19 +1,15 @@
 #include "clench/dynamics/weld.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {
 
-static int get_velocity(lua_State* L) {
-  const auto body = self_body(L);
-  const Twist twist = body.world->twist(body.id);
-  push_list(L, 0, 2);
-  set_field(L, "linear", twist.linear);
-  set_field(L, "angular", twist.angular);
-  return 1;
+static int push(lua_State* L, const Twist& twist) {
+  return push_record(L, {{"linear", twist.linear}, {"angular", twist.angular}});
 }
 
 static int set_velocity(lua_State* L) {
@@ -65,11 +61,10 @@ static int apply_torque(lua_State* L) {
   return 0;
 }
 
-static int get_surface_velocity(lua_State* L) {
-  const auto body = self_body(L);
+static Eigen::Vector3d surface_velocity(const Entity& body) {
   const auto& belts = body.world->dynamic_settings().surface_velocities;
   const auto found = belts.find(body.id);
-  return push(L, found == belts.end() ? Eigen::Vector3d(0, 0, 0) : found->second);
+  return found == belts.end() ? Eigen::Vector3d(0, 0, 0) : found->second;
 }
 
 static int set_surface_velocity(lua_State* L) {
@@ -83,12 +78,11 @@ static int set_surface_velocity(lua_State* L) {
   return 0;
 }
 
-static int get_welded_to(lua_State* L) {
-  const auto body = self_body(L);
+static std::optional<BodyHandle> welded_to(const Entity& body) {
   const auto& welds = body.world->dynamic_settings().welds;
   const auto found = welds.find(body.id);
-  if (found == welds.end()) return lua_pushnil(L), 1;
-  return push(L, BodyHandle{body.world, found->second});
+  if (found == welds.end()) return {};
+  return BodyHandle{body.world, found->second};
 }
 
 static int weld_to(lua_State* L) {
@@ -98,14 +92,8 @@ static int weld_to(lua_State* L) {
   return 0;
 }
 
-static int unweld_it(lua_State* L) {
-  const auto body = self_body(L);
-  unweld(*body.world, body.id);
-  return 0;
-}
-
 static const Entry motion_fields[] = {
-    {"velocity", guarded<get_velocity>, R"(
+    {"velocity", getter<[](const Entity& x) { return x.world->twist(x.id); }>, R"(
 Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
 told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest.
 @type {linear: vec3, angular: vec3}  [m/s], [rad/s]
@@ -113,14 +101,14 @@ told, whatever they push. A table of its own; one that is set changes what it na
 > flask.velocity.linear  --> (0, 0, 1)
 > flask.velocity = {linear = {0, 0, 1 / 0}}  --> error: velocity)",
      guarded<set_velocity>},
-    {"surface_velocity", guarded<get_surface_velocity>, R"(
+    {"surface_velocity", getter<surface_velocity>, R"(
 Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. Only the part along the surface counts.
 @type vec3  [m/s]
 > flask.surface_velocity = {0.1, 0, 0}
 > flask.surface_velocity  --> (0.1, 0, 0)
 > flask.surface_velocity = {1e9, 0, 0}  --> error: surface velocity)",
      guarded<set_surface_velocity>},
-    {"welded_to", guarded<get_welded_to>, R"(
+    {"welded_to", getter<welded_to>, R"(
 The body that it is welded to, or nil.
 @type body?
 > flask.welded_to  --> nil)"},
@@ -147,7 +135,7 @@ welded as they then stand. Collision tests go on as before.
 > flask:weld(hand.links[3])
 > flask.welded_to == hand.links[3]  --> true
 > flask:weld(hand.base)  --> error: is welded to)"},
-    {"unweld", guarded<unweld_it>, R"(
+    {"unweld", method<[](const Entity& x) { unweld(*x.world, x.id); }>, R"(
 It goes on by itself, with the velocity that it has.
 > flask:weld(hand.base)
 > flask:unweld()

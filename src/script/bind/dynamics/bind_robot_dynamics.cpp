@@ -5,30 +5,31 @@
 #include "clench/model/dof.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {
 
-static int get_dof_velocities(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push_vector(L, robot.world->dof_velocities(robot.id));
-}
-
 static int set_dof_velocities(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto values = check_numbers(L, 2, "", static_cast<int>(robot->dofs.size()));
-  robot.world->set_dof_velocities(
-      robot.id,
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  robot.world->set_dof_velocities(robot.id, vector_of(values));
   return 0;
 }
 
-template <class Edit>
-static void edit_robot(const RobotHandle& robot, Edit edit) {
+using Switch = bool RobotDynamics::*;
+
+template <Switch what>
+static bool is_on(const RobotHandle& robot) {
+  return robot.world->dynamic_settings().robot(robot.id).*what;
+}
+
+template <Switch what>
+static void turn(const RobotHandle& robot, bool on) {
   DynamicSettings settings = robot.world->dynamic_settings();
-  edit(settings.robots[robot.id]);
+  settings.robots[robot.id].*what = on;
   robot.world->set_dynamic_settings(std::move(settings));
 }
 
@@ -79,7 +80,7 @@ static int get_efforts(lua_State* L) {
       state && state->dof_efforts.size() >= robot->first_dof + efforts.size())
     std::copy_n(state->dof_efforts.begin() + static_cast<std::ptrdiff_t>(robot->first_dof),
                 efforts.size(), efforts.begin());
-  return push_numbers(L, efforts);
+  return push(L, efforts);
 }
 
 static int set_targets(lua_State* L) {
@@ -123,49 +124,17 @@ static int set_target_velocities(lua_State* L) {
   return 0;
 }
 
-static int get_gravity_compensation(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push(L, robot.world->dynamic_settings().robot(robot.id).gravity_compensation);
-}
-
-static int set_gravity_compensation(lua_State* L) {
-  const bool on = check_boolean(L, 2);
-  edit_robot(self<RobotHandle>(L),
-             [&](RobotDynamics& settings) { settings.gravity_compensation = on; });
-  return 0;
-}
-
-static int get_breakaway(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push(L, robot.world->dynamic_settings().robot(robot.id).breakaway);
-}
-
-static int set_breakaway(lua_State* L) {
-  const bool on = check_boolean(L, 2);
-  edit_robot(self<RobotHandle>(L), [&](RobotDynamics& settings) { settings.breakaway = on; });
-  return 0;
-}
-
-static int get_floating(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push(L, robot.world->dynamic_settings().robot(robot.id).floating);
-}
-
 static int set_floating(lua_State* L) {
   const bool on = check_boolean(L, 2);
   const auto& robot = self<RobotHandle>(L);
   if (on && robot->mounting) fail("{}: floating: another robot carries it", subject(L));
-  edit_robot(robot, [&](RobotDynamics& settings) { settings.floating = on; });
+  turn<&RobotDynamics::floating>(robot, on);
   return 0;
 }
 
-static int has_closed_now(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push(L, has_closed(*robot.world, robot.id));
-}
-
 static const Entry robot_dynamics_fields[] = {
-    {"dof_velocities", guarded<get_dof_velocities>, R"(
+    {"dof_velocities", getter<[](const RobotHandle& x) { return x.world->dof_velocities(x.id); }>,
+     R"(
 Of its degrees of freedom; a list of its own.
 @type number[]  [rad/s or m/s]
 > hand.dof_velocities[1]  --> 0.0)",
@@ -184,19 +153,19 @@ file drives do at first ("none" is another word for it); "mixed": not all the sa
 > hand.controller = "none"
 > hand.controller = "pid"  --> error: "none")",
      guarded<set_controller>},
-    {"gravity_compensation", guarded<get_gravity_compensation>, R"(
+    {"gravity_compensation", getter<is_on<&RobotDynamics::gravity_compensation>>, R"(
 Do its motors carry the weight of its own links, without what is welded to them? As controllers of real arms do. A floating
 robot has all its weight.
 @type boolean
 > hand.gravity_compensation  --> true)",
-     guarded<set_gravity_compensation>},
-    {"breakaway", guarded<get_breakaway>, R"(
+     setter<turn<&RobotDynamics::gravity_compensation>>},
+    {"breakaway", getter<is_on<&RobotDynamics::breakaway>>, R"(
 Do joints leave its breakaway DOFs while the world runs, when what stops them asks for more than the breakaway torque? They are
 then locked until the DOF, opening, comes back to them. Else, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 @type boolean
 > hand.breakaway  --> false)",
-     guarded<set_breakaway>},
-    {"floating", guarded<get_floating>, R"(
+     setter<turn<&RobotDynamics::breakaway>>},
+    {"floating", getter<is_on<&RobotDynamics::floating>>, R"(
 Is its base free to move? Else it stands, or moves as its velocity says.
 @type boolean
 > hand.floating  --> false)",
@@ -222,7 +191,7 @@ The velocities that its motors are to keep. DOFs that a table by names leaves ou
 @param velocities number[]|table<string, number>  [rad/s or m/s]
 > hand:set_target_velocities {dof2 = 0.1}
 > hand:set_target_velocities {1}  --> error: expected 12)"},
-    {"has_closed", guarded<has_closed_now>, R"(
+    {"has_closed", method<[](const RobotHandle& x) { return has_closed(*x.world, x.id); }>, R"(
 Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which
 it was to close?
 @return boolean

@@ -79,52 +79,34 @@ static int solve_velocities(lua_State* L) {
   return 0;
 }
 
-static int get_time(lua_State* L) { return push(L, world_of(L).time()); }
-
-static int get_time_step(lua_State* L) { return push(L, world_of(L).dynamic_settings().step); }
-
-static int set_time_step(lua_State* L) {
-  DynamicSettings settings = world_of(L).dynamic_settings();
-  settings.step = check_number(L, 2);
-  world_of(L).set_dynamic_settings(std::move(settings));
-  return 0;
+static void set_time_step(const WorldHandle& x, double step) {
+  DynamicSettings settings = x.world->dynamic_settings();
+  settings.step = step;
+  x.world->set_dynamic_settings(std::move(settings));
 }
 
 static int get_report(lua_State* L) {
   const DynamicState* state = world_of(L).dynamics();
   const StepReport report = state ? state->report : StepReport{};
-  push_list(L, 0, 9);
-  set_field(L, "steps", static_cast<lua_Integer>(report.steps));
-  set_field(L, "impacts", static_cast<lua_Integer>(report.impacts));
-  set_field(L, "iterations", static_cast<lua_Integer>(report.iterations));
-  set_field(L, "fallbacks", static_cast<lua_Integer>(report.fallbacks));
-  set_field(L, "failures", static_cast<lua_Integer>(report.failures));
-  set_field(L, "overlaps", static_cast<lua_Integer>(report.overlaps));
-  set_field(L, "residual", report.residual);
-  set_field(L, "max_residual", report.max_residual);
-  set_field(L, "contacts", report.contacts);
-  return 1;
-}
-
-static int clear_forces(lua_State* L) {
-  for (Load& load : world_of(L).edit_dynamics().loads) load = {};
-  return 0;
+  return push_record(L, {{"steps", lua_Integer{report.steps}},
+                         {"impacts", lua_Integer{report.impacts}},
+                         {"iterations", lua_Integer{report.iterations}},
+                         {"fallbacks", lua_Integer{report.fallbacks}},
+                         {"failures", lua_Integer{report.failures}},
+                         {"overlaps", lua_Integer{report.overlaps}},
+                         {"residual", report.residual},
+                         {"max_residual", report.max_residual},
+                         {"contacts", report.contacts}});
 }
 
 static int get_momentum(lua_State* L) {
   const Momentum m = momentum(world_of(L));
-  push_list(L, 0, 2);
-  set_field(L, "linear", m.linear);
-  set_field(L, "angular", m.angular);
-  return 1;
+  return push_record(L, {{"linear", m.linear}, {"angular", m.angular}});
 }
 
 static int get_energy(lua_State* L) {
   const MechanicalEnergy e = mechanical_energy(world_of(L));
-  push_list(L, 0, 2);
-  set_field(L, "kinetic", e.kinetic);
-  set_field(L, "potential", e.potential);
-  return 1;
+  return push_record(L, {{"kinetic", e.kinetic}, {"potential", e.potential}});
 }
 
 // what bodies do to links, as a table by link
@@ -158,27 +140,24 @@ static int average_contacts(lua_State* L) {
     if (sum.count > 0) sums.push_back(sum);
   }
   return push_list_of(L, sums, [&](const Sum& sum) {
-    push_list(L, 0, 4);
-    set_field(L, "link", BodyHandle{self<WorldHandle>(L).world, sum.body});
-    set_field(L, "force", sum.force);
-    set_field(L, "point", Eigen::Vector3d(sum.point / sum.pressure));
-    set_field(L, "count", sum.count);
+    push_record(L, {{"link", BodyHandle{self<WorldHandle>(L).world, sum.body}},
+                    {"force", sum.force},
+                    {"point", Eigen::Vector3d(sum.point / sum.pressure)},
+                    {"count", sum.count}});
   });
 }
 
 // --- how it is solved ---
 
+static constexpr Word<DynamicsEngine> engines[] = {{"clench", DynamicsEngine::clench},
+                                                   {"ode", DynamicsEngine::ode}};
+static constexpr Word<FrictionCone> cones[] = {{"round", FrictionCone::round},
+                                               {"pyramid", FrictionCone::pyramid}};
+
 static void read_settings(Table& table, DynamicSettings& settings) {
   settings.step = table.number("time_step", settings.step);
-  settings.engine = table.choice("engine", {"clench", "ode"},
-                                 settings.engine == DynamicsEngine::ode ? "ode" : "clench") == "ode"
-                        ? DynamicsEngine::ode
-                        : DynamicsEngine::clench;
-  settings.cone =
-      table.choice("cone", {"round", "pyramid"},
-                   settings.cone == FrictionCone::pyramid ? "pyramid" : "round") == "pyramid"
-          ? FrictionCone::pyramid
-          : FrictionCone::round;
+  settings.engine = table.choice("engine", engines, settings.engine);
+  settings.cone = table.choice("cone", cones, settings.cone);
   settings.cone_edges = table.integer("edges", settings.cone_edges);
   if (settings.cone_edges < 4 || settings.cone_edges > 64 || settings.cone_edges % 2 != 0)
     fail("{}: edges: expected an even number from 4 to 64, got {}", table.subject(),
@@ -198,12 +177,10 @@ DynamicSettings read_dynamic_settings(Table& options) {
 
 static int get_dynamics(lua_State* L) {
   const DynamicSettings& settings = world_of(L).dynamic_settings();
-  push_list(L, 0, 4);
-  set_field(L, "time_step", settings.step);
-  set_field(L, "engine", settings.engine == DynamicsEngine::ode ? "ode" : "clench");
-  set_field(L, "cone", settings.cone == FrictionCone::pyramid ? "pyramid" : "round");
-  set_field(L, "edges", settings.cone_edges);
-  return 1;
+  return push_record(L, {{"time_step", settings.step},
+                         {"engine", word_of(settings.engine, engines)},
+                         {"cone", word_of(settings.cone, cones)},
+                         {"edges", settings.cone_edges}});
 }
 
 static int set_dynamics(lua_State* L) {
@@ -215,16 +192,16 @@ static int set_dynamics(lua_State* L) {
 }
 
 static const Entry world_dynamics_fields[] = {
-    {"time", guarded<get_time>, R"(
+    {"time", getter<[](const WorldHandle& x) { return x.world->time(); }>, R"(
 How long it has run.
 @type number  [s]
 > world.time  --> 0.0)"},
-    {"time_step", guarded<get_time_step>, R"(
+    {"time_step", getter<[](const WorldHandle& x) { return x.world->dynamic_settings().step; }>, R"(
 Length of the steps of `run`; from 1e-7 to 1.
 @type number  [s]
 > world.time_step  --> 0.001
 > world.time_step = 0  --> error: time step)",
-     guarded<set_time_step>},
+     setter<set_time_step>},
     {"dynamics", guarded<get_dynamics>, R"(
 How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same
 contacts by another library; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
@@ -261,7 +238,10 @@ The second half of a step: the velocities that contacts, forces, motors and limi
 @param h number  what move_bodies gave [s]
 > world:solve_velocities(world:move_bodies(0.001))
 > world.report.steps  --> 1)"},
-    {"clear_forces", guarded<clear_forces>, R"(
+    {"clear_forces", method<[](const WorldHandle& x) {
+       for (Load& load : x.world->edit_dynamics().loads) load = {};
+     }>,
+     R"(
 Takes back what `apply_force` and `apply_torque` gave for the next step.
 > flask:apply_force({0, 0, 1})
 > world:clear_forces()

@@ -26,23 +26,17 @@ struct Stepping {
 };
 using SteppingPtr = std::shared_ptr<Stepping>;
 
-const Class hooks_class{
-    .name = "hooks", .variable = "hooks", .doc = "", .fields = {}, .methods = {}};
-const Class stepping_class{
-    .name = "stepping", .variable = "stepping", .doc = "", .fields = {}, .methods = {}};
+const Class hooks_class{.name = "hooks", .variable = "hooks", .doc = ""};
+const Class stepping_class{.name = "stepping", .variable = "stepping", .doc = ""};
 
 const char hooks_key = 0;  // its address names the place of all tables of hooks
 
 }  // namespace
 
 template <>
-const Class& class_of<Hooks>() {
-  return hooks_class;
-}
+inline constexpr const Class* script_class<Hooks> = &hooks_class;
 template <>
-const Class& class_of<SteppingPtr>() {
-  return stepping_class;
-}
+inline constexpr const Class* script_class<SteppingPtr> = &stepping_class;
 
 // the hooks of a table of them; null when their world has gone
 static Hooks* hooks_in(lua_State* L, int table) {
@@ -96,19 +90,16 @@ static int step(lua_State* L) {
   return push(L, stepping->stepper.step(check_number(L, 2)));
 }
 
-static int begin_event(lua_State* L, const char* kind, const World& world) {
-  push_list(L, 0, 6);
-  set_field(L, "kind", kind);
-  set_field(L, "time", world.time());
-  return 1;
-}
-
 static bool touches(const Manifold& m) { return !m.points.empty(); }
 
-// appends to the list on top of the stack
+// to the list on top of the stack
+static void append_event(lua_State* L, std::initializer_list<Field> event) {
+  push_record(L, event);
+  lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1);
+}
+
 static void tell_contacts(lua_State* L, const WorldPtr& world, Hooks& hooks) {
   std::set<std::pair<Id<Body>, Id<Body>>> now;
-  const auto append = [&] { lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1); };
   for (const Manifold& m : world->dynamics()->manifolds) {
     if (!touches(m)) continue;
     now.insert({m.a, m.b});
@@ -119,19 +110,19 @@ static void tell_contacts(lua_State* L, const WorldPtr& world, Hooks& hooks) {
       point += X_WA * p.p_a / static_cast<double>(m.points.size());
       force += X_WA.rotation * p.force;
     }
-    begin_event(L, "contact", *world);
-    set_field(L, "a", BodyHandle{world, m.a});
-    set_field(L, "b", BodyHandle{world, m.b});
-    set_field(L, "point", point);
-    set_field(L, "force", force);
-    append();
+    append_event(L, {{"kind", "contact"},
+                     {"time", world->time()},
+                     {"a", BodyHandle{world, m.a}},
+                     {"b", BodyHandle{world, m.b}},
+                     {"point", point},
+                     {"force", force}});
   }
   for (const auto& [a, b] : hooks.touching) {
     if (now.contains({a, b}) || !world->alive(a) || !world->alive(b)) continue;
-    begin_event(L, "contact_lost", *world);
-    set_field(L, "a", BodyHandle{world, a});
-    set_field(L, "b", BodyHandle{world, b});
-    append();
+    append_event(L, {{"kind", "contact_lost"},
+                     {"time", world->time()},
+                     {"a", BodyHandle{world, a}},
+                     {"b", BodyHandle{world, b}}});
   }
   hooks.touching = std::move(now);
 }
@@ -151,12 +142,12 @@ static void tell_limits(lua_State* L, const WorldPtr& world, Hooks& hooks) {
         if (!(std::abs(q[d] - robot.limits[d][side]) < (was ? left : reached))) continue;
         now.insert(key);
         if (was) continue;
-        begin_event(L, "limit", *world);
-        set_field(L, "robot", RobotHandle{world, id});
-        set_field(L, "dof", d + 1);
-        set_field(L, "side", side == 0 ? "low" : "high");
-        set_field(L, "value", q[d]);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1);
+        append_event(L, {{"kind", "limit"},
+                         {"time", world->time()},
+                         {"robot", RobotHandle{world, id}},
+                         {"dof", d + 1},
+                         {"side", side == 0 ? "low" : "high"},
+                         {"value", q[d]}});
       }
   }
   hooks.at_limit = std::move(now);

@@ -9,37 +9,22 @@ namespace clench {
 
 // --- what is asked ---
 
-static Vector6d read_wrench(Table& options, const char* key) {
-  const auto numbers = options.numbers(key, 6);
-  return Eigen::Map<const Vector6d>(numbers.data());
-}
-
-static void read_load(Table& options, ForceOptions& forces) {
-  if (options.has("load")) forces.load = read_wrench(options, "load");
-}
-
 static std::optional<double> positive_if(Table& options, const char* key) {
   if (!options.has(key)) return {};
   return options.positive(key, 1);
 }
 
-static std::optional<Eigen::VectorXd> vector_if(Table& options, const char* key) {
-  if (!options.has(key)) return {};
-  const auto numbers = options.numbers(key);
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<int>(numbers.size()));
-}
-
 // torque_limits: true, false, or a number for each DOF
 static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
-  const int type = options.push("torque_limits");
-  lua_pop(options.what("torque_limits").L, 1);
+  if (!options.has("torque_limits")) return fallback;
+  const int type = options.type("torque_limits");
   if (type == LUA_TBOOLEAN) return options.boolean("torque_limits", fallback);
-  if (type != LUA_TTABLE && type != LUA_TNIL) {
+  if (type != LUA_TTABLE) {
     options.push("torque_limits");
     fail_expected(options.what("torque_limits"), "true or a list of numbers", -1);
   }
-  joints.limits = vector_if(options, "torque_limits");
-  return fallback || joints.limits;
+  joints.limits = options.vector("torque_limits");
+  return true;
 }
 
 static void read_caps(Table& options, ForceOptions& forces) {
@@ -62,101 +47,69 @@ static void read_joints(Table& options, ForceOptions& forces) {
 }
 
 static ForceObjective read_objective(Table& options) {
-  const std::pair<const char*, ForceObjective> all[] = {
-      {"min_sum", ForceObjective::min_sum},
-      {"min_norm", ForceObjective::min_norm},
-      {"min_max", ForceObjective::min_max},
-      {"max_margin", ForceObjective::max_margin},
-      {"max_margin_sum", ForceObjective::max_margin_sum}};
-  std::vector<std::string> names;
-  for (const auto& [name, objective] : all) names.push_back(name);
-  const std::string chosen = options.choice("objective", names, "min_sum");
-  for (const auto& [name, objective] : all)
-    if (chosen == name) return objective;
-  return ForceObjective::min_sum;
+  return options.choice("objective",
+                        {{"min_sum", ForceObjective::min_sum},
+                         {"min_norm", ForceObjective::min_norm},
+                         {"min_max", ForceObjective::min_max},
+                         {"max_margin", ForceObjective::max_margin},
+                         {"max_margin_sum", ForceObjective::max_margin_sum}},
+                        ForceObjective::min_sum);
 }
 
 // --- what is answered ---
 
 static const char* status_name(ForceStatus status) {
-  switch (status) {
-    case ForceStatus::optimal:
-      return "optimal";
-    case ForceStatus::infeasible:
-      return "infeasible";
-    case ForceStatus::unbounded:
-      return "unbounded";
-    default:
-      return "inaccurate";
-  }
+  return word_of(status, {{"optimal", ForceStatus::optimal},
+                          {"infeasible", ForceStatus::infeasible},
+                          {"unbounded", ForceStatus::unbounded},
+                          {"inaccurate", ForceStatus::inaccurate}});
 }
 
 static const char* status_name(EquilibriumStatus status) {
-  switch (status) {
-    case EquilibriumStatus::stable:
-      return "stable";
-    case EquilibriumStatus::unstable:
-      return "unstable";
-    case EquilibriumStatus::moving:
-      return "moving";
-    default:
-      return "inaccurate";
-  }
+  return word_of(status, {{"stable", EquilibriumStatus::stable},
+                          {"unstable", EquilibriumStatus::unstable},
+                          {"moving", EquilibriumStatus::moving},
+                          {"inaccurate", EquilibriumStatus::inaccurate}});
 }
 
 static void push_force(lua_State* L, const GraspHandle& g, const ContactForce& f, size_t i) {
-  push_list(L, 0, 7);
-  push_object(L, ContactHandle{g.world, g.grasp.contacts[i]});
-  lua_setfield(L, -2, "contact");
-  set_field(L, "normal", f.normal);
-  push_vector(L, f.tangential);
-  lua_setfield(L, -2, "tangential");
-  set_field(L, "torsion", f.torsion);
-  set_field(L, "mu", g.grasp.points[i].mu);
-  set_field(L, "force", f.force_W);
-  set_field(L, "margin", f.margin);
+  push_record(L, {{"contact", ContactHandle{g.world, g.grasp.contacts[i]}},
+                  {"normal", f.normal},
+                  {"tangential", f.tangential},
+                  {"torsion", f.torsion},
+                  {"mu", g.grasp.points[i].mu},
+                  {"force", f.force_W},
+                  {"margin", f.margin}});
 }
 
-static void set_numbers(lua_State* L, const char* key, std::span<const double> numbers) {
-  push_numbers(L, numbers);
-  lua_setfield(L, -2, key);
-}
-
-static void set_certificate(lua_State* L, const GraspHandle& g, const ForceCertificate& c) {
-  push_list(L, 0, 9);
-  push_vector(L, c.twist);
-  lua_setfield(L, -2, "twist");
-  set_field(L, "power", c.power);
-  set_field(L, "capacity", c.capacity);
-  set_numbers(L, "separation_rates", c.separation_rates);
-  set_numbers(L, "sliding_rates", c.sliding_rates);
-  set_numbers(L, "force_limit_power", c.force_limit_power);
-  set_numbers(L, "effort_limit_power", c.effort_limit_power);
+static void push_certificate(lua_State* L, const GraspHandle& g, const ForceCertificate& c) {
+  push_record(L, {{"twist", c.twist},
+                  {"power", c.power},
+                  {"capacity", c.capacity},
+                  {"separation_rates", c.separation_rates},
+                  {"sliding_rates", c.sliding_rates},
+                  {"force_limit_power", c.force_limit_power},
+                  {"effort_limit_power", c.effort_limit_power}});
   if (c.dof >= 0) set_field(L, "dof", c.dof + 1);
-  if (c.contact >= 0) {
-    push_object(L, ContactHandle{g.world, g.grasp.contacts[c.contact]});
-    lua_setfield(L, -2, "contact");
-  }
-  lua_setfield(L, -2, "certificate");
+  if (c.contact >= 0) set_field(L, "contact", ContactHandle{g.world, g.grasp.contacts[c.contact]});
 }
 
 // leaves the result on the stack
 static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r,
                         const char* status) {
-  push_list(L, 0, 9);
-  set_field(L, "status", status);
+  push_record(L, {{"status", status}});
   if (r.status == ForceStatus::optimal || r.status == ForceStatus::inaccurate) {
-    size_t i = 0;
-    push_list_of(L, r.forces, [&](const ContactForce& f) { push_force(L, g, f, i++); });
-    lua_setfield(L, -2, "forces");
-    push_vector(L, r.unbalanced);
-    lua_setfield(L, -2, "unbalanced");
-    set_field(L, "residual", r.residual);
-    set_field(L, "margin", r.margin);
-    push_vector(L, r.efforts);
-    lua_setfield(L, -2, "joint_torques");
+    const auto push_forces = [&] {
+      size_t i = 0;
+      push_list_of(L, r.forces, [&](const ContactForce& f) { push_force(L, g, f, i++); });
+    };
+    set_fields(L, {{"forces", push_forces},
+                   {"unbalanced", r.unbalanced},
+                   {"residual", r.residual},
+                   {"margin", r.margin},
+                   {"joint_torques", r.efforts}});
   }
-  if (r.certificate) set_certificate(L, g, *r.certificate);
+  if (r.certificate) set_field(L, "certificate", [&] { push_certificate(L, g, *r.certificate); });
 }
 
 // --- methods ---
@@ -165,11 +118,11 @@ static int forces(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   ForceOptions asked;
-  read_load(options, asked);
+  if (options.has("load")) asked.load = options.vector("load", 6);
   read_caps(options, asked);
   read_joints(options, asked);
   asked.objective = read_objective(options);
-  asked.nearest = options.choice("balance", {"exact", "nearest"}, "exact") == "nearest";
+  asked.nearest = options.choice("balance", {{"exact", false}, {"nearest", true}}, false);
   options.done();
   const ForceResult r = contact_forces(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, status_name(r.status));
@@ -181,7 +134,7 @@ static int largest(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   ForceOptions asked;
-  asked.load = read_wrench(options, "direction");
+  asked.load = options.vector("direction", 6);
   read_caps(options, asked);
   read_joints(options, asked);
   options.done();
@@ -195,18 +148,16 @@ static int balance(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   EquilibriumOptions asked;
-  if (options.has("load")) asked.load = read_wrench(options, "load");
+  if (options.has("load")) asked.load = options.vector("load", 6);
   asked.max_force = read_per_contact(options, "max_force");
   asked.joints.unlimited = !read_limits(options, true, asked.joints);
   asked.joints.arms = options.boolean("arms", false);
   asked.joints.link_weights = options.boolean("link_weights", false);
-  const int type = options.push("torques");
-  lua_pop(L, 1);
-  if (type == LUA_TSTRING)
+  if (options.type("torques") == LUA_TSTRING)
     asked.joints.springs_only =
-        options.choice("torques", {"springs", "limits"}, "limits") == "springs";
-  else
-    asked.joints.efforts = vector_if(options, "torques");
+        options.choice("torques", {{"springs", true}, {"limits", false}}, false);
+  else if (options.has("torques"))
+    asked.joints.efforts = options.vector("torques");
   options.done();
   const Equilibrium e = equilibrium(world_of(L, g), g.grasp, asked);
   push_result(L, g, e.result, status_name(e.status));
@@ -293,7 +244,6 @@ its joints. Its transpose takes contact forces to the motors' torques. Joints th
 const Class forces_class{.name = "forces",
                          .variable = "grasp",
                          .doc = "Contact forces and joint torques of a grasp.",
-                         .fields = {},
                          .methods = forces_methods};
 
 }  // namespace clench

@@ -13,10 +13,8 @@
 namespace clench {
 
 PerContact read_per_contact(Table& options, const char* key) {
-  const int type = options.push(key);
-  lua_pop(options.what(key).L, 1);
-  if (type == LUA_TNIL) return {};
-  if (type != LUA_TTABLE) return options.positive(key, 1);
+  if (!options.has(key)) return {};
+  if (options.type(key) != LUA_TTABLE) return options.positive(key, 1);
   const auto each = options.numbers(key);
   if (each.empty())
     fail("{}: {}: expected a number for each contact, got none", options.subject(), key);
@@ -74,24 +72,6 @@ static int get_object(lua_State* L) {
   return push(L, BodyHandle{g.world, g.grasp.object});
 }
 
-static int get_pose(lua_State* L) {
-  const Grasp& g = self<GraspHandle>(L).grasp;
-  if (!g.X_OH) return lua_pushnil(L), 1;
-  return push(L, *g.X_OH);
-}
-
-static int push_named(lua_State* L, const std::map<std::string, double>& named) {
-  push_list(L, 0, static_cast<int>(named.size()));
-  for (const auto& [name, x] : named) {
-    push_unbounded(L, x);
-    lua_setfield(L, -2, name.c_str());
-  }
-  return 1;
-}
-
-static int get_measures(lua_State* L) { return push_named(L, self<GraspHandle>(L).grasp.measures); }
-static int get_info(lua_State* L) { return push_named(L, self<GraspHandle>(L).grasp.info); }
-
 static int set_info(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   std::map<std::string, double> info;
@@ -105,13 +85,6 @@ static int set_info(lua_State* L) {
   }
   g.grasp.info = std::move(info);
   return 0;
-}
-
-static int get_labels(lua_State* L) {
-  const auto& labels = self<GraspHandle>(L).grasp.labels;
-  push_list(L, 0, static_cast<int>(labels.size()));
-  for (const auto& [name, text] : labels) set_field(L, name.c_str(), std::string_view(text));
-  return 1;
 }
 
 static int set_labels(lua_State* L) {
@@ -128,14 +101,8 @@ static int set_labels(lua_State* L) {
   return 0;
 }
 
-static int get_pregrasp(lua_State* L) {
-  const auto& pregrasp = self<GraspHandle>(L).grasp.pregrasp;
-  if (!pregrasp) return lua_pushnil(L), 1;
-  push_list(L, 0, 2);
-  set_field(L, "pose", pregrasp->X_OH);
-  push_numbers(L, pregrasp->dofs);
-  lua_setfield(L, -2, "dofs");
-  return 1;
+static int push(lua_State* L, const PregraspState& pregrasp) {
+  return push_record(L, {{"pose", pregrasp.X_OH}, {"dofs", pregrasp.dofs}});
 }
 
 static int set_pregrasp(lua_State* L) {
@@ -146,11 +113,6 @@ static int set_pregrasp(lua_State* L) {
       PregraspState{table.pose("pose"), table.numbers("dofs", static_cast<int>(g.dofs.size()))};
   table.done();
   return 0;
-}
-
-static int get_collision_free(lua_State* L) {
-  const auto& free = self<GraspHandle>(L).grasp.collision_free;
-  return free ? push(L, *free) : (lua_pushnil(L), 1);
 }
 
 static int set_collision_free(lua_State* L) {
@@ -165,7 +127,7 @@ static int get_epsilon(lua_State* L) {
   if (const auto known = g.measures.find("epsilon"); known != g.measures.end())
     return push(L, known->second);
   // a line of a file without points tells nothing of contacts
-  if (!world && g.points.empty()) return lua_pushnil(L), 1;
+  if (!world && g.points.empty()) return push_nil(L);
   return push(L, space_of(g)->epsilon());
 }
 
@@ -185,24 +147,16 @@ static int apply(lua_State* L) {
     if (other != world)
       fail("{}: {}: expected one of that world, got one of another", subject(L), key);
   };
-  Id<Robot> hand;
-  Id<Body> object;
-  if (options.push("hand") != LUA_TNIL) {
-    const auto& given_hand = check_object<RobotHandle>(L, -1, "hand");
-    in_world(given_hand.world, "hand");
-    hand = given_hand.id;
-  }
-  if (options.push("object") != LUA_TNIL) {
-    const auto& given_object = check_object<BodyHandle>(L, -1, "object");
-    in_world(given_object.world, "object");
-    object = given_object.id;
-  }
+  const auto* given_hand = options.object<RobotHandle>("hand");
+  if (given_hand) in_world(given_hand->world, "hand");
+  const auto* given_object = options.object<BodyHandle>("object");
+  if (given_object) in_world(given_object->world, "object");
   options.done();
   GraspSpec named = g.grasp;
-  if (hand) named.hand_name = world->robot(hand).name;
-  if (object) named.object_name = world->body(object).name;
-  if (!hand) hand = world->find_robot(named.hand_name);
-  if (!object) object = world->find_body(named.object_name);
+  if (given_hand) named.hand_name = (*given_hand)->name;
+  if (given_object) named.object_name = (*given_object)->name;
+  const auto hand = given_hand ? given_hand->id : world->find_robot(named.hand_name);
+  const auto object = given_object ? given_object->id : world->find_body(named.object_name);
   if (hand && object)
     apply_by_arm(*world, named, hand, object);
   else
@@ -220,44 +174,30 @@ static int get_grasp_contacts(lua_State* L) {
   return push_contacts(L, g.world, g.grasp.contacts);
 }
 
-static int get_grasp_points(lua_State* L) {
-  const Grasp& g = self<GraspHandle>(L).grasp;
-  return push_list_of(L, g.points, [&](const PointContact& point) {
-    push_list(L, 0, 4);
-    set_field(L, "point", point.p_O);
-    set_field(L, "normal", point.n_O);
-    set_field(L, "mu", point.mu);
-    set_field(L, "torsion_radius", point.torsion_radius);
-  });
+static int push(lua_State* L, const PointContact& point) {
+  return push_record(L, {{"point", point.p_O},
+                         {"normal", point.n_O},
+                         {"mu", point.mu},
+                         {"torsion_radius", point.torsion_radius}});
 }
 
-static int get_grasp_links(lua_State* L) {
-  return push_list_of(L, self<GraspHandle>(L).grasp.links,
-                      [&](const std::string& link) { push(L, std::string_view(link)); });
+static int push_edges(lua_State* L, int edges) {
+  return edges == round_edges ? push(L, "exact") : push(L, edges);
 }
 
 static int get_grasp_edges(lua_State* L) {
-  const int edges = self<GraspHandle>(L).grasp.options.edges;
-  return edges == round_edges ? push(L, "exact") : push(L, edges);
+  return push_edges(L, self<GraspHandle>(L).grasp.options.edges);
 }
 
 static int get_options(lua_State* L) {
   const Grasp& g = self<GraspHandle>(L).grasp;
-  push_list(L, 0, 5);
-  if (g.options.edges == round_edges)
-    set_field(L, "edges", "exact");
-  else
-    set_field(L, "edges", g.options.edges);
-  set_field(L, "rho", g.rho);
-  set_field(L, "soft", g.options.soft);
-  if (const auto& forces = g.options.normal_force.values; forces.size() == 1) {
-    set_field(L, "normal_force", forces[0]);
-  } else {
-    push_list_of(L, forces, [&](double force) { push(L, force); });
-    lua_setfield(L, -2, "normal_force");
-  }
-  set_field(L, "modulus", modulus_name(g.options.modulus));
-  return 1;
+  const auto& forces = g.options.normal_force.values;
+  return push_record(
+      L, {{"edges", [&] { push_edges(L, g.options.edges); }},
+          {"rho", g.rho},
+          {"soft", g.options.soft},
+          {"normal_force", [&] { forces.size() == 1 ? push(L, forces[0]) : push(L, forces); }},
+          {"modulus", modulus_name(g.options.modulus)}});
 }
 
 static int grasp_space(lua_State* L) {
@@ -271,18 +211,7 @@ static int grasp_space(lua_State* L) {
     options.rho = table.positive("rho", 1);
   options.space = read_space_options(table);
   table.done();
-  return push_object(L, space_of(g.grasp, options));
-}
-
-static int is_force_closure(lua_State* L) {
-  return push(L, space_of(self<GraspHandle>(L).grasp)->is_force_closure());
-}
-
-static int grasp_text(lua_State* L) {
-  auto& g = self<GraspHandle>(L);
-  const std::string text = fmt::format("grasp of {} contacts, epsilon {:.6g}",
-                                       g.grasp.points.size(), space_of(g.grasp)->epsilon());
-  return push(L, text);
+  return push(L, space_of(g.grasp, options));
 }
 
 static const Entry grasp_functions[] = {
@@ -305,17 +234,16 @@ The robot that grasps.
 The body that is grasped.
 @type body
 > grasp.object == flask  --> true)"},
-    {"hand_name", getter<[](const GraspHandle& x) { return std::string_view(x.grasp.hand_name); }>,
+    {"hand_name", getter<[](const GraspHandle& x) { return x.grasp.hand_name; }>,
      R"(
 Name of the robot that grasps; a grasp that stands in no world has it, too.
 @type string
 > grasp.hand_name == hand.name  --> true)"},
-    {"object_name",
-     getter<[](const GraspHandle& x) { return std::string_view(x.grasp.object_name); }>, R"(
+    {"object_name", getter<[](const GraspHandle& x) { return x.grasp.object_name; }>, R"(
 Name of the body that is grasped.
 @type string
 > grasp.object_name  --> flask)"},
-    {"pose", guarded<get_pose>, R"(
+    {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
 Where the hand's base stood in the object's frame when the grasp was measured.
 @type pose
 > (flask.pose * grasp.pose).position == hand.pose.position  --> true)"},
@@ -327,26 +255,26 @@ Values of the hand's DOFs when the grasp was measured.
 Positions of the hand's joints when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.joint_positions > #grasp.dofs  --> true)"},
-    {"measures", guarded<get_measures>, R"(
+    {"measures", getter<[](const GraspHandle& x) { return x.grasp.measures; }>, R"(
 Measures that were asked for so far, by name; in a file they are kept with the grasp.
 @type table<string, number>
 > epsilon = grasp:quality "epsilon"
 > grasp.measures.epsilon == epsilon  --> true)"},
-    {"info", guarded<get_info>, R"(
+    {"info", getter<[](const GraspHandle& x) { return x.grasp.info; }>, R"(
 Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
 @type table<string, number>
 > grasp.info = {seed = 7}
 > grasp.info.seed  --> 7.0
 > grasp.info = {seed = "x"}  --> error: expected names with finite numbers)",
      guarded<set_info>},
-    {"labels", guarded<get_labels>, R"(
+    {"labels", getter<[](const GraspHandle& x) { return x.grasp.labels; }>, R"(
 Words that a script notes, by name: its planner, its script. They are kept in files.
 @type table<string, string>
 > grasp.labels = {planner = "mine"}
 > grasp.labels.planner  --> mine
 > grasp.labels = {planner = 3}  --> error: expected names with strings)",
      guarded<set_labels>},
-    {"pregrasp", guarded<get_pregrasp>, R"(
+    {"pregrasp", getter<[](const GraspHandle& x) { return x.grasp.pregrasp; }>, R"(
 How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
 known. Planners set it; files keep it.
 @type {pose: pose, dofs: number[]}?
@@ -354,7 +282,7 @@ known. Planners set it; files keep it.
 > grasp.pregrasp = {pose = grasp.pose, dofs = grasp.dofs}
 > #grasp.pregrasp.dofs == #hand.dofs  --> true)",
      guarded<set_pregrasp>},
-    {"collision_free", guarded<get_collision_free>, R"(
+    {"collision_free", getter<[](const GraspHandle& x) { return x.grasp.collision_free; }>, R"(
 Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
 @type boolean?
 > grasp.collision_free = not world:collides()
@@ -368,12 +296,12 @@ The measure "epsilon", as it was measured or, else, from its points; nil of a gr
 The contacts on the object when the grasp was measured.
 @type contact[]
 > grasp.contacts[1].body == flask  --> true)"},
-    {"points", guarded<get_grasp_points>, R"(
+    {"points", getter<[](const GraspHandle& x) { return x.grasp.points; }>, R"(
 The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers.
 @type {point: vec3, normal: vec3, mu: number, torsion_radius: number}[]  [m]
 > again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
 > again:epsilon() == grasp:quality "epsilon"  --> true)"},
-    {"links", guarded<get_grasp_links>, R"(
+    {"links", getter<[](const GraspHandle& x) { return x.grasp.links; }>, R"(
 Names of what touches at each of the points.
 @type string[]
 > #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
@@ -408,7 +336,8 @@ does not have stay. Where an arm carries the hand, the arm moves, to the posture
 > again = grasp:apply()
 > #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true
 > grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
-    {"is_force_closure", guarded<is_force_closure>, R"(
+    {"is_force_closure",
+     method<[](const GraspHandle& x) { return space_of(x.grasp)->is_force_closure(); }>, R"(
 Can it resist every wrench?
 @return boolean
 > grasp:is_force_closure()  --> true)"},
@@ -425,7 +354,11 @@ in some of the coordinates "fx" to "tz". The same options give the same space, w
 };
 
 static const Entry grasp_operators[] = {
-    {"__tostring", guarded<grasp_text>, ""},
+    {"__tostring", method<[](const GraspHandle& x) {
+       return fmt::format("grasp of {} contacts, epsilon {:.6g}", x.grasp.points.size(),
+                          space_of(x.grasp)->epsilon());
+     }>,
+     ""},
     {"__json", guarded<grasp_as_json>, ""},
 };
 
@@ -434,8 +367,8 @@ const Library grasp_library{.name = "clench", .doc = "", .functions = grasp_func
 const Class grasp_class{.name = "grasp",
                         .variable = "grasp",
                         .doc =
-                            "A hand, an object and the contacts between them, "
-                            "as they were when the grasp was measured.",
+                            "A hand, an object and the contacts between them, as they were when "
+                            "the grasp was measured.",
                         .fields = grasp_fields,
                         .methods = grasp_methods,
                         .operators = grasp_operators,

@@ -2,6 +2,7 @@
 
 #include "clench/io/grasp_files.h"
 #include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -15,7 +16,7 @@ static int list_grasps(lua_State* L) {
     const std::string path = check_string(L, 1, "path");
     Table options(L, 2);
     const ReadOptions reading = read_options(L, options);
-    const std::string format = options.has("format") ? options.string("format") : "";
+    const std::string format = options.string("format", "");
     options.done();
     const Watching watching(L);
     for (GraspSpec& spec : read_grasp_file(path, format, reading)) {
@@ -39,7 +40,7 @@ static int grasps_save(lua_State* L) {
   std::vector<GraspSpec> specs;
   for (const GraspHandle& handle : list.grasps) specs.push_back(handle.grasp);
   Table options(L, 3);
-  const std::string format = options.has("format") ? options.string("format") : "";
+  const std::string format = options.string("format", "");
   options.done();
   write_grasp_file(specs, path, format,
                    {.warn = [L](const std::string& lost) { log_warning(L, lost); }});
@@ -50,22 +51,11 @@ static int grasps_item(lua_State* L) {
   const auto& list = self<GraspList>(L);
   const bool is_index = lua_isinteger(L, 2);
   const lua_Integer i = is_index ? lua_tointeger(L, 2) : 0;
-  if (i < 1 || i > std::ssize(list.grasps)) return lua_pushnil(L), 1;
-  return push_object(L, list.grasps[static_cast<size_t>(i) - 1]);
+  if (i < 1 || i > std::ssize(list.grasps)) return push_nil(L);
+  return push(L, list.grasps[static_cast<size_t>(i) - 1]);
 }
 
-static int grasps_length(lua_State* L) {
-  return push(L, static_cast<int>(self<GraspList>(L).grasps.size()));
-}
-
-static int grasps_as_json(lua_State* L) {
-  auto& list = self<GraspList>(L);
-  return push_list_of(L, list.grasps, [L](const GraspHandle& g) { push_object(L, g); });
-}
-
-static int list_text(lua_State* L) {
-  return push(L, fmt::format("{} grasps", self<GraspList>(L).grasps.size()));
-}
+static const std::vector<GraspHandle>& items_of(const GraspList& list) { return list.grasps; }
 
 static const Entry grasps_functions[] = {
     {"grasps", guarded<list_grasps>, R"(
@@ -106,10 +96,13 @@ Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head w
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
 };
 
-static const Entry grasps_operators[] = {{"__index", guarded<grasps_item>, ""},
-                                         {"__len", guarded<grasps_length>, ""},
-                                         {"__json", guarded<grasps_as_json>, ""},
-                                         {"__tostring", guarded<list_text>, ""}};
+static const Entry grasps_operators[] = {
+    {"__index", guarded<grasps_item>, ""},
+    {"__len", method<[](const GraspList& x) { return static_cast<int>(x.grasps.size()); }>, ""},
+    {"__json", method<items_of>, ""},
+    {"__tostring",
+     method<[](const GraspList& x) { return fmt::format("{} grasps", x.grasps.size()); }>, ""},
+};
 
 const Library grasps_library{.name = "clench", .doc = "", .functions = grasps_functions};
 
@@ -117,7 +110,6 @@ const Class grasps_class{
     .name = "grasps",
     .variable = "list",
     .doc = "A list of grasps, made by `clench.grasps`: `list[1]`, `#list`, `ipairs(list)`.",
-    .fields = {},
     .methods = grasps_methods,
     .operators = grasps_operators};
 

@@ -49,15 +49,11 @@ static int quality_all(lua_State* L) {
   return 1;
 }
 
-static Vector6d vector6(const std::vector<double>& numbers) {
-  return Eigen::Map<const Vector6d>(numbers.data());
-}
-
 static int resist(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   Table options(L, 2);
   ResistanceOptions resisting;
-  if (options.choice("norm", {"L1", "Linf"}, "L1") == "Linf") resisting.norm = WrenchNorm::linf;
+  resisting.norm = options.choice("norm", norm_words, resisting.norm);
   const bool one = options.has("wrench"), many = options.has("wrenches"),
              ellipsoid = options.has("ellipsoid");
   if (one + many + ellipsoid != 1)
@@ -70,29 +66,28 @@ static int resist(lua_State* L) {
     return resistance(world_of(L, g), g.grasp, wrench, resisting);
   };
   double least = INFINITY;
-  if (one) least = times(vector6(options.numbers("wrench", 6)), "wrench");
+  if (one) least = times(options.vector("wrench", 6), "wrench");
   const auto rows = many ? options.rows("wrenches", 6) : std::vector<std::vector<double>>();
   if (many && rows.empty()) fail("{}: wrenches: expected at least one, got none", subject(L));
   for (size_t i = 0; i < rows.size(); ++i)
-    least = std::min(least, times(vector6(rows[i]), fmt::format("wrenches[{}]", i + 1)));
+    least = std::min(least, times(vector_of(rows[i]), fmt::format("wrenches[{}]", i + 1)));
   if (ellipsoid)
-    least = ellipsoid_resistance(world_of(L, g), g.grasp, vector6(options.numbers("ellipsoid", 6)),
-                                 resisting);
+    least =
+        ellipsoid_resistance(world_of(L, g), g.grasp, options.vector("ellipsoid", 6), resisting);
   options.done();
   return push_unbounded(L, least);
 }
 
-static int list_measures(lua_State* L) {
-  return push_list_of(L, measures(), [&](const Measure& m) {
-    push_list(L, 0, 6);
-    set_field(L, "name", m.name);
-    set_field(L, "what", m.what);
-    set_field(L, "range", m.range);
-    set_field(L, "unit", m.unit);
-    set_field(L, "higher_is_better", m.higher_is_better);
-    set_field(L, "source", m.source);
-  });
+static int push(lua_State* L, const Measure& m) {
+  return push_record(L, {{"name", m.name},
+                         {"what", m.what},
+                         {"range", m.range},
+                         {"unit", m.unit},
+                         {"higher_is_better", m.higher_is_better},
+                         {"source", m.source}});
 }
+
+static int list_measures(lua_State* L) { return push(L, measures()); }
 
 static const Entry measures_functions[] = {
     {"measures", guarded<list_measures>, R"(
@@ -136,7 +131,6 @@ const Library measures_library{.name = "clench", .doc = "", .functions = measure
 const Class measures_class{.name = "measures",
                            .variable = "grasp",
                            .doc = "Measures of a grasp: quality, resistance, wrench spaces.",
-                           .fields = {},
                            .methods = measures_methods,
                            .parent = &forces_class};
 

@@ -37,28 +37,14 @@ int project_space(lua_State* L) {
                           self<WrenchSpacePtr>(L)};
   if (!handle.projection->mesh.triangles.empty())
     handle.shape = Shape::make(handle.projection->mesh, "projection");
-  return push_object(L, handle);
+  return push(L, handle);
 }
 
-static int get_projection_mesh(lua_State* L) {
-  const ShapePtr& shape = self<ProjectionHandle>(L).shape;
-  if (!shape) return lua_pushnil(L), 1;
-  return push_object(L, shape);
-}
-
-static int get_free(lua_State* L) {
-  return push_coordinate_names(L, self<ProjectionHandle>(L).projection->free);
-}
-
-static int get_projected(lua_State* L) {
-  return push_coordinate_names(L, self<ProjectionHandle>(L).projection->projected);
-}
-
-static int get_fixed(lua_State* L) {
-  const Projection& p = *self<ProjectionHandle>(L).projection;
-  push_list(L, 0, static_cast<int>(p.fixed.size()));
-  for (const auto& [coordinate, value] : p.fixed) set_field(L, coordinate_names[coordinate], value);
-  return 1;
+static std::map<std::string, double> fixed_of(const ProjectionHandle& x) {
+  std::map<std::string, double> fixed;
+  for (const auto& [coordinate, value] : x.projection->fixed)
+    fixed[coordinate_names[coordinate]] = value;
+  return fixed;
 }
 
 // "L1 wrench space: fx fy fz at tx = 0, any ty tz"
@@ -104,10 +90,10 @@ static int draw_projection(lua_State* L) {
   return push_object(L, draw_scene(L, options, make_wrench_scene(showing)));
 }
 
-static int projection_text(lua_State* L) {
-  const Projection& p = *self<ProjectionHandle>(L).projection;
-  return push(L, fmt::format("projection to {} {} {}, volume {:.6g}", coordinate_names[p.free[0]],
-                             coordinate_names[p.free[1]], coordinate_names[p.free[2]], p.volume));
+static std::string projection_text(const ProjectionHandle& x) {
+  const Projection& p = *x.projection;
+  return fmt::format("projection to {} {} {}, volume {:.6g}", coordinate_names[p.free[0]],
+                     coordinate_names[p.free[1]], coordinate_names[p.free[2]], p.volume);
 }
 
 static const Entry projection_fields[] = {
@@ -115,19 +101,20 @@ static const Entry projection_fields[] = {
 Volume in the three coordinates; 0 when it is flat.
 @type number
 > grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.volume > 0  --> true)"},
-    {"mesh", guarded<get_projection_mesh>, R"(
+    {"mesh", getter<[](const ProjectionHandle& x) { return x.shape; }>, R"(
 Its surface, x y z the free coordinates; nil when it is flat.
 @type mesh
 > grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}.mesh:is_watertight()  --> true)"},
-    {"free", guarded<get_free>, R"(
+    {"free", getter<[](const ProjectionHandle& x) { return names_of(x.projection->free); }>, R"(
 The coordinates that are left, which are x, y and z of the mesh.
 @type string[]
 > grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.free[1]  --> fx)"},
-    {"fixed", guarded<get_fixed>, R"(
+    {"fixed", getter<fixed_of>, R"(
 The values of the coordinates that were fixed.
 @type table<string, number>
 > grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0.01}}.fixed.tz  --> 0.01)"},
-    {"projected", guarded<get_projected>, R"(
+    {"projected",
+     getter<[](const ProjectionHandle& x) { return names_of(x.projection->projected); }>, R"(
 The coordinates that may be anything.
 @type string[]
 > #grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.projected  --> 3)"},
@@ -144,7 +131,7 @@ weakest direction; size, samples and camera as in clench.render.
 };
 
 static const Entry projection_operators[] = {
-    {"__tostring", guarded<projection_text>, ""},
+    {"__tostring", method<projection_text>, ""},
 };
 
 const Class projection_class{.name = "projection",

@@ -5,6 +5,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"
@@ -12,32 +13,25 @@
 namespace clench {
 
 std::optional<int> read_edges(Table& options) {
-  const What what = options.what("edges");
-  std::optional<int> edges;
-  if (const int type = options.push("edges"); type == LUA_TSTRING) {
-    const std::string word = read_string(what.L, -1, what);
+  if (!options.has("edges")) return {};
+  if (options.type("edges") == LUA_TSTRING) {
+    const std::string word = options.string("edges");
     if (word != "exact")
       fail("{}: edges must be 3 to {} or 'exact', got '{}'", options.subject(), max_edges, word);
-    edges = round_edges;
-  } else if (type != LUA_TNIL) {
-    edges = read_int(what.L, lua_gettop(what.L), what);
-    if (*edges < 3 || *edges > max_edges)
-      fail("{}: edges must be 3 to {} or 'exact', got {}", options.subject(), max_edges, *edges);
+    return round_edges;
   }
-  lua_pop(what.L, 1);
+  const int edges = options.integer("edges");
+  if (edges < 3 || edges > max_edges)
+    fail("{}: edges must be 3 to {} or 'exact', got {}", options.subject(), max_edges, edges);
   return edges;
 }
 
 bool is_gyration(Table& options) {
-  const What what = options.what("rho");
-  const bool word = options.push("rho") == LUA_TSTRING;
-  if (word) {
-    const std::string name = read_string(what.L, -1, what);
-    if (name != "gyration")
-      fail("{}: rho must be a number or 'gyration', got '{}'", options.subject(), name);
-  }
-  lua_pop(what.L, 1);
-  return word;
+  if (options.type("rho") != LUA_TSTRING) return false;
+  const std::string word = options.string("rho");
+  if (word != "gyration")
+    fail("{}: rho must be a number or 'gyration', got '{}'", options.subject(), word);
+  return true;
 }
 
 static int coordinate_of(const std::string& name, const What& what) {
@@ -48,30 +42,20 @@ static int coordinate_of(const std::string& name, const What& what) {
 }
 
 std::optional<std::vector<int>> read_coordinates(Table& options, const char* key) {
+  if (!options.has(key)) return {};
+  std::vector<int> out;
   const What what = options.what(key);
-  lua_State* L = what.L;
-  std::optional<std::vector<int>> out;
-  if (const int type = options.push(key); type == LUA_TTABLE) {
-    const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of coordinates");
-    out.emplace();
-    for (int i = 1; i <= count; ++i) {
-      lua_rawgeti(L, list, i);
-      const int c = coordinate_of(read_string(L, lua_gettop(L), what.item(i)), what);
-      if (std::ranges::count(*out, c))
-        fail("{}: {} is there twice", what.text(), coordinate_names[c]);
-      out->push_back(c);
-      lua_pop(L, 1);
-    }
-  } else if (type != LUA_TNIL) {
-    fail_expected(what, "a list of coordinates", -1);
-  }
-  lua_pop(L, 1);
+  options.each(key, "a list of coordinates", [&](int i, const What& item) {
+    const int c = coordinate_of(read_string(what.L, i, item), what);
+    if (std::ranges::count(out, c)) fail("{}: {} is there twice", what.text(), coordinate_names[c]);
+    out.push_back(c);
+  });
   return out;
 }
 
 WrenchSpaceOptions read_space_options(Table& options) {
   WrenchSpaceOptions out;
-  if (options.choice("norm", {"L1", "Linf"}, "L1") == "Linf") out.norm = WrenchNorm::linf;
+  out.norm = options.choice("norm", norm_words, out.norm);
   out.coordinates = read_coordinates(options, "coordinates").value_or(out.coordinates);
   return out;
 }
@@ -99,11 +83,7 @@ static UnitWrenches read_contact(lua_State* L, int i, const What& what, const Co
       fail(error.kind(), "{}: {}", what.text(), error.what());
     }
   }
-  const auto rows = read_rows(L, i, what, 6);
-  Wrenches wrenches(6, static_cast<int>(rows.size()));
-  for (size_t c = 0; c < rows.size(); ++c)
-    wrenches.col(static_cast<int>(c)) = Eigen::Map<const Vector6d>(rows[c].data());
-  return {wrenches, {}};
+  return {columns_of(read_rows(L, i, what, 6)), {}};
 }
 
 static constexpr Eigen::Index max_space_edges = 100'000;  // each question goes through all
@@ -116,20 +96,14 @@ static int new_wrench_space(lua_State* L) {
   cone.p_OM = options.vec3("com", Eigen::Vector3d::Zero());
   const WrenchSpaceOptions space_options = read_space_options(options);
   std::vector<UnitWrenches> contacts;
-  options.push("contacts");
-  const int list = lua_gettop(L);
-  const int count = read_list_size(L, list, options.what("contacts"), "a list of contacts");
   Eigen::Index edges = 0;
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, list, i);
-    contacts.push_back(read_contact(L, lua_gettop(L), options.what("contacts").item(i), cone));
-    lua_pop(L, 1);
+  options.each("contacts", "a list of contacts", [&](int i, const What& what) {
+    contacts.push_back(read_contact(L, i, what, cone));
     edges += contacts.back().edges.cols();
     if (edges > max_space_edges)
       fail(ErrorKind::limit, "{}: contacts: expected at most {} edges in all, got more", subject(L),
            max_space_edges);
-  }
-  lua_pop(L, 1);
+  });
   options.done();
   return push_object(
       L, WrenchSpacePtr(std::make_shared<WrenchSpace>(std::move(contacts), space_options)));
@@ -144,12 +118,12 @@ size_t owned_bytes(const WrenchSpacePtr& space) {
 
 static const WrenchSpace& space(lua_State* L) { return *self<WrenchSpacePtr>(L); }
 
-const char* norm_name(const WrenchSpace& s) {
-  return s.options().norm == WrenchNorm::l1 ? "L1" : "Linf";
-}
+const char* norm_name(const WrenchSpace& s) { return word_of(s.options().norm, norm_words); }
 
-int push_coordinate_names(lua_State* L, std::span<const int> coordinates) {
-  return push_list_of(L, coordinates, [&](int c) { push(L, coordinate_names[c]); });
+std::vector<const char*> names_of(std::span<const int> coordinates) {
+  std::vector<const char*> names;
+  for (const int c : coordinates) names.push_back(coordinate_names[c]);
+  return names;
 }
 
 static int epsilon(lua_State* L) { return push(L, space(L).epsilon(Watching(L).progress())); }
@@ -161,12 +135,12 @@ static int epsilon_bounds(lua_State* L) {
   if (table.has("at_least")) options.at_least = table.number("at_least");
   table.done();
   const EpsilonBounds bounds = space(L).epsilon_bounds(options, Watching(L).progress());
-  push_list(L, 0, 4);
-  set_field(L, "lower", bounds.lower);
-  set_field(L, "upper", bounds.upper);
-  set_field(L, "converged", bounds.converged);
-  if (options.at_least) set_field(L, "reached", bounds.lower >= *options.at_least);
-  return 1;
+  std::optional<bool> reached;
+  if (options.at_least) reached = bounds.lower >= *options.at_least;
+  return push_record(L, {{"lower", bounds.lower},
+                         {"upper", bounds.upper},
+                         {"converged", bounds.converged},
+                         {"reached", reached}});
 }
 
 static int volume(lua_State* L) { return push(L, space(L).volume(Watching(L).progress())); }
@@ -176,31 +150,19 @@ static int volume_bounds(lua_State* L) {
   const int edges = table.integer("edges", 32);
   table.done();
   const VolumeBounds bounds = space(L).volume_bounds(edges, Watching(L).progress());
-  push_list(L, 0, 2);
-  set_field(L, "lower", bounds.lower);
-  set_field(L, "upper", bounds.upper);
-  return 1;
+  return push_record(L, {{"lower", bounds.lower}, {"upper", bounds.upper}});
 }
 
 static int closes_force(lua_State* L) {
   return push(L, space(L).is_force_closure(Watching(L).progress()));
 }
 
-static int get_rank(lua_State* L) { return push(L, space(L).rank()); }
-static int get_wrench_space_norm(lua_State* L) { return push(L, norm_name(space(L))); }
-static int get_coordinates(lua_State* L) {
-  return push_coordinate_names(L, space(L).options().coordinates);
-}
-
 static int weakest(lua_State* L) {
   const Weakest& w = space(L).weakest(Watching(L).progress());
-  push_list(L, 0, 3);
-  push_vector(L, w.direction);
-  lua_setfield(L, -2, "direction");
-  set_field(L, "resistance", w.resistance);
-  push_list_of(L, w.contacts, [&](int contact) { push(L, contact + 1); });
-  lua_setfield(L, -2, "contacts");
-  return 1;
+  std::vector<int> contacts;
+  for (const int contact : w.contacts) contacts.push_back(contact + 1);
+  return push_record(
+      L, {{"direction", w.direction}, {"resistance", w.resistance}, {"contacts", contacts}});
 }
 
 static int wrenches(lua_State* L) {
@@ -235,15 +197,16 @@ is calculated before it is asked for.
 };
 
 static const Entry space_fields[] = {
-    {"rank", guarded<get_rank>, R"(
+    {"rank", getter<[](const WrenchSpacePtr& x) { return x->rank(); }>, R"(
 Dimension that the wrenches span, 0 to that of the space.
 @type integer
 > clench.wrench_space{contacts = {{{1, 0, 0, 0, 0, 0}}}}.rank  --> 1)"},
-    {"norm", guarded<get_wrench_space_norm>, R"(
+    {"norm", getter<[](const WrenchSpacePtr& x) { return norm_name(*x); }>, R"(
 "L1" or "Linf".
 @type string
 > grasp:wrench_space().norm  --> L1)"},
-    {"coordinates", guarded<get_coordinates>, R"(
+    {"coordinates",
+     getter<[](const WrenchSpacePtr& x) { return names_of(x->options().coordinates); }>, R"(
 The coordinates that count.
 @type string[]
 > #grasp:wrench_space().coordinates  --> 6)"},

@@ -11,29 +11,16 @@ namespace clench {
 
 static constexpr size_t max_named = 8;  // of letters that are boxes
 
-// calls read(index, what) with each item of the list on top of the stack
-template <class Read>
-static void each_item(lua_State* L, const What& what, Read read) {
-  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list");
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, list, i);
-    read(lua_gettop(L), what.item(i));
-    lua_pop(L, 1);
-  }
-}
-
 static ChartSeries read_series(lua_State* L, int index, const What& what) {
   if (!lua_istable(L, index)) fail_expected(what, "{name = ..., values = ...}", index);
   Table one(L, index, what.text());
   ChartSeries series;
   series.name = one.string("name");
   series.higher_is_better = one.boolean("higher_is_better", true);
-  one.push("values");
-  each_item(L, one.what("values"), [&](int i, const What& value) {
+  one.each("values", "a list", [&](int i, const What& value) {
     const bool none = lua_isboolean(L, i) && !lua_toboolean(L, i);
     series.values.push_back(none ? NAN : read_number(L, i, value));
   });
-  lua_pop(L, 1);
   one.done();
   return series;
 }
@@ -56,14 +43,11 @@ static int chart_draw(lua_State* L) {
   Table options(L, 1);
   Chart chart;
   chart.title = options.string("title", "");
-  if (options.push("labels") != LUA_TNIL)
-    each_item(L, options.what("labels"),
-              [&](int i, const What& what) { chart.labels.push_back(read_string(L, i, what)); });
-  lua_pop(L, 1);
-  options.push("series");
-  each_item(L, options.what("series"),
-            [&](int i, const What& what) { chart.series.push_back(read_series(L, i, what)); });
-  lua_pop(L, 1);
+  if (options.has("labels"))
+    options.each("labels", "a list",
+                 [&](int i, const What& what) { chart.labels.push_back(read_string(L, i, what)); });
+  options.each("series", "a list",
+               [&](int i, const What& what) { chart.series.push_back(read_series(L, i, what)); });
   ChartOptions drawing;
   drawing.width = options.integer("width", drawing.width);
   drawing.height = options.integer("height", drawing.height);

@@ -15,36 +15,21 @@ namespace clench {
 // numbers, or false where one is missing
 static std::vector<double> read_gappy(lua_State* L, Table& series, const char* key) {
   std::vector<double> out;
-  series.push(key);
-  const int list = lua_gettop(L);
-  const What what = series.what(key);
-  const int count = read_list_size(L, list, what, "a list of numbers");
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, list, i);
-    const bool none = lua_isboolean(L, -1) && !lua_toboolean(L, -1);
-    const bool number = lua_type(L, -1) == LUA_TNUMBER;
-    if (!none && !number) fail_expected(what.item(i), "a number, or false", lua_gettop(L));
-    out.push_back(none ? NAN : lua_tonumber(L, -1));
-    lua_pop(L, 1);
-  }
-  lua_pop(L, 1);
+  series.each(key, "a list of numbers", [&](int i, const What& what) {
+    const bool none = lua_isboolean(L, i) && !lua_toboolean(L, i);
+    if (!none && lua_type(L, i) != LUA_TNUMBER) fail_expected(what, "a number, or false", i);
+    out.push_back(none ? NAN : lua_tonumber(L, i));
+  });
   return out;
 }
 
 // a list of texts; empty: absent
 static std::vector<std::string> read_texts(lua_State* L, Table& options, const char* key) {
   std::vector<std::string> out;
-  if (options.push(key) != LUA_TNIL) {
-    const What what = options.what(key);
-    const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of texts");
-    if (count == 0) fail("{}: expected at least one, got none", what.text());
-    for (int i = 1; i <= count; ++i) {
-      lua_rawgeti(L, list, i);
-      out.push_back(read_string(L, -1, what.item(i)));
-      lua_pop(L, 1);
-    }
-  }
-  lua_pop(L, 1);
+  if (!options.has(key)) return out;
+  options.each(key, "a list of texts",
+               [&](int i, const What& what) { out.push_back(read_string(L, i, what)); });
+  if (out.empty()) fail("{}: expected at least one, got none", options.what(key).text());
   return out;
 }
 
@@ -61,11 +46,9 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what, bo
     series.y = one.numbers("counts");
     one.number("below", 0), one.number("above", 0);
   } else {
-    const std::string kind =
-        one.choice("kind", {"line", "points", "bars"}, categories ? "bars" : "line");
-    series.kind = kind == "line"     ? PlotKind::line
-                  : kind == "points" ? PlotKind::points
-                                     : PlotKind::bars;
+    series.kind = one.choice(
+        "kind", {{"line", PlotKind::line}, {"points", PlotKind::points}, {"bars", PlotKind::bars}},
+        categories ? PlotKind::bars : PlotKind::line);
     series.y = read_gappy(L, one, "y");
     if (one.has("x"))
       series.x = read_gappy(L, one, "x");
@@ -78,7 +61,7 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what, bo
 
 static PlotAxis read_axis(Table& options, const char* label, const char* range, const char* scale) {
   PlotAxis axis{options.string(label, "")};
-  axis.logarithmic = options.choice(scale, {"linear", "log"}, "linear") == "log";
+  axis.logarithmic = options.choice(scale, {{"linear", false}, {"log", true}}, false);
   if (!options.has(range)) return axis;
   const auto ends = options.numbers(range, 2);
   axis.range = std::array{ends[0], ends[1]};
@@ -94,24 +77,13 @@ static int make_plot(lua_State* L) {
   plot.width = options.integer("width", plot.width);
   plot.height = options.integer("height", plot.height);
   plot.categories = read_texts(L, options, "categories");
-  const What what = options.what("series");
-  options.push("series");
-  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of series");
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, list, i);
-    plot.series.push_back(
-        read_plot_series(L, lua_gettop(L), what.item(i), !plot.categories.empty()));
-    lua_pop(L, 1);
-  }
-  lua_pop(L, 1);
+  options.each("series", "a list of series", [&](int i, const What& what) {
+    plot.series.push_back(read_plot_series(L, i, what, !plot.categories.empty()));
+  });
   options.done();
   const Font font;
   warn_without_letters(L, font);
   return push_object(L, PlotHandle{std::make_shared<const Drawing>(draw_plot(plot, font))});
-}
-
-static int get_picture(lua_State* L) {
-  return push_object(L, paint(*self<PlotHandle>(L).drawing, Font()));
 }
 
 static int plot_save(lua_State* L) {
@@ -126,17 +98,12 @@ static int plot_save(lua_State* L) {
   return 0;
 }
 
-static int get_width(lua_State* L) { return push(L, self<PlotHandle>(L).drawing->width); }
-static int get_height(lua_State* L) { return push(L, self<PlotHandle>(L).drawing->height); }
-
-static int plot_equal(lua_State* L) {
-  const auto *a = to<PlotHandle>(L, 1), *b = to<PlotHandle>(L, 2);
-  return push(L, a && b && svg_text(*a->drawing) == svg_text(*b->drawing));
+static bool operator==(const PlotHandle& a, const PlotHandle& b) {
+  return svg_text(*a.drawing) == svg_text(*b.drawing);
 }
 
-static int plot_text(lua_State* L) {
-  const Drawing& drawing = *self<PlotHandle>(L).drawing;
-  return push(L, fmt::format("plot of {} x {} pixels", drawing.width, drawing.height));
+static std::string plot_text(const PlotHandle& plot) {
+  return fmt::format("plot of {} x {} pixels", plot.drawing->width, plot.drawing->height);
 }
 
 static int make_sheet(lua_State* L) {
@@ -145,20 +112,15 @@ static int make_sheet(lua_State* L) {
   SheetOptions arranging;
   std::vector<const Picture*> pictures;
   std::list<Picture> painted;  // of plots
-  const What what = options.what("pictures");
-  options.push("pictures");
-  const int list = lua_gettop(L), count = read_list_size(L, list, what, "a list of pictures");
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, list, i);
-    if (const auto* plot = to<PlotHandle>(L, -1)) {
+  options.each("pictures", "a list of pictures", [&](int i, const What& what) {
+    if (const auto* plot = to<PlotHandle>(L, i)) {
       pictures.push_back(&painted.emplace_back(paint(*plot->drawing, font)));
-    } else {
-      const auto* picture = to<Picture>(L, -1);
-      if (!picture) fail_object(what.item(i), class_of<Picture>(), lua_gettop(L));
-      pictures.push_back(picture);  // the list keeps it alive
+      return;
     }
-    lua_pop(L, 1);
-  }
+    const auto* picture = to<Picture>(L, i);
+    if (!picture) fail_object(what, class_of<Picture>(), i);
+    pictures.push_back(picture);  // the list keeps it alive
+  });
   arranging.captions = read_texts(L, options, "captions");
   if (options.has("columns")) {
     arranging.columns = options.integer("columns");
@@ -168,9 +130,7 @@ static int make_sheet(lua_State* L) {
   arranging.gap = options.integer("gap", arranging.gap);
   options.done();
   if (!arranging.captions.empty()) warn_without_letters(L, font);
-  Picture out = contact_sheet(pictures, arranging, font);
-  lua_pop(L, 1);
-  return push_object(L, std::move(out));
+  return push_object(L, contact_sheet(pictures, arranging, font));
 }
 
 static const Entry plot_functions[] = {
@@ -197,15 +157,15 @@ Several pictures in one, in rows, each with its caption under it.
 };
 
 static const Entry plot_fields[] = {
-    {"picture", guarded<get_picture>, R"(
+    {"picture", getter<[](const PlotHandle& x) { return paint(*x.drawing, Font()); }>, R"(
 It as pixels, on white.
 @type picture
 > clench.plot{series = {{y = {1, 2}}}, width = 100, height = 80}.picture.width  --> 100)"},
-    {"width", guarded<get_width>, R"(
+    {"width", getter<[](const PlotHandle& x) { return x.drawing->width; }>, R"(
 Its width [pixels].
 @type integer
 > clench.plot{series = {{y = {1, 2}}}}.width  --> 720)"},
-    {"height", guarded<get_height>, R"(
+    {"height", getter<[](const PlotHandle& x) { return x.drawing->height; }>, R"(
 Its height [pixels].
 @type integer
 > clench.plot{series = {{y = {1, 2}}}}.height  --> 480)"},
@@ -219,8 +179,8 @@ Writes a file: .svg, whose lines and letters a program for papers can change, or
 > clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},
 };
 
-static const Entry plot_operators[] = {{"__tostring", guarded<plot_text>, ""},
-                                       {"__eq", guarded<plot_equal>, ""}};
+static const Entry plot_operators[] = {{"__tostring", method<plot_text>, ""},
+                                       {"__eq", equality<PlotHandle>, ""}};
 
 const Library plot_library{.name = "clench", .doc = "", .functions = plot_functions};
 

@@ -6,6 +6,7 @@
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -71,27 +72,6 @@ void warn_without_letters(lua_State* L, const Font& font) {
   if (!font.fault().empty()) warn_once(L, &told, font.fault());
 }
 
-// what a Lua state keeps from picture to picture
-static Renderer& renderer_of(lua_State* L) {
-  static const char key = 0;  // its address names the state's
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TUSERDATA) {
-    lua_pop(L, 1);
-    new (lua_newuserdatauv(L, sizeof(Renderer), 0)) Renderer;
-    lua_createtable(L, 0, 1);
-    lua_pushcfunction(L, [](lua_State* state) {
-      static_cast<Renderer*>(lua_touserdata(state, 1))->~Renderer();
-      return 0;
-    });
-    lua_setfield(L, -2, "__gc");
-    lua_setmetatable(L, -2);
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &key);
-  }
-  auto& renderer = *static_cast<Renderer*>(lua_touserdata(L, -1));
-  lua_pop(L, 1);
-  return renderer;
-}
-
 static RenderOptions read_rendering(Table& options) {
   RenderOptions rendering;
   const auto size =
@@ -101,17 +81,16 @@ static RenderOptions read_rendering(Table& options) {
       fail("{}: size: expected whole numbers of pixels, at least 1, got {}", options.subject(), n);
   rendering.width = floor_int(size[0]);
   rendering.height = floor_int(size[1]);
-  rendering.quality = options.choice("quality", {"paper", "draft"}, "paper") == "draft"
-                          ? Quality::draft
-                          : Quality::paper;
+  rendering.quality = options.choice(
+      "quality", {{"paper", Quality::paper}, {"draft", Quality::draft}}, Quality::paper);
   if (rendering.quality == Quality::draft && options.has("samples"))
     fail("{}: samples: only paper quality takes them, drafts have one", options.subject());
   rendering.samples = options.integer("samples", rendering.samples);
-  const std::string behind =
-      options.choice("background", {"studio", "white", "transparent"}, "studio");
-  rendering.backdrop = behind == "white"         ? Backdrop::white
-                       : behind == "transparent" ? Backdrop::transparent
-                                                 : Backdrop::studio;
+  rendering.backdrop = options.choice("background",
+                                      {{"studio", Backdrop::studio},
+                                       {"white", Backdrop::white},
+                                       {"transparent", Backdrop::transparent}},
+                                      Backdrop::studio);
   const auto pixels = [&](const char* key, double most) {
     const double n = options.number(key, 0);
     if (!(n >= 0 && n <= most))
@@ -144,12 +123,13 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene) {
   // a camera that is given in part begins from the one that frames everything
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
-  const bool ortho = options.push("orthographic") != LUA_TNIL && lua_toboolean(L, -1);
+  options.push("orthographic");
+  const bool ortho = lua_toboolean(L, -1);
   lua_pop(L, 1);
   const bool whole = parts == 4;
   const double aspect = static_cast<double>(rendering.width) / rendering.height;
   check(rendering);
-  const Eye framed = whole ? Eye{} : renderer_of(L).frame_all(scene, aspect, ortho);
+  const Eye framed = whole ? Eye{} : kept<Renderer>(L).frame_all(scene, aspect, ortho);
   Eye eye = read_eye(options, framed);
   // where something else is looked at, the height is that at the target
   if (options.has("eye") || options.has("target") || options.has("field_of_view"))
@@ -161,7 +141,7 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene) {
   if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
   const Watching watching(L);
   rendering.progress = watching.progress();
-  return renderer_of(L).draw(scene, rendering, font);
+  return kept<Renderer>(L).draw(scene, rendering, font);
 }
 
 // heights in proportion to normal forces; those of grasp:contact_forces name their contacts
@@ -173,20 +153,19 @@ static std::vector<ContactLoad> read_loads(const GivenForces& given) {
 }
 
 static void read_cones(Table& options, const GivenForces& given, SceneOptions& showing) {
-  const std::string sizes =
-      options.choice("cones", {"apart", "equal", "friction", "force"}, "apart");
-  showing.cone_sizes = sizes == "equal"      ? ConeSizes::equal
-                       : sizes == "friction" ? ConeSizes::friction
-                       : sizes == "force"    ? ConeSizes::force
-                                             : ConeSizes::apart;
+  showing.cone_sizes = options.choice("cones",
+                                      {{"apart", ConeSizes::apart},
+                                       {"equal", ConeSizes::equal},
+                                       {"friction", ConeSizes::friction},
+                                       {"force", ConeSizes::force}},
+                                      ConeSizes::apart);
   if (showing.cone_sizes == ConeSizes::force && given.forces.empty())
     fail("{}: cones: 'force' needs the option forces", options.subject());
   showing.cone_height = options.positive("cone_height", 1);
   if (!options.has("cone_height")) showing.cone_height = 0;
   showing.loads = read_loads(given);
-  showing.framing = options.choice("frame", {"contacts", "all"}, "contacts") == "all"
-                        ? Framing::all
-                        : Framing::contacts;
+  showing.framing = options.choice(
+      "frame", {{"contacts", Framing::contacts}, {"all", Framing::all}}, Framing::contacts);
 }
 
 static int render_draw(lua_State* L) {
@@ -218,33 +197,29 @@ static int render_save(lua_State* L) {
   return 0;
 }
 
-static int pixel(lua_State* L) {
-  const Picture& p = self<Picture>(L);
+// the pixel that arguments 2 and 3 name, from 0, row by row
+static size_t check_pixel(lua_State* L, const Picture& p) {
   const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
   if (x < 1 || x > p.width || y < 1 || y > p.height)
     fail("{}: expected 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
-  const size_t at = 3 * (static_cast<size_t>(y - 1) * p.width + (x - 1));
+  return static_cast<size_t>(y - 1) * p.width + (x - 1);
+}
+
+static int pixel(lua_State* L) {
+  const Picture& p = self<Picture>(L);
+  const size_t at = 3 * check_pixel(L, p);
   for (int k = 0; k < 3; ++k) push(L, static_cast<int>(p.pixels[at + k]));
   return 3;
 }
 
 static int alpha(lua_State* L) {
   const Picture& p = self<Picture>(L);
-  const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
-  if (x < 1 || x > p.width || y < 1 || y > p.height)
-    fail("{}: expected 1..{}, 1..{}, got {}, {}", subject(L), p.width, p.height, x, y);
-  const size_t at = static_cast<size_t>(y - 1) * p.width + (x - 1);
+  const size_t at = check_pixel(L, p);
   return push(L, p.alpha.empty() ? 255 : static_cast<int>(p.alpha[at]));
 }
 
-static int render_text(lua_State* L) {
-  const Picture& p = self<Picture>(L);
-  return push(L, fmt::format("picture of {} x {} pixels", p.width, p.height));
-}
-
-static int render_equal(lua_State* L) {
-  const auto *a = to<Picture>(L, 1), *b = to<Picture>(L, 2);
-  return push(L, a && b && *a == *b);
+static std::string picture_text(const Picture& p) {
+  return fmt::format("picture of {} x {} pixels", p.width, p.height);
 }
 
 static const Entry render_functions[] = {
@@ -303,20 +278,19 @@ How much a pixel covers, 0 to 255: less than 255 where a transparent background 
 };
 
 static const Entry render_operators[] = {
-    {"__tostring", guarded<render_text>, ""},
-    {"__eq", guarded<render_equal>, ""},
+    {"__tostring", method<picture_text>, ""},
+    {"__eq", equality<Picture>, ""},
 };
 
 const Library render_library{.name = "clench", .doc = "", .functions = render_functions};
 
-const Class picture_class{
-    .name = "picture",
-    .variable = "picture",
-    .doc =
-        "A picture: red, green and blue, 8 bits each, and how much each pixel covers. "
-        "`==` compares every pixel.",
-    .fields = render_fields,
-    .methods = render_methods,
-    .operators = render_operators};
+const Class picture_class{.name = "picture",
+                          .variable = "picture",
+                          .doc =
+                              "A picture: red, green and blue, 8 bits each, and how much each "
+                              "pixel covers. `==` compares every pixel.",
+                          .fields = render_fields,
+                          .methods = render_methods,
+                          .operators = render_operators};
 
 }  // namespace clench

@@ -16,16 +16,11 @@ static constexpr double inventor_field_of_view = 0.7853981633974483;
 
 int get_camera(lua_State* L) {
   const auto& camera = self<WorldHandle>(L).world->camera();
-  if (!camera) {
-    lua_pushnil(L);
-    return 1;
-  }
-  push_list(L, 0, 4);
-  set_field(L, "eye", camera->X_WC.position);
-  set_field(L, "target", camera->X_WC * Eigen::Vector3d(0, 0, -camera->focal_distance));
-  set_field(L, "up", Eigen::Vector3d(camera->X_WC.rotation * Eigen::Vector3d::UnitY()));
-  set_field(L, "field_of_view", inventor_field_of_view);
-  return 1;
+  if (!camera) return push_nil(L);
+  return push_record(L, {{"eye", camera->X_WC.position},
+                         {"target", camera->X_WC * Eigen::Vector3d(0, 0, -camera->focal_distance)},
+                         {"up", camera->X_WC.rotation * Eigen::Vector3d::UnitY()},
+                         {"field_of_view", inventor_field_of_view}});
 }
 
 Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,

@@ -64,19 +64,18 @@ static int arrays(lua_State* L) {
   const auto found = read_npz(path, read_bytes(path));
   push_list(L, 0, static_cast<int>(found.size()));
   for (const auto& [name, array] : found) {
-    push(L, std::string_view(name));
+    push(L, name);
     const size_t count = array.shape.empty() ? 1 : array.shape[0];
     const size_t width =
         count > 0 ? (array.is_text ? array.texts.size() : array.numbers.size()) / count : 0;
-    if (array.is_text)
-      push_list_of(L, array.texts,
-                   [&](const std::string& text) { push(L, std::string_view(text)); });
-    else if (array.shape.size() < 2)
-      push_numbers(L, array.numbers);
-    else {
+    if (array.is_text) {
+      push(L, array.texts);
+    } else if (array.shape.size() < 2) {
+      push(L, array.numbers);
+    } else {
       push_list(L, static_cast<int>(count));
       for (size_t i = 0; i < count; ++i) {
-        push_numbers(L, std::span(array.numbers).subspan(i * width, width));
+        push(L, std::span(array.numbers).subspan(i * width, width));
         lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
       }
     }

@@ -89,9 +89,7 @@ static int catalog(lua_State* L) {
   const std::string confine = get_setting(L, Setting::confine);
   push_list(L, 0, static_cast<int>(std::size(shelves)));
   for (const Shelf& shelf : shelves) {
-    push_list_of(L, files_on(home, shelf, confine),
-                 [L](const std::string& path) { push(L, path); });
-    lua_setfield(L, -2, shelf.name);
+    set_field(L, shelf.name, files_on(home, shelf, confine));
   }
   return 1;
 }

@@ -8,46 +8,38 @@
 
 namespace clench {
 
-static void add_entries(lua_State* L, const char* kind, std::span<const Entry> entries) {
-  push_list_of(L, entries, [L](const Entry& entry) {
-    push_list(L, 0, 4);
-    set_field(L, "name", entry.name);
-    lua_pushlightuserdata(L, const_cast<Entry*>(&entry));
-    lua_setfield(L, -2, "id");
-    set_field(L, "doc", entry.doc);
-    set_field(L, "settable", entry.setter != nullptr);
-  });
-  lua_setfield(L, -2, kind);
+static int push(lua_State* L, const Entry& entry) {
+  return push_record(L, {{"name", entry.name},
+                         {"id", [&] { lua_pushlightuserdata(L, const_cast<Entry*>(&entry)); }},
+                         {"doc", entry.doc},
+                         {"settable", entry.setter != nullptr}});
+}
+
+static int push(lua_State* L, const Library* library) {
+  return push_record(L, {{"name", library->name},
+                         {"doc", library->doc},
+                         {"functions", library->functions},
+                         {"fields", library->fields}});
+}
+
+static int push(lua_State* L, const Class* kind) {
+  push_record(L, {{"name", kind->name},
+                  {"variable", kind->variable},
+                  {"doc", kind->doc},
+                  {"fields", kind->fields},
+                  {"methods", kind->methods},
+                  {"operators", kind->operators}});
+  if (kind->parent) set_field(L, "parent", kind->parent->name);
+  return 1;
+}
+
+static int push(lua_State* L, const PackedFile& file) {
+  return push_record(L, {{"path", file.path}, {"text", file.text}});
 }
 
 static int entries(lua_State* L) {
-  push_list(L, 0, 2);
-  push_list_of(L, all_libraries(), [L](const Library* library) {
-    push_list(L, 0, 4);
-    set_field(L, "name", library->name);
-    set_field(L, "doc", library->doc);
-    add_entries(L, "functions", library->functions);
-    add_entries(L, "fields", library->fields);
-  });
-  lua_setfield(L, -2, "libraries");
-  push_list_of(L, all_classes(), [L](const Class* kind) {
-    push_list(L, 0, 7);
-    set_field(L, "name", kind->name);
-    set_field(L, "variable", kind->variable);
-    set_field(L, "doc", kind->doc);
-    if (kind->parent) set_field(L, "parent", kind->parent->name);
-    add_entries(L, "fields", kind->fields);
-    add_entries(L, "methods", kind->methods);
-    add_entries(L, "operators", kind->operators);
-  });
-  lua_setfield(L, -2, "classes");
-  push_list_of(L, packed_files(), [L](const PackedFile& file) {
-    push_list(L, 0, 2);
-    set_field(L, "path", file.path);
-    set_field(L, "text", file.text);
-  });
-  lua_setfield(L, -2, "files");
-  return 1;
+  return push_record(
+      L, {{"libraries", all_libraries()}, {"classes", all_classes()}, {"files", packed_files()}});
 }
 
 static const Entry entries_functions[] = {

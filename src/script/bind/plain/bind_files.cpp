@@ -54,8 +54,7 @@ static int csv_records(lua_State* L) {
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
   const auto records = read_csv(file, string_at(L, 2), check_separator(L, 3));
   return push_list_of(L, records, [L](const CsvRecord& record) {
-    push_list_of(L, record.cells,
-                 [L](const CsvCell& cell) { push(L, std::string_view(cell.text)); });
+    push_list_of(L, record.cells, [L](const CsvCell& cell) { push(L, cell.text); });
     set_field(L, "line", record.line);
     push_list(L);
     for (size_t c = 0; c < record.cells.size(); ++c)
@@ -76,49 +75,39 @@ static int eigengrasps(lua_State* L) {
 
 // --- contacts ---
 
-static void push_edges(lua_State* L, const FrictionEdges& edges) {
-  push_rows(L, edges.transpose());
-  lua_setfield(L, -2, "edges");
-}
-
 static int virtual_contacts(lua_State* L) {
   const VirtualContactSet set = read_with(L, read_virtual_contacts);
   push_list_of(L, set.contacts,
                [L, place = set.places.begin()](const VirtualContactSpec& c) mutable {
-                 push_list(L, 0, 5);
-                 set_field(L, "chain", place->chain + 1);
-                 set_field(L, "link", place++->link + 1);
-                 set_field(L, "frame", c.X_LC);
-                 set_field(L, "mu", c.mu);
-                 push_edges(L, c.edges);
+                 push_record(L, {{"chain", place->chain + 1},
+                                 {"link", place->link + 1},
+                                 {"frame", c.X_LC},
+                                 {"mu", c.mu},
+                                 {"edges", c.edges.transpose()}});
+                 ++place;
                });
-  set_field(L, "robot", std::string_view(set.robot));
+  set_field(L, "robot", set.robot);
   return 1;
 }
 
-static int object_contacts(lua_State* L) {
-  return push_list_of(L, read_with(L, read_object_contacts), [L](const ObjectContact& c) {
-    push_list(L, 0, 5);
-    set_field(L, "frame", c.X_OC);
-    set_field(L, "placed", c.placed);
-    set_field(L, "normal", c.n_O);
-    set_field(L, "mu", c.mu);
-    push_edges(L, c.edges);
-  });
+static int push(lua_State* L, const ObjectContact& c) {
+  return push_record(L, {{"frame", c.X_OC},
+                         {"placed", c.placed},
+                         {"normal", c.n_O},
+                         {"mu", c.mu},
+                         {"edges", c.edges.transpose()}});
 }
+
+static int object_contacts(lua_State* L) { return push(L, read_with(L, read_object_contacts)); }
 
 // visits the tables of the list in argument 2
 template <class Visit>
 static void each_table(lua_State* L, Visit visit) {
-  const What what{L, {}, "list"};
-  const int count = read_list_size(L, 2, what, "a list of tables");
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, 2, i);
-    Table item(L, lua_gettop(L), what.item(i).text());
+  each_item(L, 2, {L, {}, "list"}, "a list of tables", [&](int i, const What& what) {
+    Table item(L, i, what.text());
     visit(item);
     item.done();
-    lua_pop(L, 1);
-  }
+  });
 }
 
 static Eigen::Vector3d read_direction(Table& item, const char* key) {
@@ -137,12 +126,7 @@ static int save_object_contacts(lua_State* L) {
                           .n_O = read_direction(item, "normal"),
                           .mu = item.number("mu", 1),
                           .edges = friction_edges()};
-    if (item.has("edges")) {
-      const auto rows = item.rows("edges", 6);
-      contact.edges.resize(6, static_cast<int>(rows.size()));
-      for (size_t e = 0; e < rows.size(); ++e)
-        contact.edges.col(static_cast<int>(e)) = Eigen::Map<const Vector6d>(rows[e].data());
-    }
+    if (item.has("edges")) contact.edges = item.wrenches("edges");
     list.push_back(std::move(contact));
   });
   write_object_contacts(list, path);
@@ -151,30 +135,27 @@ static int save_object_contacts(lua_State* L) {
 
 // --- primitives and grasps ---
 
-static int primitives(lua_State* L) {
+static int push(lua_State* L, const Primitive& p) {
   static constexpr const char* kinds[] = {"box", "sphere", "cylinder", "cone"};
-  return push_list_of(L, read_with(L, read_primitives), [L](const Primitive& p) {
-    push_list(L, 0, 4);
-    set_field(L, "kind", kinds[static_cast<int>(p.kind)]);
-    set_field(L, "pose", p.X_OP);
-    if (p.kind == PrimitiveKind::box)
-      set_field(L, "size", p.size);
-    else
-      set_field(L, "radius", p.radius);
-    if (p.kind == PrimitiveKind::cylinder || p.kind == PrimitiveKind::cone)
-      set_field(L, "height", p.height);
-  });
+  push_record(L, {{"kind", kinds[static_cast<int>(p.kind)]}, {"pose", p.X_OP}});
+  if (p.kind == PrimitiveKind::box)
+    set_field(L, "size", p.size);
+  else
+    set_field(L, "radius", p.radius);
+  if (p.kind == PrimitiveKind::cylinder || p.kind == PrimitiveKind::cone)
+    set_field(L, "height", p.height);
+  return 1;
 }
 
-static int pregrasps(lua_State* L) {
-  return push_list_of(L, read_with(L, read_pregrasps), [L](const Pregrasp& p) {
-    push_list(L, 0, 4);
-    set_field(L, "point", p.point);
-    set_field(L, "direction", p.direction);
-    set_field(L, "thumb", p.thumb);
-    set_field(L, "spread", p.spread);
-  });
+static int primitives(lua_State* L) { return push(L, read_with(L, read_primitives)); }
+
+static int push(lua_State* L, const Pregrasp& p) {
+  return push_record(
+      L,
+      {{"point", p.point}, {"direction", p.direction}, {"thumb", p.thumb}, {"spread", p.spread}});
 }
+
+static int pregrasps(lua_State* L) { return push(L, read_with(L, read_pregrasps)); }
 
 static int save_pregrasps(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
@@ -191,34 +172,18 @@ static int save_pregrasps(lua_State* L) {
 
 // --- gloves ---
 
-static int glove_calibration(lua_State* L) {
-  const GloveCalibration glove = read_with(L, read_glove_calibration);
-  push_list(L, 0, 2);
-  push_rows(L, glove.slopes);
-  lua_setfield(L, -2, "slopes");
-  push_vector(L, glove.intercepts);
-  lua_setfield(L, -2, "intercepts");
+static int glove_calibration(lua_State* L) { return push(L, read_with(L, read_glove_calibration)); }
+
+static int push(lua_State* L, GlovePose pose) {
+  for (int& dof : pose.dof_of_sensor) dof = std::max(dof + 1, 0);
+  push_record(L, {{"distance", pose.distance}, {"pose", pose.pose}});
+  if (!pose.sensors.empty()) set_field(L, "sensors", pose.sensors);
+  if (!pose.dof_of_sensor.empty()) set_field(L, "dof_of_sensor", pose.dof_of_sensor);
+  if (!pose.joints.empty()) set_field(L, "joints", pose.joints);
   return 1;
 }
 
-template <class List>
-static void set_list(lua_State* L, const char* key, const List& list) {
-  if (list.empty()) return;
-  push_list_of(L, list, [L](auto x) { push(L, x); });
-  lua_setfield(L, -2, key);
-}
-
-static int glove_poses(lua_State* L) {
-  return push_list_of(L, read_with(L, read_glove_poses), [L](GlovePose pose) {
-    for (int& dof : pose.dof_of_sensor) dof = std::max(dof + 1, 0);
-    push_list(L, 0, 5);
-    if (pose.distance) set_field(L, "distance", *pose.distance);
-    set_list(L, "sensors", pose.sensors);
-    set_list(L, "dof_of_sensor", pose.dof_of_sensor);
-    set_list(L, "joints", pose.joints);
-    set_field(L, "pose", pose.pose);
-  });
-}
+static int glove_poses(lua_State* L) { return push(L, read_with(L, read_glove_poses)); }
 
 static const Entry files_functions[] = {
     {"eigengrasps", guarded<eigengrasps>, R"(

@@ -2,6 +2,7 @@
 
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
@@ -25,13 +26,9 @@ void push_json_null(lua_State* L) {
 }
 
 void mark_json_object(lua_State* L) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &object_key) != LUA_TTABLE) {
-    lua_pop(L, 1);
-    lua_newtable(L);
+  if (push_kept_table(L, &object_key)) {
     lua_pushboolean(L, 1);
     lua_setfield(L, -2, "__object");
-    lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &object_key);
   }
   lua_setmetatable(L, -2);
 }
@@ -47,9 +44,7 @@ static int encode(lua_State* L) {
 
 static int decode(lua_State* L) {
   if (lua_type(L, 1) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a string", 1);
-  size_t size = 0;
-  const char* text = lua_tolstring(L, 1, &size);
-  read_json(L, {text, size});
+  read_json(L, string_at(L, 1));
   return 1;
 }
 

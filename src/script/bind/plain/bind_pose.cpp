@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 // --- from a table ---
 
-static Quaterniond quat_of(Table& t) {
+static Quaterniond read_quat(Table& t) {
   const auto q = t.numbers("quat", 4);
   const Quaterniond quat(q[0], q[1], q[2], q[3]);
   const double length = quat.coeffs().stableNorm();
@@ -129,7 +129,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
          rotations);
   Pose pose;
   if (t.has("matrix")) pose = matrix_of(t);
-  if (t.has("quat")) pose.rotation = quat_of(t);
+  if (t.has("quat")) pose.rotation = read_quat(t);
   if (t.has("rpy")) pose.rotation = read_rpy(L, t);
   if (turned) pose.rotation = axis_angle_of(L, t);
   if (aligned) pose.rotation = axes_of(t);
@@ -153,27 +153,20 @@ static int look_at(lua_State* L) {
   return push(L, camera_pose(eye, target, up, subject(L)));
 }
 
-static int get_quat(lua_State* L) {
-  const Quaterniond& q = self<Pose>(L).rotation;
-  return push_numbers(L, std::array{q.w(), q.x(), q.y(), q.z()});
+static std::array<double, 4> quat_of(const Pose& pose) {
+  const Quaterniond& q = pose.rotation;
+  return {q.w(), q.x(), q.y(), q.z()};
 }
 
-static int get_rpy(lua_State* L) { return push(L, rpy_of(self<Pose>(L).matrix())); }
-
-static int inverse(lua_State* L) { return push(L, self<Pose>(L).inverse()); }
-
-static int angle(lua_State* L) { return push(L, self<Pose>(L).angle()); }
-
-static int matrix(lua_State* L) {
-  const Pose& pose = self<Pose>(L);
+static Eigen::Matrix4d homogeneous(const Pose& pose) {
   Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
   M.topLeftCorner<3, 3>() = pose.matrix();
   M.topRightCorner<3, 1>() = pose.position;
-  return push_rows(L, M);
+  return M;
 }
 
 static int rotate(lua_State* L) {
-  return push(L, Vector3d(self<Pose>(L).rotation * check_vec3(L, 2, "direction")));
+  return push(L, self<Pose>(L).rotation * check_vec3(L, 2, "direction"));
 }
 
 static int interpolate_to(lua_State* L) {
@@ -188,33 +181,21 @@ static int pose_multiply(lua_State* L) {
   if (const Pose* right = to<Pose>(L, 2)) return push(L, left * *right);
   if (lua_type(L, 2) != LUA_TTABLE && !to<Vector3d>(L, 2))
     fail_expected({L, {}, "right of *"}, "a pose, a vec3 or {x, y, z}", 2);
-  return push(L, Vector3d(left * check_vec3(L, 2, "right of *")));
+  return push(L, left * check_vec3(L, 2, "right of *"));
 }
 
-static int pose_equal(lua_State* L) {
-  const auto *a = to<Pose>(L, 1), *b = to<Pose>(L, 2);
-  return push(L, a && b && *a == *b);
-}
-
-static int pose_text(lua_State* L) {
-  const Pose& pose = self<Pose>(L);
+static std::string pose_text(const Pose& pose) {
   const Vector3d& p = pose.position;
   const Quaterniond& q = pose.rotation;
-  return push(
-      L, fmt::format(
-             "pose{{xyz = {{{:.6g}, {:.6g}, {:.6g}}}, quat = {{{:.6g}, {:.6g}, {:.6g}, {:.6g}}}}}",
-             p.x() + 0.0, p.y() + 0.0, p.z() + 0.0, q.w() + 0.0, q.x() + 0.0, q.y() + 0.0,
-             q.z() + 0.0));
+  return fmt::format(
+      "pose{{xyz = {{{:.6g}, {:.6g}, {:.6g}}}, quat = {{{:.6g}, {:.6g}, {:.6g}, {:.6g}}}}}",
+      p.x() + 0.0, p.y() + 0.0, p.z() + 0.0, q.w() + 0.0, q.x() + 0.0, q.y() + 0.0, q.z() + 0.0);
 }
 
 static int pose_as_json(lua_State* L) {
   const Pose pose = self<Pose>(L);
-  push_list(L, 0, 2);
-  push_numbers(L, {pose.position.data(), 3});
-  lua_setfield(L, -2, "xyz");
-  get_quat(L);
-  lua_setfield(L, -2, "quat");
-  return 1;
+  return push_record(
+      L, {{"xyz", std::span<const double>(pose.position.data(), 3)}, {"quat", quat_of(pose)}});
 }
 
 static const Entry pose_functions[] = {
@@ -243,26 +224,26 @@ static const Entry pose_fields[] = {
 Where the frame's origin is.
 @type vec3  [m]
 > clench.pose{xyz = {1, 2, 3}}.position  --> (1, 2, 3))"},
-    {"quat", guarded<get_quat>, R"(
+    {"quat", getter<quat_of>, R"(
 The rotation as a unit quaternion, w x y z.
 @type number[]
 > clench.pose{}.quat  --> {1.0, 0.0, 0.0, 0.0})"},
-    {"rpy", guarded<get_rpy>, R"(
+    {"rpy", getter<[](const Pose& x) { return rpy_of(x.matrix()); }>, R"(
 The rotation as turns about the fixed x, y and z axes, in this order.
 @type vec3  [rad]
 > clench.pose{rpy = {0.1, 0.2, 0.3}}.rpy  --> (0.1, 0.2, 0.3))"},
 };
 
 static const Entry pose_methods[] = {
-    {"inverse", guarded<inverse>, R"(
+    {"inverse", method<[](const Pose& x) { return x.inverse(); }>, R"(
 The inverse: `p:inverse() * p` is the identity.
 @return pose
 > clench.pose{xyz = {1, 2, 3}}:inverse().position  --> (-1, -2, -3))"},
-    {"angle", guarded<angle>, R"(
+    {"angle", method<[](const Pose& x) { return x.angle(); }>, R"(
 Angle of the rotation, from 0 to pi.
 @return number  [rad]
 > clench.deg(clench.pose{quat = {0, 1, 0, 0}}:angle())  --> 180.0)"},
-    {"matrix", guarded<matrix>, R"(
+    {"matrix", method<homogeneous>, R"(
 The homogeneous matrix.
 @return number[][]  4 rows of 4
 > clench.pose{xyz = {1, 2, 3}}:matrix()[1]  --> {1.0, 0.0, 0.0, 1.0})"},
@@ -281,8 +262,8 @@ The pose between this one (t = 0) and another (t = 1): straight line, shortest t
 
 static const Entry pose_operators[] = {
     {"__mul", guarded<pose_multiply>, ""},
-    {"__eq", guarded<pose_equal>, ""},
-    {"__tostring", guarded<pose_text>, ""},
+    {"__eq", equality<Pose>, ""},
+    {"__tostring", method<pose_text>, ""},
     {"__json", guarded<pose_as_json>, ""},
 };
 
@@ -292,9 +273,8 @@ const Class pose_class{.name = "pose",
                        .variable = "pose",
                        .doc =
                            "A rigid transform, which never changes. `a * b` chains two of them, `a "
-                           "* v` takes a point along, `==` "
-                           "compares bit by bit. Wherever a pose is expected, the table that "
-                           "`clench.pose` takes will do.",
+                           "* v` takes a point along, `==` compares bit by bit. Wherever a pose is "
+                           "expected, the table that `clench.pose` takes will do.",
                        .fields = pose_fields,
                        .methods = pose_methods,
                        .operators = pose_operators};

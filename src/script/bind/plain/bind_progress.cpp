@@ -57,11 +57,6 @@ static int progress_step(lua_State* L) {
   return 0;
 }
 
-static int close(lua_State* L) {
-  self<ProgressHandle>(L).close();
-  return 0;
-}
-
 // as the iterator of a loop: (self, nothing, what came last)
 static int next(lua_State* L) {
   auto& progress = self<ProgressHandle>(L);
@@ -82,9 +77,8 @@ static int next(lua_State* L) {
   return 2;
 }
 
-static int progress_text(lua_State* L) {
-  const auto& progress = self<ProgressHandle>(L);
-  return push(L, fmt::format("progress: {:.15g} of {:.15g}", progress.done, progress.total));
+static std::string progress_text(const ProgressHandle& progress) {
+  return fmt::format("progress: {:.15g} of {:.15g}", progress.done, progress.total);
 }
 
 static const Entry progress_functions[] = {
@@ -111,7 +105,7 @@ Counts so many more steps as done.
 > p:step(4, "opening")
 > p:close()
 > p.done, p.total  --> 4.0, 10.0)"},
-    {"close", guarded<close>, R"(
+    {"close", method<[](ProgressHandle& x) { x.close(); }>, R"(
 Removes the bar; a variable declared <close> does so by itself.
 > p = clench.progress(10)
 > p:close()
@@ -129,7 +123,7 @@ Steps in all; 0 when that is not known.
 > clench.progress(10).total  --> 10.0)"},
 };
 
-static const Entry progress_operators[] = {{"__tostring", guarded<progress_text>, ""},
+static const Entry progress_operators[] = {{"__tostring", method<progress_text>, ""},
                                            {"__call", guarded<next>, ""}};
 
 const Library progress_library{.name = "clench", .doc = "", .functions = progress_functions};

@@ -1,6 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 
@@ -19,8 +20,6 @@ static int uniform(lua_State* L) {
   if (!(low <= high)) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
   return push(L, random.uniform(low, high));
 }
-
-static int normal(lua_State* L) { return push(L, self<Random>(L).normal()); }
 
 // no bias: what lies beyond the last whole multiple of the range is drawn again
 static int integer(lua_State* L) {
@@ -42,7 +41,7 @@ static int direction(lua_State* L) {
   for (;;) {
     const double x = random.normal(), y = random.normal(), z = random.normal();
     const Eigen::Vector3d v(x, y, z);
-    if (v.norm() > 1e-6) return push(L, Eigen::Vector3d(v.normalized()));
+    if (v.norm() > 1e-6) return push(L, v.normalized());
   }
 }
 
@@ -53,11 +52,6 @@ static int rotation(lua_State* L) {
     const Eigen::Quaterniond q(w, x, y, z);
     if (q.norm() > 1e-6) return push(L, Pose::turn(q.normalized()));
   }
-}
-
-static int random_text(lua_State* L) {
-  self<Random>(L);
-  return push(L, "random numbers");
 }
 
 static const Entry random_functions[] = {
@@ -78,7 +72,7 @@ A number from low (included, default 0) to high (excluded, default 1).
 @return number
 > x = clench.random(7):uniform(2, 3)
 > x >= 2 and x < 3  --> true)"},
-    {"normal", guarded<normal>, R"(
+    {"normal", method<[](Random& x) { return x.normal(); }>, R"(
 A number of the normal distribution with mean 0 and deviation 1.
 @return number
 > math.abs(clench.random(7):normal()) < 6  --> true)"},
@@ -99,14 +93,14 @@ A pose at the origin, each rotation as likely.
 > clench.random(7):rotation().position  --> (0, 0, 0))"},
 };
 
-static const Entry random_operators[] = {{"__tostring", guarded<random_text>, ""}};
+static const Entry random_operators[] = {
+    {"__tostring", method<[](const Random&) { return "random numbers"; }>, ""}};
 
 const Library random_library{.name = "clench", .doc = "", .functions = random_functions};
 
 const Class random_class{.name = "random",
                          .variable = "random",
                          .doc = "A stream of random numbers, made by `clench.random`.",
-                         .fields = {},
                          .methods = random_methods,
                          .operators = random_operators};
 

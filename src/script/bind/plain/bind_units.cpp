@@ -52,14 +52,12 @@ Version of the engine, major.minor.patch.
 > #clench.version >= 5  --> true)"},
 };
 
-const Library units_library{
-    .name = "clench",
-    .doc =
-        "Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, "
-        "masses "
-        "kilograms, forces "
-        "newtons; poses and vectors are in the world frame unless a text says otherwise.",
-    .functions = units_functions,
-    .fields = units_fields};
+const Library units_library{.name = "clench",
+                            .doc =
+                                "Closes robot hands on objects and judges the grasps. Lengths are "
+                                "metres, angles radians, masses kilograms, forces newtons; poses "
+                                "and vectors are in the world frame unless a text says otherwise.",
+                            .functions = units_functions,
+                            .fields = units_fields};
 
 }  // namespace clench

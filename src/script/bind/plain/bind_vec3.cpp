@@ -27,48 +27,37 @@ static int make_vec3(lua_State* L) {
 static int dot(lua_State* L) { return push(L, self<Vector3d>(L).dot(check_vec3(L, 2, "other"))); }
 
 static int cross(lua_State* L) {
-  return push(L, Vector3d(self<Vector3d>(L).cross(check_vec3(L, 2, "other"))));
+  return push(L, self<Vector3d>(L).cross(check_vec3(L, 2, "other")));
 }
-
-static int norm(lua_State* L) { return push(L, self<Vector3d>(L).stableNorm()); }
 
 static int unit(lua_State* L) {
   const Vector3d& v = self<Vector3d>(L);
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0)) fail("{}: a vector of length 0 has no direction", subject(L));
   // neither the squares of large numbers overflow nor those of small ones vanish
-  return push(L, Vector3d((v / largest).normalized()));
+  return push(L, (v / largest).normalized());
 }
 
 static int vec3_add(lua_State* L) {
-  return push(L, Vector3d(check_vec3(L, 1, "left of +") + check_vec3(L, 2, "right of +")));
+  return push(L, check_vec3(L, 1, "left of +") + check_vec3(L, 2, "right of +"));
 }
 
 static int subtract(lua_State* L) {
-  return push(L, Vector3d(check_vec3(L, 1, "left of -") - check_vec3(L, 2, "right of -")));
+  return push(L, check_vec3(L, 1, "left of -") - check_vec3(L, 2, "right of -"));
 }
 
 static int vec3_multiply(lua_State* L) {
   const bool left = to<Vector3d>(L, 1), right = to<Vector3d>(L, 2);
   if (left && right) fail("vec3: two vectors have no product *; use a:dot(b) or a:cross(b)");
-  if (left) return push(L, Vector3d(*to<Vector3d>(L, 1) * check_number(L, 2, "right of *")));
-  return push(L, Vector3d(check_number(L, 1, "left of *") * check_vec3(L, 2, "right of *")));
+  if (left) return push(L, *to<Vector3d>(L, 1) * check_number(L, 2, "right of *"));
+  return push(L, check_number(L, 1, "left of *") * check_vec3(L, 2, "right of *"));
 }
 
 static int divide(lua_State* L) {
   const double divisor = check_number(L, 2, "right of /");
   if (divisor == 0) fail("vec3: division by 0");
-  return push(L, Vector3d(check_vec3(L, 1, "left of /") / divisor));
+  return push(L, check_vec3(L, 1, "left of /") / divisor);
 }
-
-static int negate(lua_State* L) { return push(L, Vector3d(-self<Vector3d>(L))); }
-
-static int vec3_equal(lua_State* L) {
-  const auto *a = to<Vector3d>(L, 1), *b = to<Vector3d>(L, 2);
-  return push(L, a && b && *a == *b);
-}
-
-static int vec3_length(lua_State* L) { return push(L, 3); }
 
 static int vec3_item(lua_State* L) {
   const Vector3d& v = self<Vector3d>(L);
@@ -79,12 +68,7 @@ static int vec3_item(lua_State* L) {
   return 0;
 }
 
-static int vec3_text(lua_State* L) { return push(L, vec3_text(self<Vector3d>(L))); }
-
-static int vec3_as_json(lua_State* L) {
-  const Vector3d v = self<Vector3d>(L);
-  return push_numbers(L, {v.data(), 3});
-}
+static std::array<double, 3> numbers_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 static const Entry vec3_functions[] = {
     {"vec3", guarded<make_vec3>, R"(
@@ -126,7 +110,7 @@ Vector product.
 @param other vec3
 @return vec3
 > clench.vec3(1, 0, 0):cross{0, 1, 0}  --> (0, 0, 1))"},
-    {"norm", guarded<norm>, R"(
+    {"norm", method<[](const Vector3d& x) { return x.stableNorm(); }>, R"(
 Length.
 @return number
 > clench.vec3(3, 4, 0):norm()  --> 5.0)"},
@@ -138,23 +122,28 @@ The same direction, length 1.
 };
 
 static const Entry vec3_operators[] = {
-    {"__add", guarded<vec3_add>, ""},       {"__sub", guarded<subtract>, ""},
-    {"__mul", guarded<vec3_multiply>, ""},  {"__div", guarded<divide>, ""},
-    {"__unm", guarded<negate>, ""},         {"__eq", guarded<vec3_equal>, ""},
-    {"__len", guarded<vec3_length>, ""},    {"__index", guarded<vec3_item>, ""},
-    {"__tostring", guarded<vec3_text>, ""}, {"__json", guarded<vec3_as_json>, ""},
+    {"__add", guarded<vec3_add>, ""},
+    {"__sub", guarded<subtract>, ""},
+    {"__mul", guarded<vec3_multiply>, ""},
+    {"__div", guarded<divide>, ""},
+    {"__unm", method<[](const Vector3d& x) { return Vector3d(-x); }>, ""},
+    {"__eq", equality<Vector3d>, ""},
+    {"__len", method<[](const Vector3d&) { return 3; }>, ""},
+    {"__index", guarded<vec3_item>, ""},
+    {"__tostring", method<vec3_text>, ""},
+    {"__json", method<numbers_of>, ""},
 };
 
 const Library vec3_library{.name = "clench", .doc = "", .functions = vec3_functions};
 
-const Class vec3_class{.name = "vec3",
-                       .variable = "vec3",
-                       .doc =
-                           "A vector of three numbers. It never changes: operators `+ - * /`, "
-                           "`==`, unary `-` and `#` make new "
-                           "values; `v[1]`, `v[2]`, `v[3]` are `v.x`, `v.y`, `v.z`.",
-                       .fields = vec3_fields,
-                       .methods = vec3_methods,
-                       .operators = vec3_operators};
+const Class vec3_class{
+    .name = "vec3",
+    .variable = "vec3",
+    .doc =
+        "A vector of three numbers. It never changes: operators `+ - * /`, `==`, unary `-` and `#` "
+        "make new values; `v[1]`, `v[2]`, `v[3]` are `v.x`, `v.y`, `v.z`.",
+    .fields = vec3_fields,
+    .methods = vec3_methods,
+    .operators = vec3_operators};
 
 }  // namespace clench

@@ -110,21 +110,21 @@ int run_search(lua_State* L) {
 }
 
 int run_all(lua_State* L) {
-  const int count = read_list_size(L, 1, {L, {}, "searches"}, "a list of searches");
+  const What list{L, {}, "searches"};
+  const int count = read_list_size(L, 1, list, "a list of searches");
   const auto steps = check_numbers(L, 2, "steps", count);
   const int threads = given(L, 3) ? check_int(L, 3, "threads") : 1;
   std::vector<std::shared_ptr<Annealing>> searches;
   std::vector<Share> shares;
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, 1, i);
-    const auto* handle = to<AnnealingHandle>(L, -1);
-    if (!handle) fail_object(What{L, {}, "searches"}.item(i), annealing_class, -1);
-    if (!(steps[i - 1] >= 0 && steps[i - 1] <= 1e9))
-      fail("{}: steps[{}]: expected 0 to 1e9, got {}", subject(L), i, steps[i - 1]);
+  each_item(L, 1, list, "a list of searches", [&](int i, const What& what) {
+    const auto* handle = to<AnnealingHandle>(L, i);
+    if (!handle) fail_object(what, annealing_class, i);
+    const double taken = steps[searches.size()];
     searches.push_back(handle->search);
-    shares.push_back({handle->search.get(), static_cast<int>(steps[i - 1])});
-    lua_pop(L, 1);
-  }
+    if (!(taken >= 0 && taken <= 1e9))
+      fail("{}: steps[{}]: expected 0 to 1e9, got {}", subject(L), searches.size(), taken);
+    shares.push_back({handle->search.get(), static_cast<int>(taken)});
+  });
   const Watching watching(L);
   const CallingState calling(L);
   run_together(shares, threads, watching.progress());
@@ -132,15 +132,11 @@ int run_all(lua_State* L) {
 }
 
 int push_search_state(lua_State* L, const Annealing& search, const FoundState& found) {
-  push_list(L, 0, 5);
-  set_field(L, "energy", found.energy);
-  set_field(L, "step", static_cast<double>(found.step));
-  set_field(L, "pose", found.state.X_RH);
-  push_vector(L, found.state.dofs);
-  lua_setfield(L, -2, "dofs");
-  push_values(L, search.space(), found.values);
-  lua_setfield(L, -2, "values");
-  return 1;
+  return push_record(L, {{"energy", found.energy},
+                         {"step", static_cast<double>(found.step)},
+                         {"pose", found.state.X_RH},
+                         {"dofs", found.state.dofs},
+                         {"values", [&] { push_values(L, search.space(), found.values); }}});
 }
 
 int get_best(lua_State* L) {
@@ -163,16 +159,13 @@ int get_state(lua_State* L) {
 
 int get_counts(lua_State* L) {
   const AnnealingCounts& c = self<AnnealingHandle>(L).search->counts();
-  push_list(L, 0, 7);
-  for (const auto& [name, count] :
-       {std::pair{"steps", c.steps}, std::pair{"accepted", c.accepted},
-        std::pair{"improved", c.improved}, std::pair{"stuck", c.stuck},
-        std::pair{"in_collision", c.in_collision}, std::pair{"avoided", c.avoided},
-        std::pair{"outside", c.outside}}) {
-    lua_pushinteger(L, count);
-    lua_setfield(L, -2, name);
-  }
-  return 1;
+  return push_record(L, {{"steps", lua_Integer{c.steps}},
+                         {"accepted", lua_Integer{c.accepted}},
+                         {"improved", lua_Integer{c.improved}},
+                         {"stuck", lua_Integer{c.stuck}},
+                         {"in_collision", lua_Integer{c.in_collision}},
+                         {"avoided", lua_Integer{c.avoided}},
+                         {"outside", lua_Integer{c.outside}}});
 }
 
 int get_search_energy(lua_State* L) {
@@ -185,10 +178,8 @@ int get_first(lua_State* L) {
 // {pose =, dofs =} of the hand, the pose in the object, as `best` lists them
 HandState read_search_state(lua_State* L, int i, const Annealing& search) {
   Table of(L, i, subject(L) + ": state");
-  HandState out{of.pose("pose"), {}};
-  const auto dofs =
-      of.numbers("dofs", static_cast<int>(search.world().dofs(search.who().hand).size()));
-  out.dofs = Eigen::Map<const Eigen::VectorXd>(dofs.data(), static_cast<int>(dofs.size()));
+  const int count = static_cast<int>(search.world().dofs(search.who().hand).size());
+  const HandState out{of.pose("pose"), of.vector("dofs", count)};
   of.has("energy"), of.has("step"), of.has("values");  // what `best` says besides
   of.done();
   return out;
@@ -207,20 +198,9 @@ int go_to(lua_State* L) {
   return get_values(L);
 }
 
-int reset(lua_State* L) {
-  self<AnnealingHandle>(L).search->reset_schedule();
-  return 0;
-}
-
-int clear(lua_State* L) {
-  self<AnnealingHandle>(L).search->best().clear();
-  return 0;
-}
-
-int annealing_text(lua_State* L) {
-  const Annealing& search = *self<AnnealingHandle>(L).search;
-  return push(L, fmt::format("annealing after {} steps, energy {:.6g}", search.counts().steps,
-                             search.energy()));
+std::string annealing_text(const AnnealingHandle& x) {
+  return fmt::format("annealing after {} steps, energy {:.6g}", x.search->counts().steps,
+                     x.search->energy());
 }
 
 }  // namespace
@@ -304,19 +284,19 @@ Goes to a state, or as near as its variables can.
 @return table values
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:go_to {pose = flask.pose:inverse() * hand.pose, dofs = hand.dofs}.alpha >= 0  --> true)"},
-    {"reset", guarded<reset>, R"(
+    {"reset", method<[](const AnnealingHandle& x) { x.search->reset_schedule(); }>, R"(
 Begins the schedule of temperatures anew.
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:reset()
 > search.energy  --> 2.0)"},
-    {"clear", guarded<clear>, R"(
+    {"clear", method<[](const AnnealingHandle& x) { x.search->best().clear(); }>, R"(
 Empties the list of the best states; what is avoided stays so.
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:clear()
 > #search.best  --> 0)"},
 };
 
-static const Entry annealing_operators[] = {{"__tostring", guarded<annealing_text>, ""}};
+static const Entry annealing_operators[] = {{"__tostring", method<annealing_text>, ""}};
 
 const Library annealing_library{.name = "clench", .doc = "", .functions = annealing_functions};
 

@@ -19,17 +19,15 @@ struct Subject {
   HandAndObject who;
 };
 
-WorldPtr read_hand(Table& options, HandAndObject& who) {
+Subject read_hand(Table& options) {
   const auto* hand = options.object<RobotHandle>("hand");
   if (!hand) fail("{}: hand: expected a robot, got nothing", options.subject());
   hand->world->robot(hand->id);  // alive
-  who.hand = hand->id;
-  return hand->world;
+  return {hand->world, {.hand = hand->id, .object = {}}};
 }
 
 Subject read_subject(Table& options) {
-  Subject out;
-  out.world = read_hand(options, out.who);
+  Subject out = read_hand(options);
   const auto* object = options.object<BodyHandle>("object");
   if (!object) fail("{}: object: expected a body, got nothing", options.subject());
   if (object->world != out.world)
@@ -40,23 +38,24 @@ Subject read_subject(Table& options) {
 }
 
 SiteKind read_contacts(Table& options) {
-  const std::string kind = options.choice("contacts", {"preset", "live"}, "preset");
-  return kind == "live" ? SiteKind::live : SiteKind::preset;
+  return options.choice("contacts", {{"preset", SiteKind::preset}, {"live", SiteKind::live}},
+                        SiteKind::preset);
 }
 
 int push_energy(lua_State* L, const WorldPtr& world, EnergyPtr energy) {
   return push_object(L, EnergyHandle{world, std::move(energy)});
 }
 
-Facing read_facing(Table& options, const std::string& usual) {
-  const std::string facing = options.choice("facing", {"nearest", "surface", "away"}, usual);
-  return facing == "nearest" ? Facing::nearest : facing == "away" ? Facing::away : Facing::surface;
+Facing read_facing(Table& options, Facing usual) {
+  return options.choice(
+      "facing",
+      {{"nearest", Facing::nearest}, {"surface", Facing::surface}, {"away", Facing::away}}, usual);
 }
 
 ContactEnergy::Options read_contact_options(Table& options) {
   ContactEnergy::Options out{.contacts = read_contacts(options)};
   out.normal_weight = options.number("normal_weight", out.normal_weight);
-  out.facing = read_facing(options, "nearest");
+  out.facing = read_facing(options, Facing::nearest);
   return out;
 }
 
@@ -71,8 +70,7 @@ PotentialQuality::Options read_potential_options(Table& options, SiteKind contac
 std::vector<Vector6d> read_tasks(Table& options) {
   std::vector<Vector6d> out;
   if (options.has("tasks"))
-    for (const auto& row : options.rows("tasks", 6))
-      out.push_back(Eigen::Map<const Vector6d>(row.data()));
+    for (const auto& row : options.rows("tasks", 6)) out.push_back(vector_of(row));
   return out;
 }
 
@@ -132,7 +130,7 @@ int guided_autograsp_quality(lua_State* L) {
   Table options(L, 1);
   const auto [world, who] = read_subject(options);
   GuidedClosingEnergy::Options reading{.contacts = read_contacts(options)};
-  reading.facing = read_facing(options, "away");
+  reading.facing = read_facing(options, Facing::away);
   reading.volume_weight = options.number("volume_weight", reading.volume_weight);
   reading.near = options.positive("near", reading.near);
   reading.min_contacts = options.integer("min_contacts", reading.min_contacts);
@@ -174,8 +172,7 @@ int dynamic(lua_State* L) {
 
 int approach_cone(lua_State* L) {
   Table options(L, 1);
-  HandAndObject who;
-  const WorldPtr world = read_hand(options, who);
+  const auto [world, who] = read_hand(options);
   const Eigen::Vector3d axis = options.vec3("axis");
   const double angle = options.number("angle", 0);
   options.done();
@@ -184,8 +181,7 @@ int approach_cone(lua_State* L) {
 
 int keep_out(lua_State* L) {
   Table options(L, 1);
-  HandAndObject who;
-  const WorldPtr world = read_hand(options, who);
+  const auto [world, who] = read_hand(options);
   const Pose pose = options.pose("pose", Pose{});
   const Eigen::Vector3d low = options.vec3("low"), high = options.vec3("high");
   options.done();
@@ -202,8 +198,7 @@ int clearance(lua_State* L) {
 
 int reach(lua_State* L) {
   Table options(L, 1);
-  HandAndObject who;
-  const WorldPtr world = read_hand(options, who);
+  const auto [world, who] = read_hand(options);
   const Eigen::Vector3d point = options.vec3("point");
   const double radius = options.number("radius");
   options.done();
@@ -212,8 +207,7 @@ int reach(lua_State* L) {
 
 int penetration(lua_State* L) {
   Table options(L, 1);
-  HandAndObject who;
-  const WorldPtr world = read_hand(options, who);
+  const auto [world, who] = read_hand(options);
   const int points = options.integer("points", 64);
   options.done();
   return push_energy(L, world, std::make_unique<PenetrationEnergy>(*world, who.hand, points));
@@ -221,8 +215,10 @@ int penetration(lua_State* L) {
 
 // --- trees of terms ---
 
+}  // namespace
+
 // a term, or a function as one; the world of the first term found is theirs
-EnergyPtr read_term(lua_State* L, int index, WorldPtr& world) {
+EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world) {
   if (lua_type(L, index) == LUA_TFUNCTION)
     return std::make_unique<EnergyFunction>(script_number(L, index));
   const auto* handle = to<EnergyHandle>(L, index);
@@ -233,11 +229,13 @@ EnergyPtr read_term(lua_State* L, int index, WorldPtr& world) {
   return handle->energy->clone();
 }
 
+namespace {
+
 int add(lua_State* L) {
   WorldPtr world;
   std::vector<EnergySum::Term> terms;
-  terms.push_back({1, read_term(L, 1, world)});
-  terms.push_back({1, read_term(L, 2, world)});
+  terms.push_back({1, read_energy(L, 1, world)});
+  terms.push_back({1, read_energy(L, 2, world)});
   return push_energy(L, world, std::make_unique<EnergySum>(std::move(terms)));
 }
 
@@ -246,7 +244,7 @@ int multiply(lua_State* L) {
   WorldPtr world;
   std::vector<EnergySum::Term> terms;
   const double weight = check_number(L, number, "weight");
-  terms.push_back({weight, read_term(L, 3 - number, world)});
+  terms.push_back({weight, read_energy(L, 3 - number, world)});
   return push_energy(L, world, std::make_unique<EnergySum>(std::move(terms)));
 }
 
@@ -267,16 +265,11 @@ int call(lua_State* L) {
   return push_unbounded(L, energy->value(*world));
 }
 
-int energy_text(lua_State* L) {
-  return push(L, self<EnergyHandle>(L).energy->any_thread() ? "energy"
-                                                            : "energy with a function of a script");
+const char* energy_text(const EnergyHandle& x) {
+  return x.energy->any_thread() ? "energy" : "energy with a function of a script";
 }
 
 }  // namespace
-
-EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world) {
-  return read_term(L, index, world);
-}
 
 static const Entry energy_functions[] = {
     {"contact", guarded<contact>, R"(
@@ -388,17 +381,16 @@ static const Entry energy_operators[] = {
     {"__add", guarded<add>, ""},
     {"__mul", guarded<multiply>, ""},
     {"__call", guarded<call>, ""},
-    {"__tostring", guarded<energy_text>, ""},
+    {"__tostring", method<energy_text>, ""},
 };
 
 const Library energy_library{
     .name = "clench.energy",
     .doc =
         "What searches make small. Each function makes an energy of a hand and an object: called, "
-        "`e()`, it gives its "
-        "number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions "
-        "of a script among "
-        "them. Distances count in millimetres, so that the numbers are those of GraspIt!.",
+        "`e()`, it gives its number for how they stand now. Energies are added and weighted, `a + "
+        "0.3 * b`, functions of a script among them. Distances count in millimetres, so that the "
+        "numbers are those of GraspIt!.",
     .functions = energy_functions};
 
 const Class energy_class{

@@ -20,9 +20,7 @@ extern const Class energy_class;
 extern const Library energy_library;
 
 template <>
-inline const Class& class_of<EnergyHandle>() {
-  return energy_class;
-}
+inline constexpr const Class* script_class<EnergyHandle> = &energy_class;
 
 /// An energy, or a function as one; a copy of its own.
 /// world   it must be about this one, or a clone of it; null: becomes its own
@@ -45,8 +43,6 @@ extern const Class annealing_class;
 extern const Library annealing_library;
 
 template <>
-inline const Class& class_of<AnnealingHandle>() {
-  return annealing_class;
-}
+inline constexpr const Class* script_class<AnnealingHandle> = &annealing_class;
 
 }  // namespace clench

@@ -38,19 +38,21 @@ void each_named(lua_State* L, Table& options, const char* key, Visit visit) {
 }
 
 PositionKind read_position(Table& options) {
-  const std::string kind = options.choice(
-      "position", {"axis_angle", "complete", "ellipsoid", "approach", "fixed"}, "axis_angle");
-  if (kind == "complete") return PositionKind::complete;
-  if (kind == "ellipsoid") return PositionKind::ellipsoid;
-  if (kind == "approach") return PositionKind::approach;
-  return kind == "fixed" ? PositionKind::fixed : PositionKind::axis_angle;
+  return options.choice("position",
+                        {{"axis_angle", PositionKind::axis_angle},
+                         {"complete", PositionKind::complete},
+                         {"ellipsoid", PositionKind::ellipsoid},
+                         {"approach", PositionKind::approach},
+                         {"fixed", PositionKind::fixed}},
+                        PositionKind::axis_angle);
 }
 
 PostureKind read_posture(Table& options) {
-  const std::string kind =
-      options.choice("posture", {"eigengrasps", "dofs", "fixed"}, "eigengrasps");
-  if (kind == "dofs") return PostureKind::dofs;
-  return kind == "fixed" ? PostureKind::fixed : PostureKind::eigengrasps;
+  return options.choice("posture",
+                        {{"eigengrasps", PostureKind::eigengrasps},
+                         {"dofs", PostureKind::dofs},
+                         {"fixed", PostureKind::fixed}},
+                        PostureKind::eigengrasps);
 }
 
 Variable read_variable(lua_State* L, int i, const std::string& name, const What& what) {
@@ -91,7 +93,7 @@ SearchSpace read_space(lua_State* L, Table& options, const World& world, const H
   each_named(L, options, "jumps", [&](const std::string& name, const What& what) {
     of(name).jump = read_number(L, lua_gettop(L), what);
   });
-  if (options.choice("start", {"default", "hand"}, "default") == "hand") {
+  if (options.choice("start", {{"default", false}, {"hand", true}}, false)) {
     const Values now = space.values(start);
     for (int i = 0; i < now.size(); ++i)
       space.variables()[i].value =
@@ -104,16 +106,9 @@ SearchSpace read_space(lua_State* L, Table& options, const World& world, const H
     const auto target = read_numbers(L, lua_gettop(L), what, 2);
     of(name).target = target[0], of(name).confidence = target[1];
   });
-  if (options.push("fixed") != LUA_TNIL) {
-    const int list = lua_gettop(L);
-    const int count = read_list_size(L, list, options.what("fixed"), "a list of names");
-    for (int i = 1; i <= count; ++i) {
-      lua_rawgeti(L, list, i);
-      of(read_string(L, -1, options.what("fixed").item(i))).fixed = true;
-      lua_pop(L, 1);
-    }
-  }
-  lua_pop(L, 1);
+  if (options.has("fixed"))
+    options.each("fixed", "a list of names",
+                 [&](int i, const What& what) { of(read_string(L, i, what)).fixed = true; });
   space.check();
   return space;
 }

@@ -8,59 +8,27 @@
 
 namespace clench {
 
-static int set_name(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  body.world->set_name(body.id, check_string(L, 2));
-  return 0;
-}
-
-static int set_body_pose(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  body.world->set_pose(body.id, check_pose(L, 2));
-  return 0;
-}
-
 static const char* kind_name(BodyKind kind) {
   static constexpr const char* names[] = {"object", "obstacle", "base", "link", "mount"};
   return names[static_cast<int>(kind)];
 }
 
-static int get_robot(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  if (body->robot) return push(L, RobotHandle{body.world, body->robot});
-  lua_pushnil(L);
-  return 1;
+static std::optional<RobotHandle> body_robot(const BodyHandle& body) {
+  if (!body->robot) return {};
+  return RobotHandle{body.world, body->robot};
 }
 
-static int get_body_bounds(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  if (!body->shape) {
-    lua_pushnil(L);
-    return 1;
-  }
-  const Bounds bounds = body->shape->bounds_at(body.world->pose(body.id));
-  push_list(L, 0, 2);
-  set_field(L, "low", bounds.low);
-  set_field(L, "high", bounds.high);
-  return 1;
-}
-
-static int get_body_tracker(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  if (body->tracker) return push(L, *body->tracker);
-  lua_pushnil(L);
-  return 1;
+static std::optional<Bounds> body_bounds(const BodyHandle& body) {
+  if (!body->shape) return {};
+  return body->shape->bounds_at(body.world->pose(body.id));
 }
 
 int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result) {
-  push_list(L, 0, 5);
-  set_field(L, "fraction", result.fraction);
-  set_field(L, "touched", result.touched);
-  push_pairs(L, world, result.stopped_by);
-  lua_setfield(L, -2, "stopped_by");
-  set_field(L, "iteration_limit", result.iteration_limit);
-  set_field(L, "queries", result.queries);
-  return 1;
+  return push_record(L, {{"fraction", result.fraction},
+                         {"touched", result.touched},
+                         {"stopped_by", [&] { push_pairs(L, world, result.stopped_by); }},
+                         {"iteration_limit", result.iteration_limit},
+                         {"queries", result.queries}});
 }
 
 static int body_move_to(lua_State* L) {
@@ -68,15 +36,9 @@ static int body_move_to(lua_State* L) {
   return push_move(L, body.world, move_body(*body.world, body.id, check_pose(L, 2, "pose")));
 }
 
-static int body_text(lua_State* L) {
-  const auto& body = self<BodyHandle>(L);
-  if (!body.world->alive(body.id)) return push(L, "removed body");
-  return push(L, fmt::format("{} '{}'", kind_name(body->kind), body->name));
-}
-
-static int body_equal(lua_State* L) {
-  const auto *a = to<BodyHandle>(L, 1), *b = to<BodyHandle>(L, 2);
-  return push(L, a && b && a->world == b->world && a->id == b->id);
+static std::string body_text(const BodyHandle& body) {
+  if (!body.world->alive(body.id)) return "removed body";
+  return fmt::format("{} '{}'", kind_name(body->kind), body->name);
 }
 
 static const Entry body_fields[] = {
@@ -85,23 +47,23 @@ Unique in its world.
 @type string
 > flask.name = "bottle"
 > world:body("bottle") == flask  --> true)",
-     guarded<set_name>},
+     setter<[](const BodyHandle& x, const std::string& name) { x.world->set_name(x.id, name); }>},
     {"pose", getter<[](const BodyHandle& body) { return body.world->pose(body.id); }>, R"(
 Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot
 move with the robot.
 @type pose
 > flask.pose = {xyz = {0, 0, 1}}
 > flask.pose.position  --> (0, 0, 1))",
-     guarded<set_body_pose>},
+     setter<[](const BodyHandle& x, const Pose& pose) { x.world->set_pose(x.id, pose); }>},
     {"kind", getter<[](const BodyHandle& x) { return kind_name(x->kind); }>, R"(
 "object", "obstacle", "base", "link" or "mount".
 @type string
 > flask.kind  --> object)"},
-    {"robot", guarded<get_robot>, R"(
+    {"robot", getter<body_robot>, R"(
 The robot that it is a part of; nil for objects and obstacles.
 @type robot?
 > hand.links[1].robot == hand  --> true)"},
-    {"bounds_in_world", guarded<get_body_bounds>, R"(
+    {"bounds_in_world", getter<body_bounds>, R"(
 Least and largest coordinates of its surface in the world frame; nil when it has none.
 @type {low: vec3, high: vec3}?  [m]
 > box = world:add_object(clench.shapes.box {1, 2, 4}, {pose = {xyz = {9, 0, 0}, rpy = {0, 0, clench.rad(90)}}})
@@ -110,7 +72,7 @@ Least and largest coordinates of its surface in the world frame; nil when it has
 File that it was read from; empty when it was made by a script.
 @type string
 > world:add_object(clench.shapes.box {1, 1, 1}).source == ""  --> true)"},
-    {"tracker", guarded<get_body_tracker>, R"(
+    {"tracker", getter<[](const BodyHandle& x) { return x->tracker; }>, R"(
 Number of the position sensor that is to move it; nil when its file names none.
 @type integer?
 > flask.tracker  --> nil)"},
@@ -129,18 +91,17 @@ remains is within the contact threshold. One that starts in contact may slide or
 };
 
 static const Entry body_operators[] = {
-    {"__tostring", guarded<body_text>, ""},
-    {"__eq", guarded<body_equal>, ""},
+    {"__tostring", method<body_text>, ""},
+    {"__eq", equality<BodyHandle>, ""},
 };
 
-const Class body_class{.name = "body",
-                       .variable = "body",
-                       .doc =
-                           "A rigid body in a world: an object, an "
-                           "obstacle, or a part of a robot.",
-                       .fields = body_fields,
-                       .methods = body_methods,
-                       .operators = body_operators,
-                       .parent = &motion_class};
+const Class body_class{
+    .name = "body",
+    .variable = "body",
+    .doc = "A rigid body in a world: an object, an obstacle, or a part of a robot.",
+    .fields = body_fields,
+    .methods = body_methods,
+    .operators = body_operators,
+    .parent = &motion_class};
 
 }  // namespace clench

@@ -10,34 +10,25 @@ namespace clench {
 
 int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts) {
   return push_list_of(L, contacts, [&](const Contact& contact) {
-    push_object(L, ContactHandle{world, contact, nullptr});
+    push(L, ContactHandle{world, contact});
   });
 }
 
 // the side that belongs to a robot; the other one first
-static int get_link(lua_State* L) {
-  const auto& c = self<ContactHandle>(L);
+static std::optional<BodyHandle> contact_link(const ContactHandle& c) {
   for (const auto id : {c.contact.other, c.contact.body})
-    if (c.world->body(id).robot) return push(L, BodyHandle{c.world, id});
-  lua_pushnil(L);
-  return 1;
+    if (c.world->body(id).robot) return BodyHandle{c.world, id};
+  return {};
 }
 
-static int get_frame(lua_State* L) {
-  const Contact& c = self<ContactHandle>(L).contact;
-  return push(L, Pose{Eigen::Quaterniond(contact_frame(c.n_W)), c.p_W});
+static Pose pose_of_contact(const ContactHandle& c) {
+  return {Eigen::Quaterniond(contact_frame(c.contact.n_W)), c.contact.p_W};
 }
 
 static const char* kind_name(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::frictionless:
-      return "frictionless";
-    case ContactKind::soft:
-      return "soft";
-    case ContactKind::point:
-      break;
-  }
-  return "point";
+  return word_of(kind, {{"frictionless", ContactKind::frictionless},
+                        {"soft", ContactKind::soft},
+                        {"point", ContactKind::point}});
 }
 
 static int push_patch(lua_State* L, const Contact& c, std::shared_ptr<const SoftPatch> patch) {
@@ -55,10 +46,7 @@ static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& pa
 
 static int get_patch(lua_State* L) {
   auto& c = self<ContactHandle>(L);
-  if (!c.contact.site) {
-    lua_pushnil(L);
-    return 1;
-  }
+  if (!c.contact.site) return push_nil(L);
   if (!c.patch) {
     c.patch = std::make_shared<SoftPatch>(soft_patch(*c.contact.site));
     tell_sharp(L, c, *c.patch);
@@ -72,54 +60,33 @@ static int fit_patch(lua_State* L) {
   PatchOptions options;
   if (table.has("radius")) options.radius = table.positive("radius", 1);
   options.max_radius = table.positive("max_radius", options.max_radius);
-  if (table.choice("fit", {"quadric", "jet"}, "quadric") == "jet") options.fit = PatchFit::jet;
+  options.fit =
+      table.choice("fit", {{"quadric", PatchFit::quadric}, {"jet", PatchFit::jet}}, options.fit);
   table.done();
-  if (!c.contact.site) {
-    lua_pushnil(L);
-    return 1;
-  }
+  if (!c.contact.site) return push_nil(L);
   auto patch = std::make_shared<SoftPatch>(soft_patch(*c.contact.site, options));
   tell_sharp(L, c, *patch);
   return push_patch(L, c.contact, std::move(patch));
 }
 
-static int contact_text(lua_State* L) {
-  const auto& c = self<ContactHandle>(L);
+static std::string contact_text(const ContactHandle& c) {
   const Eigen::Vector3d& p = c.contact.p_W;
   const auto name = [&](Id<Body> id) {
     return c.world->alive(id) ? c.world->body(id).name : "a removed body";
   };
-  return push(L, fmt::format("{} contact of {} on {} at ({:.6g}, {:.6g}, {:.6g})",
-                             kind_name(c.contact.kind), name(c.contact.other), name(c.contact.body),
-                             p.x(), p.y(), p.z()));
+  return fmt::format("{} contact of {} on {} at ({:.6g}, {:.6g}, {:.6g})",
+                     kind_name(c.contact.kind), name(c.contact.other), name(c.contact.body), p.x(),
+                     p.y(), p.z());
 }
 
 // vertices and triangles count from 1, as those of meshes
-static int push_feature(lua_State* L, const Feature& feature) {
-  push_list(L, 0, 2);
-  if (feature.kind == Feature::triangle) {
-    set_field(L, "kind", "triangle");
-    set_field(L, "triangle", feature.first + 1);
-    return 1;
-  }
+static int push(lua_State* L, const Feature& feature) {
+  if (feature.kind == Feature::triangle)
+    return push_record(L, {{"kind", "triangle"}, {"triangle", feature.first + 1}});
   const bool edge = feature.kind == Feature::edge;
-  set_field(L, "kind", edge ? "edge" : "vertex");
-  push_list(L, edge ? 2 : 1);
-  push(L, feature.first + 1);
-  lua_rawseti(L, -2, 1);
-  if (edge) {
-    push(L, feature.second + 1);
-    lua_rawseti(L, -2, 2);
-  }
-  lua_setfield(L, -2, "vertices");
-  return 1;
-}
-
-static int get_feature(lua_State* L) {
-  return push_feature(L, self<ContactHandle>(L).contact.feature);
-}
-static int get_other_feature(lua_State* L) {
-  return push_feature(L, self<ContactHandle>(L).contact.other_feature);
+  std::vector<int> vertices{feature.first + 1};
+  if (edge) vertices.push_back(feature.second + 1);
+  return push_record(L, {{"kind", edge ? "edge" : "vertex"}, {"vertices", vertices}});
 }
 
 static const Entry contact_fields[] = {
@@ -137,7 +104,7 @@ The body that is touched: the object, of a hand and an object.
 The body that touches it.
 @type body
 > world:contacts(hand, flask)[1].other.kind  --> link)"},
-    {"link", guarded<get_link>, R"(
+    {"link", getter<contact_link>, R"(
 The part of a robot among the two; nil when there is none.
 @type body?
 > world:contacts(hand, flask)[1].link.robot == hand  --> true)"},
@@ -149,18 +116,18 @@ Where, on the surface of `body`, in the world frame.
 Unit normal into `body`, in the world frame.
 @type vec3
 > math.abs(world:contacts(hand, flask)[1].normal:norm() - 1) < 1e-12  --> true)"},
-    {"frame", guarded<get_frame>, R"(
+    {"frame", getter<pose_of_contact>, R"(
 Contact frame: origin at the point, +z into `body`.
 @type pose
 > c = world:contacts(hand, flask)[1]
 > (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
-    {"feature", guarded<get_feature>, R"(
+    {"feature", getter<[](const ContactHandle& x) { return x.contact.feature; }>, R"(
 The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1.
 It stays the same while the contact moves along it, so that contacts can be matched from step to step.
 @type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
 > kinds = {vertex = true, edge = true, triangle = true}
 > kinds[grasp.contacts[1].feature.kind]  --> true)"},
-    {"other_feature", guarded<get_other_feature>, R"(
+    {"other_feature", getter<[](const ContactHandle& x) { return x.contact.other_feature; }>, R"(
 The same of the mesh of `other`.
 @type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
 > kinds = {vertex = true, edge = true, triangle = true}
@@ -212,16 +179,15 @@ The patch of a soft contact by options of one's own; nil of others.
 };
 
 static const Entry contact_operators[] = {
-    {"__tostring", guarded<contact_text>, ""},
+    {"__tostring", method<contact_text>, ""},
 };
 
-const Class contact_class{.name = "contact",
-                          .variable = "contact",
-                          .doc =
-                              "A point where one body touches another, as "
-                              "it was when it was asked for.",
-                          .fields = contact_fields,
-                          .methods = contact_methods,
-                          .operators = contact_operators};
+const Class contact_class{
+    .name = "contact",
+    .variable = "contact",
+    .doc = "A point where one body touches another, as it was when it was asked for.",
+    .fields = contact_fields,
+    .methods = contact_methods,
+    .operators = contact_operators};
 
 }  // namespace clench

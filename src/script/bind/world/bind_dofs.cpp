@@ -5,17 +5,13 @@
 #include "clench/model/dof.h"
 #include "clench/motion/drive.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 
 namespace clench {
 
 // --- values ---
-
-static int get_dofs(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push_vector(L, robot.world->dofs(robot.id));
-}
 
 static int get_named_dofs(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
@@ -70,7 +66,7 @@ static int set_posture(lua_State* L) {
   std::vector<int> stopped;
   for (int d = 0; d < asked.size(); ++d)
     if (reached[d] != asked[d]) stopped.push_back(d + 1);
-  if (stopped.empty()) return lua_pushnil(L), 1;
+  if (stopped.empty()) return push_nil(L);
   static const char told = 0;
   for (const int d : stopped)
     if (!dof_slides(*robot, d - 1) &&
@@ -80,20 +76,21 @@ static int set_posture(lua_State* L) {
                             "clench.rad({:.4g}) is {:.4g}",
                             subject(L), d, reached[d - 1], asked[d - 1], asked[d - 1],
                             asked[d - 1] * std::numbers::pi / 180));
-  return push_list_of(L, stopped, [&](int d) { push(L, d); });
+  return push(L, stopped);
 }
 
-static int get_dof_limits(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  int dof = 0;
-  return push_list_of(L, robot.world->dofs(robot.id),
-                      [&](double q) { push_numbers(L, range_around(*robot, dof++, q)); });
+static std::vector<Range> dof_limits(const RobotHandle& robot) {
+  std::vector<Range> limits;
+  for (const double q : robot.world->dofs(robot.id))
+    limits.push_back(range_around(*robot, static_cast<int>(limits.size()), q));
+  return limits;
 }
 
-static int get_dof_names(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  int number = 0;
-  return push_list_of(L, robot->dofs, [&](const DofSpec&) { push(L, dof_name(*robot, number++)); });
+static std::vector<std::string> dof_names(const RobotHandle& robot) {
+  std::vector<std::string> names;
+  for (size_t d = 0; d < robot->dofs.size(); ++d)
+    names.push_back(dof_name(*robot, static_cast<int>(d)));
+  return names;
 }
 
 static const char* dof_kind(DofKind kind) {
@@ -104,60 +101,49 @@ static const char* dof_kind(DofKind kind) {
 static int get_dof_info(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   return push_list_of(L, robot->dofs, [&](const DofSpec& dof) {
-    push_list(L, 0, 10);
-    if (!dof.name.empty()) set_field(L, "name", std::string_view(dof.name));
-    set_field(L, "kind", dof_kind(dof.kind));
-    set_field(L, "driven", dof.driven);
-    set_field(L, "endless", bool(robot->endless[static_cast<size_t>(&dof - robot->dofs.data())]));
-    set_field(L, "default_velocity", dof.default_velocity);
-    set_field(L, "max_effort", dof.max_effort);
+    push_record(L,
+                {{"kind", dof_kind(dof.kind)},
+                 {"driven", dof.driven},
+                 {"endless", bool(robot->endless[static_cast<size_t>(&dof - robot->dofs.data())])},
+                 {"default_velocity", dof.default_velocity},
+                 {"max_effort", dof.max_effort},
+                 {"kp", dof.kp},
+                 {"kd", dof.kd},
+                 {"breakaway_torque", dof.breakaway_torque}});
+    if (!dof.name.empty()) set_field(L, "name", dof.name);
     if (dof.max_velocity > 0) set_field(L, "max_velocity", dof.max_velocity);
-    set_field(L, "kp", dof.kp);
-    set_field(L, "kd", dof.kd);
     if (dof.damping_ratio > 0) set_field(L, "damping_ratio", dof.damping_ratio);
-    set_field(L, "breakaway_torque", dof.breakaway_torque);
   });
 }
 
 // --- motion ---
 
-static const char* stop_name(DofStop stop) {
+static int push(lua_State* L, DofStop stop) {
   static constexpr const char* names[] = {"reached", "limit", "contact", "not_driven",
                                           "iteration_limit"};
-  return names[static_cast<int>(stop)];
+  return push(L, names[static_cast<int>(stop)]);
 }
 
 int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result) {
-  push_list(L, 0, 5);
-  set_field(L, "moved", result.moved);
-  push_list_of(L, result.stops, [&](DofStop stop) { push(L, stop_name(stop)); });
-  lua_setfield(L, -2, "stops");
-  push_pairs(L, world, result.stopped_by);
-  lua_setfield(L, -2, "stopped_by");
-  set_field(L, "queries", result.queries);
-  set_field(L, "events", result.events);
-  return 1;
+  return push_record(L, {{"moved", result.moved},
+                         {"stops", result.stops},
+                         {"stopped_by", [&] { push_pairs(L, world, result.stopped_by); }},
+                         {"queries", result.queries},
+                         {"events", result.events}});
 }
 
 // `dofs`, or `stages` of them; empty: all at once
-static std::vector<DofGroup> read_stages(Table& options, const RobotHandle& robot) {
-  lua_State* L = options.what("").L;
+static std::vector<DofGroup> read_stages(lua_State* L, Table& options, const RobotHandle& robot) {
   std::vector<DofGroup> out;
-  if (options.push("dofs") != LUA_TNIL)
-    out.push_back(read_dof_numbers(L, lua_gettop(L), options.what("dofs"), robot));
+  const auto read = [&](int i, const What& what) {
+    out.push_back(read_dof_numbers(L, i, what, robot));
+  };
+  if (options.push("dofs") != LUA_TNIL) read(lua_gettop(L), options.what("dofs"));
   lua_pop(L, 1);
-  if (options.push("stages") != LUA_TNIL) {
-    if (!out.empty()) fail("{}: expected dofs or stages, got both", options.subject());
-    const What what = options.what("stages");
-    const int count = read_list_size(L, lua_gettop(L), what, "a list of lists of DOFs");
-    for (int i = 1; i <= count; ++i) {
-      lua_rawgeti(L, -1, i);
-      out.push_back(read_dof_numbers(L, lua_gettop(L), what.item(i), robot));
-      lua_pop(L, 1);
-    }
-    if (out.empty()) fail("{}: expected at least one stage, got none", what.text());
-  }
-  lua_pop(L, 1);
+  if (!options.has("stages")) return out;
+  if (!out.empty()) fail("{}: expected dofs or stages, got both", options.subject());
+  options.each("stages", "a list of lists of DOFs", read);
+  if (out.empty()) fail("{}: expected at least one stage, got none", options.what("stages").text());
   return out;
 }
 
@@ -166,7 +152,7 @@ static int autograsp(lua_State* L) {
   Table options(L, 2);
   const double speed = options.number("speed", 1);
   const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
-  const auto stages = read_stages(options, robot);
+  const auto stages = read_stages(L, options, robot);
   const bool dynamic = options.boolean("dynamic", false);
   options.done();
   if (dynamic) {
@@ -199,7 +185,7 @@ static int move_dofs(lua_State* L) {
 }
 
 static const Entry dofs_fields[] = {
-    {"dofs", guarded<get_dofs>, R"(
+    {"dofs", getter<[](const RobotHandle& x) { return x.world->dofs(x.id); }>, R"(
 Values of its degrees of freedom; a list of its own, set as by set_dofs.
 @type number[]  [rad or m]
 > #hand.dofs  --> 12)",
@@ -211,7 +197,7 @@ The same values by the names of dof_names; a table of its own, set as by set_dof
 > hand.named_dofs = {dof2 = 0.1}
 > hand.dofs[2]  --> 0.1)",
      guarded<set_dofs>},
-    {"dof_limits", guarded<get_dof_limits>, R"(
+    {"dof_limits", getter<dof_limits>, R"(
 Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a metre on
 either side of where it is, only says how far it closes, and what searches try.
 @type number[][]  [rad or m]
@@ -223,7 +209,7 @@ there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torqu
 driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
-    {"dof_names", guarded<get_dof_names>, R"(
+    {"dof_names", getter<dof_names>, R"(
 Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 @type string[]
 > hand.dof_names[1]  --> dof1)"},

@@ -16,10 +16,6 @@ EigengraspSet EigengraspsHandle::value() const {
                             : identity_eigengrasps(static_cast<int>(robot->dofs.size()));
 }
 
-static VectorXd vector_of(const std::vector<double>& x) {
-  return Eigen::Map<const VectorXd>(x.data(), static_cast<int>(x.size()));
-}
-
 VectorXd check_amplitudes(lua_State* L, int i, const Eigengrasps& grasps) {
   const auto values = read_numbers(L, i, {L, {}, "amplitudes"});
   if (static_cast<int>(values.size()) != grasps.size())
@@ -54,8 +50,8 @@ static EigengraspSet set_from_vectors(Table& options) {
   if (static_cast<int>(limits.size()) != count)
     fail("{}: limits: expected {} pairs, got {}", options.subject(), count, limits.size());
   for (int i = 0; i < count; ++i) set.grasps.push_back({vector_of(rows[i]), values[i], limits[i]});
-  if (options.has("origin")) set.origin = vector_of(options.numbers("origin"));
-  if (options.has("norm")) set.norm = vector_of(options.numbers("norm"));
+  if (options.has("origin")) set.origin = options.vector("origin");
+  if (options.has("norm")) set.norm = options.vector("norm");
   return set;
 }
 
@@ -85,30 +81,9 @@ static int make(lua_State* L) {
 
 static Eigengrasps ready(lua_State* L) { return self<EigengraspsHandle>(L).ready(); }
 
-static int get_count(lua_State* L) { return push(L, ready(L).size()); }
-static int get_vectors(lua_State* L) { return push_rows(L, ready(L).vectors()); }
-static int get_eigenvalues(lua_State* L) { return push_vector(L, ready(L).eigenvalues()); }
-static int get_origin(lua_State* L) { return push_vector(L, ready(L).origin()); }
-static int get_eigengrasps_norm(lua_State* L) { return push_vector(L, ready(L).norm()); }
-
-static int push_ranges(lua_State* L, const std::vector<Range>& ranges) {
-  return push_list_of(L, ranges, [L](const Range& range) { push_numbers(L, range); });
-}
-
-static int get_limits(lua_State* L) {
-  const auto& handle = self<EigengraspsHandle>(L);
-  const Eigengrasps grasps = handle.ready();
-  return push_ranges(L, grasps.limits(handle.robot.world ? handle.robot.world->dofs(handle.robot.id)
-                                                         : grasps.origin()));
-}
-
-static int get_range(lua_State* L) { return push_ranges(L, ready(L).range()); }
-
-static int get_eigengrasps_hand(lua_State* L) {
-  const auto& handle = self<EigengraspsHandle>(L);
-  if (handle.robot.world) return push(L, handle.robot);
-  lua_pushnil(L);
-  return 1;
+static std::vector<Range> amplitude_limits(const EigengraspsHandle& x) {
+  const Eigengrasps grasps = x.ready();
+  return grasps.limits(x.robot.world ? x.robot.world->dofs(x.robot.id) : grasps.origin());
 }
 
 // --- verbs ---
@@ -117,9 +92,9 @@ static int amplitudes(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
   const Eigengrasps grasps = handle.ready();
   if (!given(L, 2) && handle.robot.world)
-    return push_vector(L, grasps.amplitudes(handle.robot.world->dofs(handle.robot.id)));
+    return push(L, grasps.amplitudes(handle.robot.world->dofs(handle.robot.id)));
   const auto values = check_numbers(L, 2, "dofs");
-  return push_vector(L, grasps.amplitudes(check_posture(values, subject(L), grasps)));
+  return push(L, grasps.amplitudes(check_posture(values, subject(L), grasps)));
 }
 
 static int dofs(lua_State* L) {
@@ -130,7 +105,7 @@ static int dofs(lua_State* L) {
   if (options.has("from"))
     from = check_posture(options.numbers("from"), options.subject() + ": from", grasps);
   options.done();
-  return push_vector(L, from ? grasps.posture(amplitudes, *from) : grasps.posture(amplitudes));
+  return push(L, from ? grasps.posture(amplitudes, *from) : grasps.posture(amplitudes));
 }
 
 static int eigengrasps_save(lua_State* L) {
@@ -140,13 +115,11 @@ static int eigengrasps_save(lua_State* L) {
   return 0;
 }
 
-static int eigengrasps_text(lua_State* L) {
-  const auto& handle = self<EigengraspsHandle>(L);
-  if (handle.robot.world && !handle.robot.world->alive(handle.robot.id))
-    return push(L, "eigengrasps of a removed robot");
-  const Eigengrasps grasps = handle.ready();
-  return push(L, fmt::format("{} eigengrasp{} of {} DOFs", grasps.size(),
-                             grasps.size() == 1 ? "" : "s", grasps.dofs()));
+static std::string text_of_eigengrasps(const EigengraspsHandle& x) {
+  if (x.robot.world && !x.robot.world->alive(x.robot.id)) return "eigengrasps of a removed robot";
+  const Eigengrasps grasps = x.ready();
+  return fmt::format("{} eigengrasp{} of {} DOFs", grasps.size(), grasps.size() == 1 ? "" : "s",
+                     grasps.dofs());
 }
 
 // --- tables ---
@@ -166,36 +139,39 @@ variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengr
 };
 
 static const Entry eigengrasps_fields[] = {
-    {"vectors", guarded<get_vectors>, R"(
+    {"vectors", getter<[](const EigengraspsHandle& x) { return x.ready().vectors(); }>, R"(
 A unit vector for each eigengrasp, one number per DOF.
 @type number[][]
 > #hand.eigengrasps.vectors[1]  --> 12)"},
-    {"eigenvalues", guarded<get_eigenvalues>, R"(
+    {"eigenvalues", getter<[](const EigengraspsHandle& x) { return x.ready().eigenvalues(); }>, R"(
 Weight of each eigengrasp: of principal components the variance of the postures along it.
 @type number[]
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 0}, {2, 0}}}
 > set.eigenvalues  --> {1.0})"},
-    {"origin", guarded<get_origin>, R"(
+    {"origin", getter<[](const EigengraspsHandle& x) { return x.ready().origin(); }>, R"(
 The posture of zero amplitudes, within the DOF limits. Where no file says it, the middle of the limits.
 @type number[]  [rad or m]
 > #hand.eigengrasps.origin  --> 12)"},
-    {"norm", guarded<get_eigengrasps_norm>, R"(
+    {"norm", getter<[](const EigengraspsHandle& x) { return x.ready().norm(); }>, R"(
 Scale of the vectors' entries, one per DOF.
 @type number[]
 > clench.eigengrasps{vectors = {{1, 1}}}.norm  --> {1.0, 1.0})"},
-    {"limits", guarded<get_limits>, R"(
+    {"limits", getter<amplitude_limits>, R"(
 Range of each amplitude from the hand's posture, while the others stay: what its file says, else until the first
 DOF that it moves is at a limit.
 @type number[][]  {least, largest} each
 > hand.eigengrasps = nil
 > limits, range = hand.eigengrasps.limits[1], hand.dof_limits[1]
 > math.abs((limits[2] - limits[1]) - (range[2] - range[1])) < 1e-12  --> true)"},
-    {"range", guarded<get_range>, R"(
+    {"range", getter<[](const EigengraspsHandle& x) { return x.ready().range(); }>, R"(
 Range of each amplitude overall: what its file says, else the least and largest of all postures within the DOF limits.
 @type number[][]  {least, largest} each
 > range = hand.eigengrasps.range[1]
 > range[1] < range[2]  --> true)"},
-    {"hand", guarded<get_eigengrasps_hand>, R"(
+    {"hand", getter<[](const EigengraspsHandle& x) {
+       return x.robot.world ? std::optional(x.robot) : std::nullopt;
+     }>,
+     R"(
 The hand whose set it is; nil for a set by itself.
 @type robot?
 > hand.eigengrasps.hand == hand  --> true
@@ -209,7 +185,7 @@ Does it come from a file or a script? A hand without a set of its own has one ei
 > hand.eigengrasps = nil
 > hand.eigengrasps.is_custom  --> false
 > #hand.eigengrasps  --> 12)"},
-    {"count", guarded<get_count>, R"(
+    {"count", getter<[](const EigengraspsHandle& x) { return x.ready().size(); }>, R"(
 How many there are, as # says.
 @type integer
 > clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
@@ -240,19 +216,18 @@ Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
 };
 
 static const Entry eigengrasps_operators[] = {
-    {"__len", guarded<get_count>, ""},
-    {"__tostring", guarded<eigengrasps_text>, ""},
+    {"__len", method<[](const EigengraspsHandle& x) { return x.ready().size(); }>, ""},
+    {"__tostring", method<text_of_eigengrasps>, ""},
 };
 
-const Class eigengrasps_class{
-    .name = "eigengrasps",
-    .variable = "eigengrasps",
-    .doc =
-        "A few postures whose sums are a hand's: each posture is an origin "
-        "and an amplitude for each eigengrasp.",
-    .fields = eigengrasps_fields,
-    .methods = eigengrasps_methods,
-    .operators = eigengrasps_operators};
+const Class eigengrasps_class{.name = "eigengrasps",
+                              .variable = "eigengrasps",
+                              .doc =
+                                  "A few postures whose sums are a hand's: each posture is an "
+                                  "origin and an amplitude for each eigengrasp.",
+                              .fields = eigengrasps_fields,
+                              .methods = eigengrasps_methods,
+                              .operators = eigengrasps_operators};
 
 const Library eigengrasps_library{.name = "clench", .doc = "", .functions = eigengrasps_functions};
 

@@ -20,10 +20,6 @@ using Contacts = std::vector<VirtualContactSpec>;
 
 // --- eigengrasps ---
 
-static int get_eigengrasps(lua_State* L) {
-  return push_object(L, EigengraspsHandle{self<RobotHandle>(L), nullptr});
-}
-
 static int set_eigengrasps(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   std::shared_ptr<const EigengraspSet> set;
@@ -34,11 +30,6 @@ static int set_eigengrasps(lua_State* L) {
   }
   robot.world->set_eigengrasps(robot.id, std::move(set));
   return 0;
-}
-
-static int get_amplitudes(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  return push_vector(L, Eigengrasps(*robot).amplitudes(robot.world->dofs(robot.id)));
 }
 
 // the posture that amplitudes stand for, each DOF brought to its nearest limit
@@ -76,10 +67,6 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
   return out;
 }
 
-static int push_clamped(lua_State* L, const Expected& expected) {
-  return push_list_of(L, expected.clamped, [L](int d) { push(L, d); });
-}
-
 static int set_amplitudes_field(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   Table none(L, 3);
@@ -92,7 +79,7 @@ static int set_amplitudes(lua_State* L) {
   Table options(L, 3);
   const Expected expected = expected_posture(L, robot, options);
   robot.world->set_dofs(robot.id, expected.dofs);
-  return push_clamped(L, expected);
+  return push(L, expected.clamped);
 }
 
 static int move_amplitudes(lua_State* L) {
@@ -101,8 +88,7 @@ static int move_amplitudes(lua_State* L) {
   const DriveOptions driving{.stop_at_contact = options.boolean("stop_at_contact", false)};
   const Expected expected = expected_posture(L, robot, options);
   push_drive(L, robot.world, drive_to(*robot.world, robot.id, expected.dofs, driving));
-  push_clamped(L, expected);
-  lua_setfield(L, -2, "clamped");
+  set_field(L, "clamped", expected.clamped);
   return 1;
 }
 
@@ -137,22 +123,19 @@ static int set_virtual_contacts(lua_State* L) {
     robot.world->set_virtual_contacts(robot.id, nullptr);
     return 0;
   }
-  const What what{L, {}, "virtual_contacts"};
-  const int count = read_list_size(L, 2, what, "a list of virtual contacts", "robot");
   Contacts contacts;
+  std::string other_hand;
+  const auto read = [&](int i, const What& what) {
+    contacts.push_back(read_virtual_contact(L, i, what, robot));
+    const auto* other = to<VirtualContactHandle>(L, i);
+    if (other && other_hand.empty() && other->robot.world->alive(other->robot.id))
+      other_hand = source_stem(*other->robot);
+  };
+  each_item(L, 2, {L, {}, "virtual_contacts"}, "a list of virtual contacts", read, "robot");
   lua_pushstring(L, "robot");
-  std::string made_for;  // as lists from files say it
-  if (lua_rawget(L, 2) == LUA_TSTRING) made_for = string_at(L, -1);
+  const bool told = lua_rawget(L, 2) == LUA_TSTRING;  // as lists from files say it
+  const std::string made_for = told ? std::string(string_at(L, -1)) : other_hand;
   lua_pop(L, 1);
-  for (int i = 1; i <= count; ++i) {
-    lua_rawgeti(L, 2, i);
-    contacts.push_back(read_virtual_contact(L, -1, what.item(i), robot));
-    if (const auto* other = to<VirtualContactHandle>(L, -1); other && made_for.empty()) {
-      const World& world = *other->robot.world;
-      if (world.alive(other->robot.id)) made_for = source_stem(*other->robot);
-    }
-    lua_pop(L, 1);
-  }
   give(robot, std::move(contacts));
   warn_of_other_hand(L, robot, made_for);
   return 0;
@@ -199,131 +182,97 @@ static int save_virtual_contacts(lua_State* L) {
 
 // --- glove and sensor ---
 
-static int get_glove(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  if (!robot->glove) {
-    lua_pushnil(L);
-    return 1;
-  }
-  push_list(L, 0, 2);
-  push_rows(L, robot->glove->slopes);
-  lua_setfield(L, -2, "slopes");
-  push_vector(L, robot->glove->intercepts);
-  lua_setfield(L, -2, "intercepts");
-  return 1;
+int push(lua_State* L, const GloveCalibration& glove) {
+  return push_record(L, {{"slopes", glove.slopes}, {"intercepts", glove.intercepts}});
 }
 
-static int get_hand_tracker(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  if (!robot->tracker) {
-    lua_pushnil(L);
-    return 1;
-  }
-  push_list(L, 0, 2);
-  set_field(L, "number", robot->tracker->number);
-  set_field(L, "pose", robot->tracker->X_BS);
-  return 1;
+static int push(lua_State* L, const TrackerSpec& tracker) {
+  return push_record(L, {{"number", tracker.number}, {"pose", tracker.X_BS}});
 }
 
 // --- parts that are kept as their file describes them ---
 
-// base or link that a part stands for
-static void set_link(lua_State* L, const RobotHandle& robot, int link) {
-  push(L, BodyHandle{robot.world, robot->body_of(link)});
-  lua_setfield(L, -2, "link");
-}
-
-// a list of what push_part makes of each of the robot's
+// a list of what push_part(part, link) makes of each of the robot's, with the base or link that a
+// number stands for
 template <class Part, class PushPart>
 static int push_parts(lua_State* L, std::vector<Part> PassiveParts::*list, PushPart push_part) {
   const auto& robot = self<RobotHandle>(L);
   const std::vector<Part> none;
+  const auto link = [&](int number) { return BodyHandle{robot.world, robot->body_of(number)}; };
   return push_list_of(L, robot->passive ? (*robot->passive).*list : none,
-                      [&](const Part& part) { push_part(robot, part); });
+                      [&](const Part& part) { push_part(part, link); });
 }
 
 static int get_tendons(lua_State* L) {
-  return push_parts(L, &PassiveParts::tendons, [L](const RobotHandle& robot, const TendonSpec& t) {
-    push_list(L, 0, 5);
-    set_field(L, "name", std::string_view(t.name));
-    set_field(L, "stiffness", t.stiffness);
-    if (t.rest_length) set_field(L, "rest_length", *t.rest_length);
-    if (t.pre_tension_length) set_field(L, "pre_tension_length", *t.pre_tension_length);
-    push_list_of(L, t.points, [&](const TendonPoint& p) {
-      push_list(L, 0, 3);
-      set_link(L, robot, p.link);
-      set_field(L, "point", p.p_L);
-      set_field(L, "friction", p.friction);
-    });
-    lua_setfield(L, -2, "points");
+  return push_parts(L, &PassiveParts::tendons, [L](const TendonSpec& t, auto link) {
+    const auto push_points = [&] {
+      push_list_of(L, t.points, [&](const TendonPoint& p) {
+        push_record(L, {{"link", link(p.link)}, {"point", p.p_L}, {"friction", p.friction}});
+      });
+    };
+    push_record(L, {{"name", t.name},
+                    {"stiffness", t.stiffness},
+                    {"rest_length", t.rest_length},
+                    {"pre_tension_length", t.pre_tension_length},
+                    {"points", push_points}});
   });
 }
 
+static int push(lua_State* L, const TendonWrapper::Side& side) {
+  return push_record(L, {{"tendon", side.tendon}, {"direction", side.direction_L}});
+}
+
 static int get_tendon_wrappers(lua_State* L) {
-  const auto push_wrapper = [L](const RobotHandle& robot, const TendonWrapper& w) {
-    push_list(L, 0, 7);
-    set_link(L, robot, w.link);
-    set_field(L, "point", w.p_L);
-    set_field(L, "axis", w.axis_L);
-    set_field(L, "radius", w.radius);
-    set_field(L, "friction", w.friction);
-    push_list_of(L, w.exempt, [L](const std::string& name) { push(L, std::string_view(name)); });
-    lua_setfield(L, -2, "exempt");
-    push_list_of(L, w.sides, [L](const TendonWrapper::Side& side) {
-      push_list(L, 0, 2);
-      set_field(L, "tendon", std::string_view(side.tendon));
-      set_field(L, "direction", side.direction_L);
-    });
-    lua_setfield(L, -2, "sides");
-  };
-  return push_parts(L, &PassiveParts::wrappers, push_wrapper);
+  return push_parts(L, &PassiveParts::wrappers, [L](const TendonWrapper& w, auto link) {
+    push_record(L, {{"link", link(w.link)},
+                    {"point", w.p_L},
+                    {"axis", w.axis_L},
+                    {"radius", w.radius},
+                    {"friction", w.friction},
+                    {"exempt", w.exempt},
+                    {"sides", w.sides}});
+  });
 }
 
 static int get_tactile_sensors(lua_State* L) {
-  return push_parts(L, &PassiveParts::tactile, [L](const RobotHandle& robot, const TactileSpec& s) {
-    push_list(L, 0, 3);
-    set_link(L, robot, s.link);
-    set_field(L, "low", s.low_L);
-    set_field(L, "high", s.high_L);
+  return push_parts(L, &PassiveParts::tactile, [L](const TactileSpec& s, auto link) {
+    push_record(L, {{"link", link(s.link)}, {"low", s.low_L}, {"high", s.high_L}});
   });
 }
 
 static int get_actuators(lua_State* L) {
-  return push_parts(L, &PassiveParts::actuators, [L](const RobotHandle&, const ActuatorSpec& a) {
-    push_list(L, 0, 10);
-    if (!a.name.empty()) set_field(L, "name", std::string_view(a.name));
-    set_field(L, "kind", std::string_view(a.kind));
-    if (!a.joint.empty()) set_field(L, "joint", std::string_view(a.joint));
-    if (!a.tendon.empty()) set_field(L, "tendon", std::string_view(a.tendon));
+  return push_parts(L, &PassiveParts::actuators, [L](const ActuatorSpec& a, auto) {
+    push_record(L, {{"kind", a.kind},
+                    {"gear", a.gear},
+                    {"control_range", a.control_range},
+                    {"force_range", a.force_range}});
+    if (!a.name.empty()) set_field(L, "name", a.name);
+    if (!a.joint.empty()) set_field(L, "joint", a.joint);
+    if (!a.tendon.empty()) set_field(L, "tendon", a.tendon);
     if (a.dof >= 0) set_field(L, "dof", a.dof + 1);
-    set_field(L, "gear", a.gear);
-    if (a.law_known) {
-      set_field(L, "gain", a.gain);
-      push_numbers(L, a.bias);
-      lua_setfield(L, -2, "bias");
-      if (a.damping_ratio > 0) set_field(L, "damping_ratio", a.damping_ratio);
-    }
-    const auto set_range = [L](const char* key, const auto& range) {
-      if (!range) return;
-      push_numbers(L, *range);
-      lua_setfield(L, -2, key);
-    };
-    set_range("control_range", a.control_range);
-    set_range("force_range", a.force_range);
+    if (!a.law_known) return;
+    set_field(L, "gain", a.gain);
+    set_field(L, "bias", a.bias);
+    if (a.damping_ratio > 0) set_field(L, "damping_ratio", a.damping_ratio);
   });
 }
 
 // --- tables ---
 
 static const Entry hand_fields[] = {
-    {"eigengrasps", guarded<get_eigengrasps>, R"(
+    {"eigengrasps", getter<[](const RobotHandle& x) {
+       return EigengraspsHandle{x, nullptr};
+     }>,
+     R"(
 Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 @type eigengrasps
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand.eigengrasps  --> 1 eigengrasp of 12 DOFs
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 1}}}  --> error: expected a set for 12 DOFs, got one for 2)",
      guarded<set_eigengrasps>},
-    {"amplitudes", guarded<get_amplitudes>, R"(
+    {"amplitudes",
+     getter<[](const RobotHandle& x) { return Eigengrasps(*x).amplitudes(x.world->dofs(x.id)); }>,
+     R"(
 Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
 @type number[]
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
@@ -347,12 +296,15 @@ Do its virtual contacts come from a file or a script? Otherwise they are found f
 > hand.has_own_virtual_contacts  --> true
 > hand.virtual_contacts = nil
 > hand.has_own_virtual_contacts  --> false)"},
-    {"glove", guarded<get_glove>, R"(
+    {"glove", getter<[](const RobotHandle& x) {
+       return x->glove ? std::optional(*x->glove) : std::nullopt;
+     }>,
+     R"(
 Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
 DOF = intercept + slopes * raw. nil when there is none.
 @type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
 > hand.glove  --> nil)"},
-    {"tracker", guarded<get_hand_tracker>, R"(
+    {"tracker", getter<[](const RobotHandle& x) { return x->tracker; }>, R"(
 Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
 @type {number: integer, pose: pose}?
 > hand.tracker  --> nil)"},

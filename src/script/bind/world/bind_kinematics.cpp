@@ -29,9 +29,10 @@ static IkOptions read_ik_options(lua_State* L, int i, const RobotHandle& robot) 
   Table options(L, i);
   IkOptions out;
   out.X_BT = options.pose("frame", out.X_BT);
-  const std::string orientation = options.choice("orientation", {"full", "axis", "none"}, "full");
-  if (orientation != "full")
-    out.orientation = orientation == "axis" ? IkOrientation::axis : IkOrientation::none;
+  out.orientation = options.choice(
+      "orientation",
+      {{"full", IkOrientation::full}, {"axis", IkOrientation::axis}, {"none", IkOrientation::none}},
+      out.orientation);
   if (options.push("dofs") != LUA_TNIL)
     out.dofs = read_dof_numbers(L, lua_gettop(L), options.what("dofs"), robot);
   lua_pop(L, 1);
@@ -50,22 +51,19 @@ static int ik(lua_State* L) {
   const Pose X_WT = check_pose(L, 3, "pose");
   const IkResult result = inverse_kinematics(*robot.world, robot.id, body, X_WT,
                                              read_ik_options(L, 4, robot), &robot.world->context());
-  push_list(L, 0, 7);
-  set_field(L, "reached", result.reached);
-  push_vector(L, result.dofs);
-  lua_setfield(L, -2, "dofs");
-  set_field(L, "distance", result.distance);
-  set_field(L, "angle", result.angle);
-  set_field(L, "starts", result.starts);
-  set_field(L, "iterations", result.iterations);
-  set_field(L, "in_collision", result.in_collision);
-  return 1;
+  return push_record(L, {{"reached", result.reached},
+                         {"dofs", result.dofs},
+                         {"distance", result.distance},
+                         {"angle", result.angle},
+                         {"starts", result.starts},
+                         {"iterations", result.iterations},
+                         {"in_collision", result.in_collision}});
 }
 
 static int random_posture(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
-  return push_vector(
-      L, clench::random_posture(*robot.world, robot.id, check_object<Random>(L, 2, "random")));
+  return push(L,
+              clench::random_posture(*robot.world, robot.id, check_object<Random>(L, 2, "random")));
 }
 
 static const Entry kinematics_methods[] = {
@@ -106,7 +104,6 @@ const Class kinematics_class{.name = "kinematics",
                              .doc =
                                  "What every robot knows of where its DOFs take its links: inverse "
                                  "kinematics and Jacobians.",
-                             .fields = {},
                              .methods = kinematics_methods,
                              .parent = &hand_class};
 

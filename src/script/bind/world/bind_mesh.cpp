@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "clench/io/mesh/write_mesh.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -13,29 +14,8 @@ namespace clench {
 
 static const Shape& shape_of(lua_State* L) { return *self<ShapePtr>(L); }
 
-static int get_triangle_count(lua_State* L) {
-  return push(L, static_cast<int>(shape_of(L).mesh().triangles.size()));
-}
-static int get_vertex_count(lua_State* L) {
-  return push(L, static_cast<int>(shape_of(L).mesh().vertices.size()));
-}
-static int get_volume(lua_State* L) { return push(L, shape_of(L).solid().volume); }
-static int get_area(lua_State* L) { return push(L, shape_of(L).mesh().area()); }
-static int get_faults(lua_State* L) { return push(L, shape_of(L).faults().describe()); }
-static int is_watertight(lua_State* L) { return push(L, shape_of(L).closed()); }
-
-static int get_centroid(lua_State* L) { return push(L, shape_of(L).solid().centroid); }
-
-static int get_mesh_bounds(lua_State* L) {
-  push_list(L, 0, 2);
-  set_field(L, "low", shape_of(L).bounds().low);
-  set_field(L, "high", shape_of(L).bounds().high);
-  return 1;
-}
-
-static int get_vertices(lua_State* L) {
-  return push_list_of(L, shape_of(L).mesh().vertices,
-                      [&](const Eigen::Vector3d& v) { push(L, v); });
+static const std::vector<Eigen::Vector3d>& vertices_of(const ShapePtr& shape) {
+  return shape->mesh().vertices;
 }
 
 static int get_triangles(lua_State* L) {
@@ -47,11 +27,9 @@ static int get_triangles(lua_State* L) {
 static int push_surface_point(lua_State* L, const Shape& shape, const Eigen::Vector3d& point,
                               int triangle) {
   const auto [a, b, c] = shape.mesh().corners(triangle);
-  push_list(L, 0, 4);
-  set_field(L, "point", point);
-  set_field(L, "normal", Eigen::Vector3d((b - a).cross(c - a).stableNormalized()));
-  set_field(L, "triangle", triangle + 1);
-  return 1;
+  return push_record(L, {{"point", point},
+                         {"normal", (b - a).cross(c - a).stableNormalized()},
+                         {"triangle", triangle + 1}});
 }
 
 static int closest(lua_State* L) {
@@ -98,49 +76,46 @@ static int mesh_save(lua_State* L) {
   return 0;
 }
 
-static int mesh_text(lua_State* L) {
-  const Shape& shape = shape_of(L);
-  const Eigen::Vector3d size = shape.bounds().size();
-  return push(L, fmt::format("mesh of {} triangles, {:.4g} x {:.4g} x {:.4g} m, {}",
-                             shape.mesh().triangles.size(), size.x(), size.y(), size.z(),
-                             shape.faults().describe()));
-}
-
-static int mesh_equal(lua_State* L) {
-  const auto *a = to<ShapePtr>(L, 1), *b = to<ShapePtr>(L, 2);
-  return push(L, a && b && *a == *b);
+static std::string mesh_text(const ShapePtr& shape) {
+  const Eigen::Vector3d size = shape->bounds().size();
+  return fmt::format("mesh of {} triangles, {:.4g} x {:.4g} x {:.4g} m, {}",
+                     shape->mesh().triangles.size(), size.x(), size.y(), size.z(),
+                     shape->faults().describe());
 }
 
 static const Entry mesh_fields[] = {
-    {"triangle_count", guarded<get_triangle_count>, R"(
+    {"triangle_count",
+     getter<[](const ShapePtr& x) { return static_cast<int>(x->mesh().triangles.size()); }>,
+     R"(
 How many triangles it has.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.triangle_count  --> 12)"},
-    {"vertex_count", guarded<get_vertex_count>, R"(
+    {"vertex_count",
+     getter<[](const ShapePtr& x) { return static_cast<int>(x->mesh().vertices.size()); }>, R"(
 How many vertices it has.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.vertex_count  --> 8)"},
-    {"bounds", guarded<get_mesh_bounds>, R"(
+    {"bounds", getter<[](const ShapePtr& x) { return x->bounds(); }>, R"(
 Axis-aligned bounds in the body frame.
 @type {low: vec3, high: vec3}  [m]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.bounds.high  --> (0.5, 1, 2))"},
-    {"volume", guarded<get_volume>, R"(
+    {"volume", getter<[](const ShapePtr& x) { return x->solid().volume; }>, R"(
 Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight.
 @type number  [m^3]
 > math.abs(world:add_object(clench.shapes.box {1, 2, 4}).mesh.volume - 8) < 1e-12  --> true)"},
-    {"centroid", guarded<get_centroid>, R"(
+    {"centroid", getter<[](const ShapePtr& x) { return x->solid().centroid; }>, R"(
 Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight.
 @type vec3  [m]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.centroid:norm() < 1e-12  --> true)"},
-    {"area", guarded<get_area>, R"(
+    {"area", getter<[](const ShapePtr& x) { return x->mesh().area(); }>, R"(
 Area of all its triangles.
 @type number  [m^2]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.area  --> 28.0)"},
-    {"faults", guarded<get_faults>, R"(
+    {"faults", getter<[](const ShapePtr& x) { return x->faults().describe(); }>, R"(
 Counts of its faults.
 @type string
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.faults  --> no faults)"},
-    {"vertices", guarded<get_vertices>, R"(
+    {"vertices", getter<vertices_of>, R"(
 A list of all vertices in the body frame.
 @type vec3[]  [m]
 > #world:add_object(clench.shapes.box {1, 1, 1}).mesh.vertices  --> 8)"},
@@ -151,7 +126,7 @@ A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
 };
 
 static const Entry mesh_methods[] = {
-    {"is_watertight", guarded<is_watertight>, R"(
+    {"is_watertight", method<[](const ShapePtr& x) { return x->closed(); }>, R"(
 Does the surface bound a solid: every edge between two triangles that agree?
 @return boolean
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:is_watertight()  --> true)"},
@@ -184,17 +159,17 @@ Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
 };
 
 static const Entry mesh_operators[] = {
-    {"__tostring", guarded<mesh_text>, ""},
-    {"__eq", guarded<mesh_equal>, ""},
+    {"__tostring", method<mesh_text>, ""},
+    {"__eq", equality<ShapePtr>, ""},
 };
 
-const Class mesh_class{.name = "mesh",
-                       .variable = "mesh",
-                       .doc =
-                           "The triangles of a body's surface. Meshes never "
-                           "change, and clones of a world share them.",
-                       .fields = mesh_fields,
-                       .methods = mesh_methods,
-                       .operators = mesh_operators};
+const Class mesh_class{
+    .name = "mesh",
+    .variable = "mesh",
+    .doc =
+        "The triangles of a body's surface. Meshes never change, and clones of a world share them.",
+    .fields = mesh_fields,
+    .methods = mesh_methods,
+    .operators = mesh_operators};
 
 }  // namespace clench

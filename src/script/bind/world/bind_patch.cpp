@@ -6,15 +6,14 @@
 
 namespace clench {
 
+static constexpr Word<ModulusRule> modulus_rules[] = {{"larger", ModulusRule::larger},
+                                                      {"series", ModulusRule::series}};
+
 ModulusRule read_modulus_rule(Table& options) {
-  return options.choice("modulus", {"series", "larger"}, "series") == "larger"
-             ? ModulusRule::larger
-             : ModulusRule::series;
+  return options.choice("modulus", modulus_rules, ModulusRule::series);
 }
 
-const char* modulus_name(ModulusRule rule) {
-  return rule == ModulusRule::larger ? "larger" : "series";
-}
+const char* modulus_name(ModulusRule rule) { return word_of(rule, modulus_rules); }
 
 static const SoftPatch& patch_of(lua_State* L) { return *self<PatchHandle>(L).patch; }
 
@@ -22,15 +21,9 @@ static const SoftPatch& patch_of(lua_State* L) { return *self<PatchHandle>(L).pa
 template <class PushOne>
 static int push_sides(lua_State* L, PushOne push_one) {
   const bool body_is_b = self<PatchHandle>(L).body_is_b;
-  push_list(L, 0, 2);
-  push_one(body_is_b ? 1 : 0);
-  lua_setfield(L, -2, "body");
-  push_one(body_is_b ? 0 : 1);
-  lua_setfield(L, -2, "other");
-  return 1;
+  return push_record(L, {{"body", [&] { push_one(body_is_b ? 1 : 0); }},
+                         {"other", [&] { push_one(body_is_b ? 0 : 1); }}});
 }
-
-static int get_relative_radii(lua_State* L) { return push_numbers(L, patch_of(L).relative_radii); }
 
 static int get_flat(lua_State* L) {
   return push_list_of(L, patch_of(L).flat, [&](bool flat) { push(L, flat); });
@@ -38,35 +31,27 @@ static int get_flat(lua_State* L) {
 
 static int get_curvatures(lua_State* L) {
   const SoftPatch& patch = patch_of(L);
-  return push_sides(L, [&](int side) { push_vector(L, patch.surfaces[side].curvatures); });
+  return push_sides(L, [&](int side) { push(L, patch.surfaces[side].curvatures); });
 }
 
 static int get_radii(lua_State* L) {
   const SoftPatch& patch = patch_of(L);
-  return push_sides(L, [&](int side) {
-    const Eigen::Vector2d radii = patch.surfaces[side].curvatures.cwiseInverse();
-    push_vector(L, radii);
-  });
+  return push_sides(L, [&](int side) { push(L, patch.surfaces[side].curvatures.cwiseInverse()); });
 }
 
 static int get_directions(lua_State* L) {
   const auto& p = self<PatchHandle>(L);
-  return push_list_of(L, std::array{0, 1}, [&](int i) {
-    push(L, Eigen::Vector3d(p.X_WA.rotation * p.patch->directions.col(i)));
-  });
+  return push_list_of(L, std::array{0, 1},
+                      [&](int i) { push(L, p.X_WA.rotation * p.patch->directions.col(i)); });
 }
 
 static int get_patch_points(lua_State* L) {
   const auto& p = self<PatchHandle>(L);
   return push_sides(L, [&](int side) {
     push_list_of(L, p.patch->points[side],
-                 [&](const Eigen::Vector3d& point) { push(L, Eigen::Vector3d(p.X_WA * point)); });
+                 [&](const Eigen::Vector3d& point) { push(L, p.X_WA * point); });
   });
 }
-
-static int get_radius(lua_State* L) { return push(L, patch_of(L).radius); }
-static int get_residual(lua_State* L) { return push(L, patch_of(L).residual); }
-static int get_at_edge(lua_State* L) { return push(L, patch_of(L).at_edge); }
 
 // {force = 5, modulus = "series"}
 static std::pair<double, ModulusRule> read_pressing(lua_State* L) {
@@ -82,15 +67,11 @@ static int ellipse(lua_State* L) {
   const SoftPatch& patch = patch_of(L);
   const auto [force, rule] = read_pressing(L);
   const ContactEllipse e = contact_ellipse(patch, force, rule);
-  push_list(L, 0, 5);
-  push_numbers(L, e.semi_axes);
-  lua_setfield(L, -2, "semi_axes");
-  set_field(L, "indentation", e.indentation);
-  set_field(L, "pressure", e.pressure);
-  set_field(L, "torsion_radius", torsion_radius(patch, force, rule));
-  push(L, e.exceeds_layer);
-  lua_setfield(L, -2, "exceeds_layer");
-  return 1;
+  return push_record(L, {{"semi_axes", e.semi_axes},
+                         {"indentation", e.indentation},
+                         {"pressure", e.pressure},
+                         {"torsion_radius", torsion_radius(patch, force, rule)},
+                         {"exceeds_layer", e.exceeds_layer}});
 }
 
 static int torsion_limit(lua_State* L) {
@@ -99,15 +80,14 @@ static int torsion_limit(lua_State* L) {
   return push(L, self<PatchHandle>(L).mu * force * torsion_radius(patch, force, rule));
 }
 
-static int patch_text(lua_State* L) {
-  const SoftPatch& patch = patch_of(L);
-  return push(
-      L, fmt::format("soft patch, relative radii {:.6g} and {:.6g} m{}", patch.relative_radii[0],
-                     patch.relative_radii[1], patch.at_edge ? ", on a corner or an edge" : ""));
+static std::string patch_text(const PatchHandle& x) {
+  return fmt::format("soft patch, relative radii {:.6g} and {:.6g} m{}", x.patch->relative_radii[0],
+                     x.patch->relative_radii[1],
+                     x.patch->at_edge ? ", on a corner or an edge" : "");
 }
 
 static const Entry patch_fields[] = {
-    {"relative_radii", guarded<get_relative_radii>, R"(
+    {"relative_radii", getter<[](const PatchHandle& x) { return x.patch->relative_radii; }>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
 Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands
 for them, or the first radius when that is larger; between 1 m and 2 m the two are blended.
@@ -139,15 +119,15 @@ The middle of the patch, in the world frame: the contact's point, or the mean of
 What was fitted: points of both surfaces, in the world frame.
 @type {body: vec3[], other: vec3[]}  [m]
 > #patch.points.other > 100  --> true)"},
-    {"radius", guarded<get_radius>, R"(
+    {"radius", getter<[](const PatchHandle& x) { return x.patch->radius; }>, R"(
 How far around the contact the surfaces were looked at.
 @type number  [m]
 > ("%.5f"):format(patch.radius)  --> 0.00349)"},
-    {"residual", guarded<get_residual>, R"(
+    {"residual", getter<[](const PatchHandle& x) { return x.patch->residual; }>, R"(
 How far the points lie from the fit, root of the mean square; of the worse surface.
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
-    {"at_edge", guarded<get_at_edge>, R"(
+    {"at_edge", getter<[](const PatchHandle& x) { return x.patch->at_edge; }>, R"(
 Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that certainly
 touches.
 @type boolean
@@ -176,7 +156,7 @@ The largest torque about the normal that the contact resists, at rest: mu F time
 };
 
 static const Entry patch_operators[] = {
-    {"__tostring", guarded<patch_text>, ""},
+    {"__tostring", method<patch_text>, ""},
 };
 
 const Class patch_class{.name = "patch",

@@ -11,12 +11,6 @@
 
 namespace clench {
 
-static int set_robot_pose(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  robot.world->set_pose(robot.id, check_pose(L, 2));
-  return 0;
-}
-
 static int get_robot_bodies(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   push_bodies(L, robot.world, robot.world->bodies_of(robot.id));
@@ -35,61 +29,56 @@ static int get_robot_links(lua_State* L) {
   return set_finder(L, "hand:link", body_class);
 }
 
-static void push_joint(lua_State* L, const RobotHandle& robot, int joint) {
+static int push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   const Joint& spec = robot->joints[joint];
   const double q = robot.world->joints(robot.id)[joint];
-  push_list(L, 0, 11);
-  if (!spec.name.empty()) set_field(L, "name", std::string_view(spec.name));
-  set_field(L, "kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic");
-  set_field(L, "dof", spec.dof + 1);
-  set_field(L, "ratio", spec.ratio);
-  set_field(L, "min", spec.min);
-  set_field(L, "max", spec.max);
-  if (spec.endless) set_field(L, "endless", true);
-  set_field(L, "value", q);
   const bool left = !robot.world->follows_dof(robot.id, joint);
   const DofKind kind = robot->dofs[spec.dof].kind;
-  set_field(L, "broken_away", left && kind == DofKind::breakaway);
-  set_field(L, "spring_deflection", spec.ratio * robot.world->dofs(robot.id)[spec.dof] - q);
+  push_record(L, {{"kind", spec.kind == JointKind::revolute ? "revolute" : "prismatic"},
+                  {"dof", spec.dof + 1},
+                  {"ratio", spec.ratio},
+                  {"min", spec.min},
+                  {"max", spec.max},
+                  {"value", q},
+                  {"broken_away", left && kind == DofKind::breakaway},
+                  {"spring_deflection", spec.ratio * robot.world->dofs(robot.id)[spec.dof] - q}});
+  if (!spec.name.empty()) set_field(L, "name", spec.name);
+  if (spec.endless) set_field(L, "endless", true);
   if (spec.viscous > 0) set_field(L, "damping", spec.viscous);
   if (spec.coulomb > 0) set_field(L, "friction", spec.coulomb);
   if (spec.armature > 0) set_field(L, "armature", spec.armature);
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
+  return 1;
 }
 
 static int get_chains(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   return push_list_of(L, robot->chains, [&](const Chain& chain) {
-    push_list(L, 0, 4);
     const Link& first = robot->links[chain.links.front()];
     const bool fixed = first.first_joint == first.end_joint;
-    set_field(L, "pose", fixed ? first.X_JL : robot->joints[first.first_joint].X_PJ);
-    push(L, BodyHandle{robot.world, robot->body_of(chain.parent)});
-    lua_setfield(L, -2, "parent");
-    std::vector<Id<Body>> links;
-    for (const int l : chain.links) links.push_back(robot->links[l].body);
-    push_bodies(L, robot.world, links);
-    lua_setfield(L, -2, "links");
-    push_list_of(L, joints_of(*robot, chain), [&](int j) { push_joint(L, robot, j); });
-    lua_setfield(L, -2, "joints");
+    const auto push_joints = [&] {
+      push_list_of(L, joints_of(*robot, chain), [&](int j) { push_joint(L, robot, j); });
+    };
+    std::vector<BodyHandle> links;
+    for (const int l : chain.links) links.push_back({robot.world, robot->links[l].body});
+    push_record(L, {{"pose", fixed ? first.X_JL : robot->joints[first.first_joint].X_PJ},
+                    {"parent", BodyHandle{robot.world, robot->body_of(chain.parent)}},
+                    {"links", links},
+                    {"joints", push_joints}});
   });
 }
 
 static int get_approach(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Pose frame = robot.world->pose(robot->base) * robot->X_BA;
-  push_list(L, 0, 3);
-  set_field(L, "point", frame.position);
-  set_field(L, "direction", Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
-  set_field(L, "frame", frame);
-  return 1;
+  return push_record(L, {{"point", frame.position},
+                         {"direction", frame.rotation * Eigen::Vector3d::UnitZ()},
+                         {"frame", frame}});
 }
 
-static int get_parent(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  if (robot->mounting) return push(L, RobotHandle{robot.world, robot->mounting->parent});
-  lua_pushnil(L);
-  return 1;
+static std::optional<RobotHandle> carrier_of(const RobotHandle& robot) {
+  if (!robot->mounting) return {};
+  return RobotHandle{robot.world, robot->mounting->parent};
 }
 
 static int get_files(lua_State* L) {
@@ -139,12 +128,6 @@ static int place_approach(lua_State* L) {
   return 0;
 }
 
-static int dismount(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  robot.world->unmount(robot.id);
-  return 0;
-}
-
 static int mount_on(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto& parent = check_object<RobotHandle>(L, 2, "parent");
@@ -171,16 +154,10 @@ static int mount_on(lua_State* L) {
   return 0;
 }
 
-static int robot_text(lua_State* L) {
-  const auto& robot = self<RobotHandle>(L);
-  if (!robot.world->alive(robot.id)) return push(L, "removed robot");
-  return push(L, fmt::format("robot '{}' of {} DOFs, {} chains, {} links", robot->name,
-                             robot->dofs.size(), robot->chains.size(), links_of(*robot).size()));
-}
-
-static int robot_equal(lua_State* L) {
-  const auto *a = to<RobotHandle>(L, 1), *b = to<RobotHandle>(L, 2);
-  return push(L, a && b && a->world == b->world && a->id == b->id);
+static std::string robot_text(const RobotHandle& robot) {
+  if (!robot.world->alive(robot.id)) return "removed robot";
+  return fmt::format("robot '{}' of {} DOFs, {} chains, {} links", robot->name, robot->dofs.size(),
+                     robot->chains.size(), robot->links.size());
 }
 
 static const Entry robot_fields[] = {
@@ -193,7 +170,7 @@ Where its base is, in the world frame. Setting it moves the robot at once, with 
 @type pose
 > hand.pose = {xyz = {0, 0, 1}}
 > hand.base.pose.position  --> (0, 0, 1))",
-     guarded<set_robot_pose>},
+     setter<[](const RobotHandle& x, const Pose& pose) { x.world->set_pose(x.id, pose); }>},
     {"links", guarded<get_robot_links>, R"(
 Its links, chain by chain, without the base.
 @type body[]
@@ -223,7 +200,7 @@ How it approaches what it grasps, in the world frame: `point` that goes there, o
 small object, `direction`, `frame` with +z along it. From its file, or a guess, which `clench check` tells.
 @type {point: vec3, direction: vec3, frame: pose}
 > math.abs(hand.approach.direction:norm() - 1) < 1e-12  --> true)"},
-    {"parent", guarded<get_parent>, R"(
+    {"parent", getter<carrier_of>, R"(
 The robot that carries it; nil when none does.
 @type robot?
 > hand.parent  --> nil)"},
@@ -272,24 +249,23 @@ Fixes the robot to a link of another one: that of a name, or the last of a chain
 @param parent robot
 @param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
-    {"dismount", guarded<dismount>, R"(
+    {"dismount", method<[](const RobotHandle& x) { x.world->unmount(x.id); }>, R"(
 Takes the robot off the one that carries it: it stays where it is, without its adapter.
 > hand:dismount()  --> error: is carried by nobody)"},
 };
 
 static const Entry robot_operators[] = {
-    {"__tostring", guarded<robot_text>, ""},
-    {"__eq", guarded<robot_equal>, ""},
+    {"__tostring", method<robot_text>, ""},
+    {"__eq", equality<RobotHandle>, ""},
 };
 
-const Class robot_class{.name = "robot",
-                        .variable = "hand",
-                        .doc =
-                            "A hand or an arm: a base, chains of links, and "
-                            "the degrees of freedom that move them.",
-                        .fields = robot_fields,
-                        .methods = robot_methods,
-                        .operators = robot_operators,
-                        .parent = &dofs_class};
+const Class robot_class{
+    .name = "robot",
+    .variable = "hand",
+    .doc = "A hand or an arm: a base, chains of links, and the degrees of freedom that move them.",
+    .fields = robot_fields,
+    .methods = robot_methods,
+    .operators = robot_operators,
+    .parent = &dofs_class};
 
 }  // namespace clench

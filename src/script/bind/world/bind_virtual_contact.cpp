@@ -13,7 +13,7 @@ namespace clench {
 int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
                           const std::vector<VirtualContactSpec>& contacts) {
   return push_list_of(L, contacts, [&](const VirtualContactSpec& contact) {
-    push_object(L, VirtualContactHandle{robot, contact});
+    push(L, VirtualContactHandle{robot, contact});
   });
 }
 
@@ -56,12 +56,8 @@ static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
 }
 
 static FrictionEdges read_friction_edges(Table& table) {
-  if (!table.has("edges")) return friction_edges(table.number("torsion_radius", 0));
-  const auto rows = table.rows("edges", 6);
-  FrictionEdges edges(6, static_cast<int>(rows.size()));
-  for (size_t e = 0; e < rows.size(); ++e)
-    edges.col(static_cast<int>(e)) = Eigen::Map<const Vector6d>(rows[e].data());
-  return edges;
+  return table.has("edges") ? table.wrenches("edges")
+                            : friction_edges(table.number("torsion_radius", 0));
 }
 
 static Pose read_frame(Table& table) {
@@ -113,16 +109,8 @@ static Pose frame_of(const VirtualContactHandle& c) {
   return link.world->pose(link.id) * c.contact.X_LC;
 }
 
-static int get_chain(lua_State* L) {
-  const auto& c = self<VirtualContactHandle>(L);
-  return push(L, place_of(c.robot->chains, c.contact.link).chain + 1);
-}
-static int get_normal(lua_State* L) {
-  const Pose frame = frame_of(self<VirtualContactHandle>(L));
-  return push(L, Eigen::Vector3d(frame.rotation * Eigen::Vector3d::UnitZ()));
-}
-static int get_virtual_contact_edges(lua_State* L) {
-  return push_rows(L, self<VirtualContactHandle>(L).contact.edges.transpose());
+static Eigen::Vector3d normal_of(const VirtualContactHandle& c) {
+  return frame_of(c).rotation * Eigen::Vector3d::UnitZ();
 }
 
 // largest torque about the normal, over mu and force
@@ -130,25 +118,26 @@ static double torsion_radius(const VirtualContactSpec& contact) {
   return contact.edges.cols() ? contact.edges.row(5).cwiseAbs().maxCoeff() : 0.0;
 }
 
-static int get_kind(lua_State* L) {
-  const auto& contact = self<VirtualContactHandle>(L).contact;
-  return push(L, torsion_radius(contact) > 0 ? "soft" : "point");
+static const char* virtual_contact_kind(const VirtualContactHandle& c) {
+  return torsion_radius(c.contact) > 0 ? "soft" : "point";
 }
 
-static int virtual_contact_text(lua_State* L) {
-  const auto& c = self<VirtualContactHandle>(L);
-  if (!c.robot.world->alive(c.robot.id)) return push(L, "virtual contact of a removed robot");
+static std::string virtual_contact_text(const VirtualContactHandle& c) {
+  if (!c.robot.world->alive(c.robot.id)) return "virtual contact of a removed robot";
   const Eigen::Vector3d p = frame_of(c).position;
-  return push(L, fmt::format("virtual contact on {} at ({:.6g}, {:.6g}, {:.6g})", link_of(c)->name,
-                             p.x(), p.y(), p.z()));
+  return fmt::format("virtual contact on {} at ({:.6g}, {:.6g}, {:.6g})", link_of(c)->name, p.x(),
+                     p.y(), p.z());
 }
 
 static const Entry virtual_contact_fields[] = {
-    {"link", getter<[](const VirtualContactHandle& x) { return link_of(x); }>, R"(
+    {"link", getter<link_of>, R"(
 The link that it lies on, or the base.
 @type body
 > hand.virtual_contacts[1].link.robot == hand  --> true)"},
-    {"chain", guarded<get_chain>, R"(
+    {"chain", getter<[](const VirtualContactHandle& x) {
+       return place_of(x.robot->chains, x.contact.link).chain + 1;
+     }>,
+     R"(
 Number of the link's chain; 0 for the base.
 @type integer
 > hand:find_virtual_contacts()[1].chain  --> 1)"},
@@ -157,11 +146,11 @@ Where it is, in the world frame; it moves with its link.
 @type vec3  [m]
 > c = hand.virtual_contacts[1]
 > (c.point - c.link.pose * c.frame_in_link.position):norm() < 1e-12  --> true)"},
-    {"normal", guarded<get_normal>, R"(
+    {"normal", getter<normal_of>, R"(
 Unit normal out of the link, in the world frame: into what it is to touch.
 @type vec3
 > math.abs(hand.virtual_contacts[1].normal:norm() - 1) < 1e-12  --> true)"},
-    {"frame", getter<[](const VirtualContactHandle& x) { return frame_of(x); }>, R"(
+    {"frame", getter<frame_of>, R"(
 Contact frame in the world: origin at the point, +z along the normal.
 @type pose
 > c = hand.virtual_contacts[1]
@@ -175,7 +164,10 @@ Contact frame in the link's.
 Coulomb coefficient that it counts with.
 @type number
 > hand.virtual_contacts[1].mu > 0  --> true)"},
-    {"edges", guarded<get_virtual_contact_edges>, R"(
+    {"edges", getter<[](const VirtualContactHandle& x) {
+       return Eigen::MatrixXd(x.contact.edges.transpose());
+     }>,
+     R"(
 What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
 @type number[][]  torques [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
@@ -187,7 +179,8 @@ Largest torque about the normal that a unit normal force carries, over mu; 0 for
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, torsion_radius = 0.002}
 > c = hand.virtual_contacts[#hand.virtual_contacts]
 > c.torsion_radius, c.kind, #c.edges  --> 0.002, soft, 20)"},
-    {"kind", guarded<get_kind>, R"(
+    {"kind", getter<virtual_contact_kind>,
+     R"(
 "point", or "soft" when it carries torque about the normal.
 @type string
 > hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}}
@@ -195,7 +188,7 @@ Largest torque about the normal that a unit normal force carries, over mu; 0 for
 };
 
 static const Entry virtual_contact_operators[] = {
-    {"__tostring", guarded<virtual_contact_text>, ""},
+    {"__tostring", method<virtual_contact_text>, ""},
 };
 
 const Class virtual_contact_class{.name = "virtual_contact",
@@ -204,7 +197,6 @@ const Class virtual_contact_class{.name = "virtual_contact",
                                       "A place on a link where a hand would like to touch what it "
                                       "grasps; it moves with the link.",
                                   .fields = virtual_contact_fields,
-                                  .methods = {},
                                   .operators = virtual_contact_operators};
 
 }  // namespace clench

@@ -8,6 +8,7 @@
 #include "clench/script/bind/named_list.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -113,39 +114,30 @@ static int get_robots(lua_State* L) {
   return set_finder(L, "world:robot", robot_class);
 }
 
-static int body(lua_State* L) {
+// the one of a name that `find` found, or an error that tells the names of all
+template <class Handle, class Thing>
+static int push_found(lua_State* L, const char* kind,
+                      Id<Thing> (World::*find)(std::string_view) const,
+                      const std::vector<Id<Thing>>& all) {
   const auto& handle = self<WorldHandle>(L);
   const std::string name = check_string(L, 2, "name");
-  const auto id = handle.world->find_body(name);
-  if (!id) {
-    std::vector<std::string> names;
-    for (const auto other : handle.world->bodies()) names.push_back(handle.world->body(other).name);
-    fail("{}: no body '{}' in this world{}", subject(L), name, instead_of(name, names));
-  }
-  return push(L, BodyHandle{handle.world, id});
+  if (const auto id = (*handle.world.*find)(name)) return push(L, Handle{handle.world, id});
+  std::vector<std::string> names;
+  for (const auto id : all) names.push_back(Handle { handle.world, id } -> name);
+  fail("{}: no {} '{}' in this world{}", subject(L), kind, name, instead_of(name, names));
+}
+
+static int body(lua_State* L) {
+  return push_found<BodyHandle>(L, "body", &World::find_body, world_of(L).bodies());
 }
 
 static int robot(lua_State* L) {
-  const auto& handle = self<WorldHandle>(L);
-  const std::string name = check_string(L, 2, "name");
-  const auto id = handle.world->find_robot(name);
-  if (!id) {
-    std::vector<std::string> names;
-    for (const auto other : handle.world->robots())
-      names.push_back(handle.world->robot(other).name);
-    fail("{}: no robot '{}' in this world{}", subject(L), name, instead_of(name, names));
-  }
-  return push(L, RobotHandle{handle.world, id});
+  return push_found<RobotHandle>(L, "robot", &World::find_robot, world_of(L).robots());
 }
 
 // --- time machine ---
 
 static int clone(lua_State* L) { return push_world(L, std::make_shared<World>(world_of(L))); }
-
-static int snapshot(lua_State* L) {
-  const auto& handle = self<WorldHandle>(L);
-  return push_object(L, SnapshotHandle{handle.world->snapshot()});
-}
 
 static int restore(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
@@ -153,27 +145,16 @@ static int restore(lua_State* L) {
   return 0;
 }
 
-static int hash(lua_State* L) { return push(L, fmt::format("{:016x}", world_of(L).hash())); }
-
-static int get_source(lua_State* L) { return push(L, world_of(L).source()); }
-
-static int world_text(lua_State* L) {
-  const World& world = world_of(L);
+static std::string world_text(const WorldHandle& x) {
   const auto several = [](size_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
   };
-  return push(L, fmt::format("world of {}, {}", several(world.bodies().size(), "body", "bodies"),
-                             several(world.robots().size(), "robot", "robots")));
+  return fmt::format("world of {}, {}", several(x.world->bodies().size(), "body", "bodies"),
+                     several(x.world->robots().size(), "robot", "robots"));
 }
 
-static int world_equal(lua_State* L) {
-  const auto *a = to<WorldHandle>(L, 1), *b = to<WorldHandle>(L, 2);
-  return push(L, a && b && a->world == b->world);
-}
-
-static int snapshot_text(lua_State* L) {
-  return push(L, fmt::format("snapshot of {} bodies",
-                             self<SnapshotHandle>(L).moment->model->body_order.size()));
+static std::string snapshot_text(const SnapshotHandle& x) {
+  return fmt::format("snapshot of {} bodies", x.moment->model->body_order.size());
 }
 
 // --- tables ---
@@ -216,7 +197,7 @@ The bodies that only stand in the way.
 All robots in creation order.
 @type robot[]
 > world.robots[1] == hand  --> true)"},
-    {"source", guarded<get_source>, R"(
+    {"source", getter<[](const WorldHandle& x) { return x.world->source(); }>, R"(
 File that the world was loaded from; empty when it was made by a script.
 @type string
 > clench.world().source == ""  --> true)"},
@@ -267,7 +248,8 @@ An independent copy that shares the meshes. Its bodies and robots are found by n
 > copy = world:clone()
 > copy == world  --> false
 > copy:hash() == world:hash()  --> true)"},
-    {"snapshot", guarded<snapshot>, R"(
+    {"snapshot", method<[](const WorldHandle& x) { return SnapshotHandle{x.world->snapshot()}; }>,
+     R"(
 The state of the world now, exact to the bit.
 @return snapshot
 > world:snapshot() ~= nil  --> true)"},
@@ -290,39 +272,37 @@ new one has been read again; what the format cannot hold is told in a warning.
 > os.remove(path)
 > os.remove(path .. ".lua")
 > world:save "world.txt"  --> error: expected a world to .wld, .xml or .lua, got '.txt')"},
-    {"hash", guarded<hash>, R"(
+    {"hash", method<[](const WorldHandle& x) { return fmt::format("{:016x}", x.world->hash()); }>,
+     R"(
 Fingerprint of the state: equal bits, equal text.
 @return string  16 hexadecimal digits
 > #world:hash()  --> 16)"},
 };
 
 static const Entry world_operators[] = {
-    {"__tostring", guarded<world_text>, ""},
-    {"__eq", guarded<world_equal>, ""},
+    {"__tostring", method<world_text>, ""},
+    {"__eq", equality<WorldHandle>, ""},
 };
 
 static const Entry snapshot_operators[] = {
-    {"__tostring", guarded<snapshot_text>, ""},
+    {"__tostring", method<snapshot_text>, ""},
 };
 
 const Library world_library{.name = "clench", .doc = "", .functions = world_functions};
 
-const Class world_class{.name = "world",
-                        .variable = "world",
-                        .doc =
-                            "Bodies and robots, what may collide with what, "
-                            "friction. Lists are in creation order.",
-                        .fields = world_fields,
-                        .methods = world_methods,
-                        .operators = world_operators,
-                        .parent = &world_queries_class};
+const Class world_class{
+    .name = "world",
+    .variable = "world",
+    .doc = "Bodies and robots, what may collide with what, friction. Lists are in creation order.",
+    .fields = world_fields,
+    .methods = world_methods,
+    .operators = world_operators,
+    .parent = &world_queries_class};
 
 const Class snapshot_class{
     .name = "snapshot",
     .variable = "snapshot",
     .doc = "The state of a world at a moment; `world:restore` goes back to it.",
-    .fields = {},
-    .methods = {},
     .operators = snapshot_operators};
 
 }  // namespace clench

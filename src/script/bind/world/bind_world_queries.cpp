@@ -20,17 +20,12 @@ static int cast(lua_State* L) {
     fail("{}: direction: expected a direction, got zero", subject(L));
   if (!(reach >= 0)) fail("{}: reach: expected a number >= 0 [m], got {}", subject(L), reach);
   const auto hit = raycast(*world, origin, along.stableNormalized(), reach);
-  if (!hit) {
-    lua_pushnil(L);
-    return 1;
-  }
-  push_list(L, 0, 5);
-  set_field(L, "body", BodyHandle{world, hit->body});
-  set_field(L, "point", hit->p_W);
-  set_field(L, "normal", hit->n_W);
-  set_field(L, "distance", hit->distance);
-  set_field(L, "triangle", hit->triangle + 1);
-  return 1;
+  if (!hit) return push_nil(L);
+  return push_record(L, {{"body", BodyHandle{world, hit->body}},
+                         {"point", hit->p_W},
+                         {"normal", hit->n_W},
+                         {"distance", hit->distance},
+                         {"triangle", hit->triangle + 1}});
 }
 
 static int collides(lua_State* L) {
@@ -111,14 +106,12 @@ as a sphere, outside its facets.
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
 };
 
-const Class world_queries_class{
-    .name = "world_queries",
-    .variable = "world",
-    .doc =
-        "What every world answers: what collides, how far things are apart, where "
-        "they touch, what a ray meets.",
-    .fields = {},
-    .methods = world_queries_methods,
-    .parent = &world_dynamics_class};
+const Class world_queries_class{.name = "world_queries",
+                                .variable = "world",
+                                .doc =
+                                    "What every world answers: what collides, how far things are "
+                                    "apart, where they touch, what a ray meets.",
+                                .methods = world_queries_methods,
+                                .parent = &world_dynamics_class};
 
 }  // namespace clench

@@ -4,6 +4,7 @@
 #include "clench/base/text.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -83,21 +84,7 @@ static int friction(lua_State* L) {
   return f.restitution ? 3 : 2;
 }
 
-static int get_materials(lua_State* L) {
-  return push_list_of(L, world_of(L).materials().names(),
-                      [&](const std::string& name) { push(L, name); });
-}
-
-static int get_contact_threshold(lua_State* L) { return push(L, world_of(L).contact_threshold()); }
-
-static int set_contact_threshold(lua_State* L) {
-  world_of(L).set_contact_threshold(check_number(L, 2));
-  return 0;
-}
-
 // --- gravity ---
-
-static int get_gravity(lua_State* L) { return push(L, world_of(L).gravity()); }
 
 static int set_gravity(lua_State* L) {
   world_of(L).set_gravity(check_vec3(L, 2, "gravity"));
@@ -109,9 +96,10 @@ static int set_gravity(lua_State* L) {
 
 // --- named states ---
 
-static int get_keyframes(lua_State* L) {
-  return push_list_of(L, world_of(L).keyframes(),
-                      [&](const Keyframe& keyframe) { push(L, keyframe.name); });
+static std::vector<std::string> keyframe_names(const WorldHandle& x) {
+  std::vector<std::string> names;
+  for (const Keyframe& keyframe : x.world->keyframes()) names.push_back(keyframe.name);
+  return names;
 }
 
 static int set_keyframe(lua_State* L) {
@@ -178,12 +166,15 @@ static int add_keyframe(lua_State* L) {
 // --- tables ---
 
 static const Entry world_settings_fields[] = {
-    {"contact_threshold", guarded<get_contact_threshold>, R"(
+    {"contact_threshold", getter<[](const WorldHandle& x) { return x.world->contact_threshold(); }>,
+     R"(
 Surfaces closer than this touch; motion stops with a gap below it.
 @type number  [m]
 > world.contact_threshold  --> 0.0001)",
-     guarded<set_contact_threshold>},
-    {"materials", guarded<get_materials>, R"(
+     setter<[](const WorldHandle& x, double threshold) {
+       x.world->set_contact_threshold(threshold);
+     }>},
+    {"materials", getter<[](const WorldHandle& x) { return x.world->materials().names(); }>, R"(
 Names of the materials, the seven of the original first.
 @type string[]
 > world.materials[1]  --> frictionless)"},
@@ -196,7 +187,7 @@ It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_dis
 > world.camera.eye  --> (1, 0, 0.5)
 > world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
      guarded<set_camera>},
-    {"gravity", guarded<get_gravity>, R"(
+    {"gravity", getter<[](const WorldHandle& x) { return x.world->gravity(); }>, R"(
 Acceleration of everything that is free to fall, in the world frame: what weighs on joints and objects.
 @type vec3  [m/s^2]
 > world.gravity  --> (0, 0, -9.81)
@@ -204,7 +195,7 @@ Acceleration of everything that is free to fall, in the world frame: what weighs
 > world.gravity.z  --> -1.62
 > world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2])",
      guarded<set_gravity>},
-    {"keyframes", guarded<get_keyframes>, R"(
+    {"keyframes", getter<keyframe_names>, R"(
 Names of its named states, those of its file first; `set_keyframe` goes there.
 @type string[]
 > #world.keyframes  --> 0)"},
@@ -258,13 +249,12 @@ robot that is carried stays on its carrier.
 > world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected one of closed)"},
 };
 
-const Class world_settings_class{
-    .name = "world_settings",
-    .variable = "world",
-    .doc =
-        "What holds for all of a world: friction of materials, what may collide, "
-        "gravity, its camera, its named states.",
-    .fields = world_settings_fields,
-    .methods = world_settings_methods};
+const Class world_settings_class{.name = "world_settings",
+                                 .variable = "world",
+                                 .doc =
+                                     "What holds for all of a world: friction of materials, what "
+                                     "may collide, gravity, its camera, its named states.",
+                                 .fields = world_settings_fields,
+                                 .methods = world_settings_methods};
 
 }  // namespace clench

@@ -11,6 +11,7 @@
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/kept.h"
 #include "clench/script/lua/setting.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -33,7 +34,7 @@ class Running {
  public:
   Running(lua_State* L, const fs::path& path)
       : L_(L), name_(fs::weakly_canonical(path).generic_string()) {
-    push_table();
+    push_kept_table(L_, &running_key);
     lua_getfield(L_, -1, name_.c_str());
     const bool runs = !lua_isnil(L_, -1);
     lua_pop(L_, 2);
@@ -45,19 +46,9 @@ class Running {
   Running& operator=(const Running&) = delete;
 
  private:
-  void push_table() const {
-    if (lua_rawgetp(L_, LUA_REGISTRYINDEX, &running_key) == LUA_TTABLE) return;
-    lua_pop(L_, 1);
-    lua_newtable(L_);
-    lua_pushvalue(L_, -1);
-    lua_rawsetp(L_, LUA_REGISTRYINDEX, &running_key);
-  }
   void mark(bool runs) const {
-    push_table();
-    if (runs)
-      lua_pushboolean(L_, 1);
-    else
-      lua_pushnil(L_);
+    push_kept_table(L_, &running_key);
+    runs ? push(L_, true) : push_nil(L_);
     lua_setfield(L_, -2, name_.c_str());
     lua_pop(L_, 1);
   }
