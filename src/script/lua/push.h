@@ -1,6 +1,7 @@
 // C++ values onto Lua's stack: push(L, value), which others overload for types of theirs. Lists and
-// records print their contents. Each function returns 1. Numbers, vectors and poses that scripts are given can be given back: what overflowed is an error
-// "vec3: the result is not finite, got (inf, 0, 0)".
+// records print their contents. Each function returns 1. Numbers, vectors and poses that scripts
+// are given can be given back: what overflowed is an error "vec3: the result is not finite, got
+// (inf, 0, 0)".
 #pragma once
 #include <Eigen/Core>
 #include <initializer_list>
@@ -59,8 +60,7 @@ int push(lua_State* L, const Eigen::MatrixBase<Derived>& m) {
 }
 
 template <class T>
-concept Scripted = script_class<T>
-!= nullptr;
+concept Scripted = (script_class<T> != nullptr);
 template <class T>
 concept ListItem = !std::is_same_v<T, double>;  // lists of numbers are pushed as they are
 
