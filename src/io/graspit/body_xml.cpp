@@ -6,6 +6,7 @@
 #include "clench/base/units.h"
 #include "clench/io/graspit/transform_xml.h"
 #include "clench/io/inventor/read_geometry.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/repairs.h"
 #include "clench/spec/inertia.h"
 #include "clench/spec/material_names.h"
@@ -79,12 +80,8 @@ Geometry read_scaled(const XmlElement& element, const PlacedFile& file, FileCach
     options.mesh_scale = units::millimetre * scaling.x();
     scaling /= scaling.x();
   }
-  Geometry geometry;
-  try {
-    geometry = read_geometry(file.path, options, file.format);
-  } catch (const Error& error) {
-    element.fail("{}", error.what());
-  }
+  Geometry geometry =
+      errors_at(element, [&] { return read_geometry(file.path, options, file.format); });
   if (scaling != Eigen::Vector3d::Ones())
     for (auto& v : geometry.mesh.vertices) v = scaling.cwiseProduct(v);
   if (file.X_BG)
@@ -126,11 +123,7 @@ void read_matter(const XmlElement& body, const FileCache& cache, Repairs& repair
   if (const XmlElement material = body.child("material")) {
     out.material = material.text();
     out.material_given = true;
-    try {
-      check_material(out.material);
-    } catch (const Error& error) {
-      material.fail("{}", error.what());
-    }
+    errors_at(material, [&] { check_material(out.material); });
   }
   if (const XmlElement youngs = body.child("youngs")) {
     out.elastic_modulus = number_of(youngs, elastic_modulus_rule, repairs);
@@ -154,11 +147,7 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
   Repairs repairs(options.listeners());
   out.scaling = read_scaling(body, repairs);
   repairs.tell();
-  try {
-    out.path = find_file(element.text(), path, options);
-  } catch (const Error& error) {
-    element.fail("{}", error.what());
-  }
+  out.path = errors_at(element, [&] { return find_file(element.text(), path, options); });
   if (const XmlElement offset = body.child("geometryOffset")) {
     out.X_BG = read_transform_of(offset, options.listeners());
     offset.check({.once = {"transform"}}, options.warn);
@@ -187,12 +176,10 @@ BodySpec read_body_element(const XmlElement& element, const fs::path& path, File
                                 file.place(), in_quotes(file.text())));
     return body;
   }
-  try {
-    body.shape =
-        Shape::make(std::move(geometry.mesh), path.filename().string(), cache.options().progress);
-  } catch (const Error& error) {
-    file.fail("{}", error.what());
-  }
+  body.shape = errors_at(file, [&] {
+    return Shape::make(std::move(geometry.mesh), path.filename().string(),
+                       cache.options().progress);
+  });
   return body;
 }
 

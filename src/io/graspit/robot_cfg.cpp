@@ -7,6 +7,7 @@
 #include "clench/io/graspit/robot_classes.h"
 #include "clench/io/graspit/robot_files.h"
 #include "clench/io/graspit/transform_list.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/joint_expression.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/text/repairs.h"
@@ -219,20 +220,13 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
   if (!kind) kind = joint.kind;
   joint.ratio = expression->ratio;
   if (*kind != joint.kind) joint.ratio *= revolute ? 1 / units::millimetre : units::millimetre;
-  try {
-    chain.add_joint(joint, numbers);
-  } catch (const Error& error) {
-    line.fail("{}", error.what());
-  }
+  errors_at(line, [&] { chain.add_joint(joint, numbers); });
 }
 
 void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name) {
   const Line kind_line = expected(fmt::format("the joint type of link {}", number));
-  try {
-    joints_of_kind(kind_line.word(0));
-  } catch (const Error& error) {
-    kind_line.fail("link {}: {}", number, error.what());
-  }
+  errors_from(fmt::format("{}: link {}", kind_line.place(), number),
+              [&] { return joints_of_kind(kind_line.word(0)); });
   used_up(kind_line, 1);
   const Line line = expected(fmt::format("the file of link {}", number));
   used_up(line, 2);
@@ -302,12 +296,8 @@ void CfgReader::read_approach() {
         line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
   };
   const Eigen::Vector3d point = vector("approach point").second * units::millimetre;
-  const auto [line, direction] = vector("approach direction");
-  try {
-    robot_.X_BA = approach_frame(point, direction);
-  } catch (const Error& error) {
-    line.fail("{}", error.what());
-  }
+  const auto& [line, direction] = vector("approach direction");
+  robot_.X_BA = errors_at(line, [&] { return approach_frame(point, direction); });
 }
 
 void CfgReader::read_optional_blocks() {

@@ -4,6 +4,7 @@
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/glove_files.h"
 #include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/spec/check_robot.h"
 
 namespace clench {
@@ -37,12 +38,9 @@ static void read_named(Value (*read)(const fs::path&, const ReadOptions&), const
     if (options.warn) options.warn(fmt::format("{}: {}", named.place, error.what()));
     return;
   }
-  try {
-    target = fitted(robot, read(path, options), path, options);
-    file = path.generic_string();
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", named.place, error.what());
-  }
+  target =
+      errors_from(named.place, [&] { return fitted(robot, read(path, options), path, options); });
+  file = path.generic_string();
 }
 
 // what the user chose must be there
@@ -53,11 +51,8 @@ static void read_chosen(Value (*read)(const fs::path&, const ReadOptions&), cons
   if (name.empty()) return;
   const fs::path path = find_file(name, {}, options);
   Value value = read(path, options);
-  try {
-    target = fitted(robot, std::move(value), path, options);
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", path.filename().string(), error.what());
-  }
+  target = errors_from(path.filename().string(),
+                       [&] { return fitted(robot, std::move(value), path, options); });
   file = path.generic_string();
 }
 

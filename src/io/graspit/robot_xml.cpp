@@ -9,6 +9,7 @@
 #include "clench/io/graspit/robot_files.h"
 #include "clench/io/graspit/tendons_xml.h"
 #include "clench/io/graspit/transform_xml.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/joint_expression.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/text/repairs.h"
@@ -258,11 +259,7 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainLinks& chain) {
   if (!kind) kind = joint.kind;
   if (*kind != joint.kind)
     joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimetre : units::millimetre;
-  try {
-    chain.add_joint(joint, numbers);
-  } catch (const Error& error) {
-    element.fail("{}", error.what());
-  }
+  errors_at(element, [&] { chain.add_joint(joint, numbers); });
 }
 
 DenavitHartenberg XmlRobotReader::read_expression(const XmlElement& element, JointSpec& joint,
@@ -316,13 +313,9 @@ void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, Cha
   element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
                 warn());
   const std::string kind = element.expected_attribute("dynamicJointType");
-  int joints = 0;
-  try {
-    joints = joints_of_kind(kind);
-  } catch (const Error& error) {
-    element.fail("link {}: {}", place.link, error.what());
-  }
-  const int last = chain.last_joint() + joints;
+  const int last =
+      chain.last_joint() + errors_from(fmt::format("{}: link {}", element.place(), place.link),
+                                       [&] { return joints_of_kind(kind); });
   if (last >= chain.joints())
     element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,
                  chain.joints());
@@ -379,11 +372,7 @@ void XmlRobotReader::read_approach() {
   const Eigen::Vector3d point = element.expected("referenceLocation").vector() * units::millimetre;
   const XmlElement direction = element.expected("direction");
   const Eigen::Vector3d along = direction.vector();
-  try {
-    robot_.X_BA = approach_frame(point, along);
-  } catch (const Error& error) {
-    direction.fail("{}", error.what());
-  }
+  robot_.X_BA = errors_at(direction, [&] { return approach_frame(point, along); });
 }
 
 void XmlRobotReader::read_tracker() {

@@ -9,6 +9,7 @@
 #include "clench/io/graspit/transform_list.h"
 #include "clench/io/graspit/transform_tags.h"
 #include "clench/io/graspit/world_parts.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/spec/material_names.h"
 
 namespace clench {
@@ -36,9 +37,6 @@ class WldReader {
   Pose pose();
   Pose any_pose();
   bool begins_pose(const Line& line) const;
-  /// runs a reader of another file; what it throws gets this line's place
-  template <class Read>
-  auto at(const Line& line, Read read) const;
 
   const fs::path& path_;
   FileCache& cache_;
@@ -46,15 +44,6 @@ class WldReader {
   std::vector<ConnectionPlace> connection_places_;
   WorldSpec world_;
 };
-
-template <class Read>
-auto WldReader::at(const Line& line, Read read) const {
-  try {
-    return read();
-  } catch (const Error& error) {
-    line.fail("{}", error.what());
-  }
-}
 
 bool WldReader::begins_pose(const Line& line) const {
   const std::string_view text = line.text();
@@ -135,7 +124,7 @@ void WldReader::read_body(Role role) {
     const Line material = lines_.peek();
     if (role == Role::obstacle) {
       lines_.next();
-      at(material, [&] { check_material(material.text()); });
+      errors_at(material, [&] { check_material(material.text()); });
       placed.body.material = material.text();
       placed.body.material_given = true;
     }

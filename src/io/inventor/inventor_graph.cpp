@@ -4,6 +4,7 @@
 
 #include "clench/base/text.h"
 #include "clench/io/inventor/inventor_parser.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/find_file.h"
 
 namespace clench {
@@ -53,11 +54,9 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
     fail("{}: expected at most {} included files, each counted as often as it is named", place,
          max_includes);
   fs::path& path = found_[{referrer, name}];
-  try {
+  errors_from(place, [&] {
     if (path.empty()) path = fs::weakly_canonical(find_file(name, referrer, options_));
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
-  }
+  });
   for (const auto& above : open_)
     if (above == path) fail("{}: {} includes itself", place, in_quotes(name));
   if (open_.size() >= max_nested_files)
@@ -68,20 +67,10 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
 }
 
 const InventorNode* InventorLoader::load_part(const fs::path& path, const std::string& place) {
-  std::string text;
-  try {
-    text = read_text(path);
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
-  }
-  const bool outermost = open_.size() == 1;
-  try {
-    return load(path, text);
-  } catch (const Error& error) {
-    // of a chain of files the first and the last are told
-    if (outermost) fail(error.kind(), "{}: {}", place, error.what());
-    throw;
-  }
+  const std::string text = errors_from(place, [&] { return read_text(path); });
+  // of a chain of files the first and the last are told
+  if (open_.size() > 1) return load(path, text);
+  return errors_from(place, [&] { return load(path, text); });
 }
 
 }  // namespace

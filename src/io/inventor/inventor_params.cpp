@@ -4,6 +4,7 @@
 
 #include "clench/base/text.h"
 #include "clench/base/units.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/repairs.h"
 #include "clench/spec/inertia.h"
 #include "clench/spec/material_names.h"
@@ -66,11 +67,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       continue;
     }
     if (key == "material") {
-      try {
-        check_material(line.word(1));
-      } catch (const Error& error) {
-        line.fail("{}", error.what());
-      }
+      errors_at(line, [&] { check_material(line.word(1)); });
       body.material = line.word(1);
       body.material_given = true;
     } else if (key == "youngs") {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "clench/io/text/file_errors.h"
+
 namespace clench {
 
 namespace {
@@ -134,11 +136,7 @@ std::vector<int> MeshReader::corners(const XmlElement& p) {
 void MeshReader::add(const XmlElement& at, std::vector<int> face, const ColladaLook& look) {
   if (mirrored_) std::reverse(face.begin(), face.end());
   ++faces_;
-  try {
-    work_.builder.add_face(face, look.color, 0);
-  } catch (const Error& error) {
-    at.fail("{}", error.what());
-  }
+  errors_at(at, [&] { work_.builder.add_face(face, look.color, 0); });
 }
 
 /// Faces of three corners, or of as many as <vcount> says.

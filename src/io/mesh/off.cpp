@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/word_reader.h"
 
 namespace clench {
@@ -139,11 +140,7 @@ void OffReader::read_faces() {
       warn_once("what follows a face's vertices is no colour, and not used");
     }
     if (count < 3) warn_once("a face of fewer than three vertices is not used");
-    try {
-      builder_.add_face(corners, color, transparency);
-    } catch (const Error& error) {
-      words_.fail("{}", error.what());
-    }
+    errors_at(words_, [&] { builder_.add_face(corners, color, transparency); });
   }
 }
 

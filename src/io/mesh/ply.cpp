@@ -5,6 +5,7 @@
 #include "clench/base/convert.h"
 #include "clench/io/mesh/ply_header.h"
 #include "clench/io/text/byte_reader.h"
+#include "clench/io/text/file_errors.h"
 
 namespace clench {
 
@@ -259,14 +260,12 @@ void PlyReader::read_faces(const PlyElement& element, bool strips) {
     if (channels != 3) color = mean_color();
     for (const int v : indices_)
       if (v < 0 && !strips) values_.fail("expected a vertex from 0 on, got {}", v);
-    try {
+    errors_at(values_, [&] {
       if (strips)
         add_strips(color);
       else
         builder_.add_face(indices_, color, 0);
-    } catch (const Error& error) {
-      values_.fail("{}", error.what());
-    }
+    });
   }
 }
 

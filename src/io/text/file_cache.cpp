@@ -1,6 +1,6 @@
 #include "clench/io/text/file_cache.h"
 
-#include "clench/base/error.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/io/text/find_model.h"
 
 namespace clench {
@@ -24,28 +24,23 @@ const RobotSpec& FileCache::robot(const fs::path& path, const std::string& body)
 
 BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer,
                                const std::string& place) {
-  try {
-    BodySpec out = body(find_model(name, referrer, ModelKind::body, place, options_));
-    out.source = name;
-    return out;
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
-  }
+  BodySpec out = errors_from(
+      place, [&] { return body(find_model(name, referrer, ModelKind::body, place, options_)); });
+  out.source = name;
+  return out;
 }
 
 RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referrer,
                                  const std::string& place) {
-  try {
-    const size_t at = name.rfind('#');
-    const bool part = at != std::string::npos && at > 0;
-    const std::string file = part ? name.substr(0, at) : name;
-    RobotSpec out = robot(find_model(file, referrer, ModelKind::robot, place, options_),
-                          part ? name.substr(at + 1) : "");
-    out.source = name;
-    return out;
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
-  }
+  const size_t at = name.rfind('#');
+  const bool part = at != std::string::npos && at > 0;
+  const std::string file = part ? name.substr(0, at) : name;
+  RobotSpec out = errors_from(place, [&] {
+    return robot(find_model(file, referrer, ModelKind::robot, place, options_),
+                 part ? name.substr(at + 1) : "");
+  });
+  out.source = name;
+  return out;
 }
 
 fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
@@ -53,31 +48,19 @@ fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
   // in the folder iv/ beside the robot's file, or of the folder that the call names
   std::vector<fs::path> folders = {robot.parent_path() / "iv"};
   if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");
-  for (const auto& folder : folders) {
-    try {
-      return find_file(name, folder / "x", options_.beside_only());
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::file) throw;  // else the next one
-    }
-  }
-  try {
-    return find_file(name, robot, options_);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::file) throw;
-    return find_converted(name, folders.back() / "x", ModelKind::body, place,
-                          options_.beside_only());
-  }
+  for (const auto& folder : folders)
+    if (const auto found = find_if_any(name, folder / "x", options_.beside_only())) return *found;
+  if (const auto found = find_if_any(name, robot, options_)) return *found;
+  return find_converted(name, folders.back() / "x", ModelKind::body, place, options_.beside_only());
 }
 
 BodySpec FileCache::part(const std::string& name, const fs::path& robot, const std::string& place) {
-  try {
+  return errors_from(place, [&] {
     const fs::path found = find_part(name, robot, place);
     BodySpec out = body(found);
     out.source = found.generic_string();
     return out;
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
-  }
+  });
 }
 
 }  // namespace clench

@@ -122,6 +122,16 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   fail(ErrorKind::file, "no such file: {}{}", shown, suggestion(places, options));
 }
 
+std::optional<fs::path> find_if_any(const std::string& name, const fs::path& referrer,
+                                    const ReadOptions& options) {
+  try {
+    return find_file(name, referrer, options);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::file) throw;
+    return {};
+  }
+}
+
 std::string absolute_name(const fs::path& path) {
   return fs::absolute(path).lexically_normal().generic_string();
 }

@@ -13,6 +13,11 @@ namespace clench {
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& referrer,
                                 const ReadOptions& options);
 
+/// The same; empty where find_file tells of a file that cannot be had.
+std::optional<std::filesystem::path> find_if_any(const std::string& name,
+                                                 const std::filesystem::path& referrer,
+                                                 const ReadOptions& options);
+
 /// Is there a file, and may the options' caller read it? Readers ask this, and never the disk,
 /// about names that they make up.
 bool is_readable(const std::filesystem::path& file, const ReadOptions& options);

@@ -20,13 +20,8 @@ static fs::path try_endings(const std::string& name, const fs::path& referrer, M
   std::vector<std::string> names = {name};
   for (const auto& ending : endings_of(kind))
     names.push_back(fs::path(name).replace_extension(ending).generic_string());
-  for (const auto& expected : names) {
-    try {
-      return find_file(expected, referrer, options);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::file) throw;  // else the next one
-    }
-  }
+  for (const auto& expected : names)
+    if (const auto found = find_if_any(expected, referrer, options)) return *found;
   return {};
 }
 

@@ -1,7 +1,7 @@
 #include "clench/io/text/repair_names.h"
 
-#include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/io/text/file_errors.h"
 #include "clench/spec/check_robot.h"
 
 namespace clench {
@@ -39,11 +39,7 @@ static void repair_robot_names(RobotSpec& robot, const std::string& place,
 
 void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options) {
   repair_robot_names(robot, place, options);
-  try {
-    check_robot(robot);
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
-  }
+  errors_from(place, [&] { check_robot(robot); });
 }
 
 }  // namespace clench
