@@ -5,6 +5,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/io/text/file_errors.h"
+#include "clench/io/text/number_reader.h"
 #include "clench/io/text/repairs.h"
 #include "clench/io/text/xml.h"
 
@@ -18,7 +19,7 @@ using Eigen::VectorXd;
 constexpr int max_dofs = 1000;  // as of robots
 
 void warn(const ReadOptions& options, const std::string& sentence) {
-  if (options.warn && !sentence.empty()) options.warn(sentence);
+  if (options.warn) options.warn(sentence);
 }
 
 void check_plausible_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
@@ -102,7 +103,7 @@ EigengraspSet EgrReader::read() {
   if (lower_case(head.word(0)) != "dimensions")
     head.fail("expected DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
   set_.dofs = head.integer(1, "DIMENSIONS", 1, max_dofs);
-  warn(options_, head.surplus(2));
+  warn_of_surplus(head, 2, options_.warn);
   // what is declared counts for less than what all blocks have
   if (given_ > set_.dofs && given_ <= max_dofs) {
     tell_count(repairs_, head.place(), set_.dofs, given_);
@@ -133,7 +134,7 @@ void EgrReader::note_junk(const Line& line) {
 
 double EgrReader::read_eigenvalue(const std::string& what) {
   const Line line = lines_.next_full(what + ": its eigenvalue");
-  warn(options_, line.surplus(1));
+  warn_of_surplus(line, 1, options_.warn);
   return line.number(0, what + ": eigenvalue");
 }
 
@@ -145,13 +146,13 @@ VectorXd EgrReader::read_values(const std::string& what) {
         lines_.next_full(fmt::format("{}: number {} of {}", what, i + 1, set_.dofs)).before('#');
     int k = 0;
     while (k < line.size() && i < set_.dofs) values[i++] = line.number(k++, what);
-    warn(options_, line.surplus(k));
+    warn_of_surplus(line, k, options_.warn);
   }
   return values;
 }
 
 void EgrReader::read_block(const std::string& keyword, const Line& line) {
-  warn(options_, line.surplus(1));
+  warn_of_surplus(line, 1, options_.warn);
   if (keyword == "eg") {
     EigengraspSpec grasp;
     const std::string what = fmt::format("eigengrasp {}", set_.grasps.size() + 1);

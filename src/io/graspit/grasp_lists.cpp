@@ -72,8 +72,7 @@ std::vector<GraspSpec> read_planned_grasps(const fs::path& path, const ReadOptio
       const Line line = lines.next().before('#');
       if (line.size() < 9)
         line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
-      if (const std::string more = line.surplus(9); options.warn && !more.empty())
-        options.warn(more);
+      warn_of_surplus(line, 9, options.warn);
       constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
       double x[9];
       for (int i = 0; i < 9; ++i) x[i] = line.number(i, names[i]);

@@ -9,6 +9,7 @@
 #include "clench/io/graspit/transform_list.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/text/joint_expression.h"
+#include "clench/io/text/number_reader.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/text/repairs.h"
 #include "clench/spec/compliant_coupling.h"
@@ -41,10 +42,7 @@ class CfgReader {
 
  private:
   Line expected(std::string_view what) { return lines_.next_full(what).before('#'); }
-  /// warns of words behind the first `used`
-  void used_up(const Line& line, int used) {
-    if (const std::string sentence = line.surplus(used); !sentence.empty()) cache_.warn(sentence);
-  }
+  void used_up(const Line& line, int used) { warn_of_surplus(line, used, cache_.options().warn); }
   int count(const char* what, int low);
   void read_dofs();
   void read_chain(int number);
@@ -296,8 +294,8 @@ void CfgReader::read_approach() {
         line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
   };
   const Eigen::Vector3d point = vector("approach point").second * units::millimetre;
-  const auto& [line, direction] = vector("approach direction");
-  robot_.X_BA = errors_at(line, [&] { return approach_frame(point, direction); });
+  const auto direction = vector("approach direction");
+  robot_.X_BA = errors_at(direction.first, [&] { return approach_frame(point, direction.second); });
 }
 
 void CfgReader::read_optional_blocks() {

@@ -47,11 +47,6 @@ static Eigen::Vector3d axis(const Line& line, int i) {
   line.fail("rotation: expected an axis x, y or z, got {}", in_quotes(word));
 }
 
-static void warn_of_surplus(const Line& line, int used, const Listeners& listeners) {
-  if (const std::string sentence = line.surplus(used); listeners.warn && !sentence.empty())
-    listeners.warn(sentence);
-}
-
 static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& listeners) {
   // nine numbers, wherever the lines end
   Eigen::Matrix3d R;
@@ -64,7 +59,7 @@ static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& li
     }
     R.col(i / 3)[i % 3] = line.number(next++, "rotation matrix");
   }
-  warn_of_surplus(line, next, listeners);
+  warn_of_surplus(line, next, listeners.warn);
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-2))
     head.fail("rotation matrix: expected unit axes at right angles; they are off by {:.2g}", error);
@@ -78,7 +73,7 @@ Pose read_transform(const Line& line, LineReader& lines, const Listeners& listen
   if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
     return read_full_transform(line, trim(line.text().substr(1)), listeners);
   if (key == "R") return read_matrix(line, lines, listeners);
-  warn_of_surplus(line, key == "t" ? 4 : 3, listeners);
+  warn_of_surplus(line, key == "t" ? 4 : 3, listeners.warn);
   if (key == "t")
     return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"),
                                              line.number(2, "translation y"),

@@ -10,6 +10,7 @@
 #include "clench/io/graspit/transform_tags.h"
 #include "clench/io/graspit/world_parts.h"
 #include "clench/io/text/file_errors.h"
+#include "clench/io/text/number_reader.h"
 #include "clench/spec/material_names.h"
 
 namespace clench {
@@ -30,10 +31,6 @@ class WldReader {
   void read_robot();
   void read_connection();
   void read_camera(bool focal_distance);
-  /// warns of words behind the first `used`
-  void used_up(const Line& line, int used) const {
-    if (const std::string sentence = line.surplus(used); !sentence.empty()) cache_.warn(sentence);
-  }
   Pose pose();
   Pose any_pose();
   bool begins_pose(const Line& line) const;
@@ -155,7 +152,7 @@ void WldReader::read_connection() {
   c.parent = line.integer(0, "parent robot", 0);
   const int chain = line.integer(1, "parent chain", 0);
   c.child = line.integer(2, "child robot", 0);
-  used_up(line, 3);
+  warn_of_surplus(line, 3, cache_.options().warn);
   // the line of the mount may be empty
   const Line mount = lines_.peek();
   if (!begins_pose(mount)) lines_.next();
@@ -180,7 +177,7 @@ void WldReader::read_camera(bool focal_distance) {
         line.place(), x[3], x[4], x[5], x[6]));
     return;
   }
-  used_up(line, focal_distance ? 8 : 7);
+  warn_of_surplus(line, focal_distance ? 8 : 7, cache_.options().warn);
   Camera camera;
   camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
   if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimetre;

@@ -46,6 +46,10 @@ void NumberReader::finish(const std::function<void(const std::string&)>& warn) {
                      in_quotes(line_.word(next_))));
 }
 
+void warn_of_surplus(const Line& line, int used, const Listener& warn) {
+  if (const std::string sentence = line.surplus(used); warn && !sentence.empty()) warn(sentence);
+}
+
 std::optional<Eigen::Quaterniond> made_unit(const Eigen::Vector4d& wxyz) {
   const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   const double norm = q.coeffs().stableNorm();

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 
+#include "clench/base/listeners.h"
 #include "clench/base/text.h"
 
 namespace clench {
@@ -36,6 +37,9 @@ class NumberReader {
   Line line_;
   int next_ = 0;
 };
+
+/// Warns when a line has more than the first `used` words, but for a comment that begins with '#'.
+void warn_of_surplus(const Line& line, int used, const Listener& warn);
 
 /// The quaternion made unit, kept to the bit when it is but for rounding; empty when near zero.
 std::optional<Eigen::Quaterniond> made_unit(const Eigen::Vector4d& wxyz);
