@@ -7,7 +7,6 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/io/mesh/geometry_builder.h"
-#include "clench/io/text/byte_reader.h"
 
 namespace clench {
 
@@ -62,42 +61,19 @@ std::string decode_percent(std::string_view text) {
   return out;
 }
 
-int component_bytes(int type) {
-  switch (type) {
-    case 5120:
-    case 5121:
-      return 1;
-    case 5122:
-    case 5123:
-      return 2;
-    case 5125:
-    case 5126:
-      return 4;
-    default:
-      return 0;
-  }
+constexpr int first_type = 5120;  // of components, which count on as NumberType does
+
+bool is_component_type(int type) {
+  constexpr int int32 = first_type + static_cast<int>(NumberType::int32);
+  return type >= first_type && type <= 5126 && type != int32;
 }
 
 /// source  glTF 2.0, section 3.6.2.2 and, for normalized ones, 3.11
-double component(ByteReader& bytes, int type, bool normalized) {
-  const double scale = normalized ? 1 : 0;
-  const auto scaled = [&](double value, double most) {
-    return scale > 0 ? std::max(value / most, -1.0) : value;
-  };
-  switch (type) {
-    case 5120:
-      return scaled(bytes.next<int8_t>(), 127);
-    case 5121:
-      return scaled(bytes.next<uint8_t>(), 255);
-    case 5122:
-      return scaled(bytes.next<int16_t>(), 32767);
-    case 5123:
-      return scaled(bytes.next<uint16_t>(), 65535);
-    case 5125:
-      return bytes.next<uint32_t>();
-    default:
-      return bytes.next<float>();
-  }
+double component(ByteReader& bytes, NumberType type, bool normalized) {
+  const double value = bytes.next(type);
+  if (!normalized || type >= NumberType::uint32) return value;
+  constexpr double most[] = {127, 255, 32767, 65535};
+  return std::max(value / most[static_cast<int>(type)], -1.0);
 }
 
 }  // namespace
@@ -244,18 +220,19 @@ const std::string& GltfDocument::buffer(int i, const std::string& expected_by) {
   return buffers_.emplace(i, std::move(bytes)).first->second;
 }
 
-GltfDocument::Span GltfDocument::span(int accessor, const char* type, int components,
+GltfDocument::Span GltfDocument::span(int accessor, const char* shape, int components,
                                       const std::string& expected_by) {
   const GltfValue value = item("accessors", accessor, expected_by);
   if (member(value, "sparse")) fail("{}: sparse accessors are not supported", value.name);
   const GltfValue given = member(value, "type");
-  if (!given || *given.json != type) fail("{}: expected the type {}", value.name, type);
+  if (!given || *given.json != shape) fail("{}: expected the type {}", value.name, shape);
   Span out;
   out.name = value.name;
   out.count = expected_integer(value, "count", 1);
-  out.component_type = expected_integer(value, "componentType");
-  const int bytes = component_bytes(out.component_type) * components;
-  if (bytes == 0) fail("{}: unknown componentType {}", value.name, out.component_type);
+  const int type = expected_integer(value, "componentType");
+  if (!is_component_type(type)) fail("{}: unknown componentType {}", value.name, type);
+  out.type = static_cast<NumberType>(type - first_type);
+  const int bytes = static_cast<int>(bytes_of(out.type)) * components;
   const GltfValue normalized = member(value, "normalized");
   out.normalized = normalized && *normalized.json == true;
 
@@ -278,14 +255,13 @@ std::vector<double> GltfDocument::read_floats(int accessor, int components,
                                               const std::string& expected_by) {
   static constexpr const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
   const Span s = span(accessor, types[components], components, expected_by);
-  const int bytes = component_bytes(s.component_type) * components;
+  const size_t bytes = bytes_of(s.type) * static_cast<size_t>(components);
   std::vector<double> out;
   out.reserve(static_cast<size_t>(s.count) * static_cast<size_t>(components));
   for (int i = 0; i < s.count; ++i) {
-    ByteReader reader(
-        std::string_view(s.first + int64_t{i} * s.stride, static_cast<size_t>(bytes)));
+    ByteReader reader(std::string_view(s.first + int64_t{i} * s.stride, bytes));
     for (int k = 0; k < components; ++k) {
-      out.push_back(component(reader, s.component_type, s.normalized));
+      out.push_back(component(reader, s.type, s.normalized));
       if (!std::isfinite(out.back()))
         fail("{}: item {}: expected finite numbers, got {}", s.name, i, out.back());
     }
@@ -295,15 +271,14 @@ std::vector<double> GltfDocument::read_floats(int accessor, int components,
 
 std::vector<int> GltfDocument::read_indices(int accessor, const std::string& expected_by) {
   const Span s = span(accessor, "SCALAR", 1, expected_by);
-  if (s.component_type != 5121 && s.component_type != 5123 && s.component_type != 5125)
-    fail("{}: expected indices of an unsigned componentType, got {}", s.name, s.component_type);
-  const auto bytes = static_cast<size_t>(component_bytes(s.component_type));
+  if (s.type != NumberType::uint8 && s.type != NumberType::uint16 && s.type != NumberType::uint32)
+    fail("{}: expected indices of an unsigned componentType, got {}", s.name,
+         first_type + static_cast<int>(s.type));
   std::vector<int> out;
   out.reserve(static_cast<size_t>(s.count));
   for (int i = 0; i < s.count; ++i) {
-    ByteReader reader(std::string_view(s.first + int64_t{i} * s.stride, bytes));
-    const double index = component(reader, s.component_type, false);
-    out.push_back(floor_int(index));
+    ByteReader reader(std::string_view(s.first + int64_t{i} * s.stride, bytes_of(s.type)));
+    out.push_back(floor_int(reader.next(s.type)));
   }
   return out;
 }

@@ -7,6 +7,7 @@
 
 #include "clench/base/error.h"
 #include "clench/io/mesh/mesh_input.h"
+#include "clench/io/text/byte_reader.h"
 
 namespace clench {
 
@@ -48,11 +49,12 @@ class GltfDocument {
  private:
   struct Span {
     const char* first;
-    int count, stride, component_type;
+    int count, stride;
+    NumberType type;
     bool normalized;
     std::string name;
   };
-  Span span(int accessor, const char* type, int components, const std::string& expected_by);
+  Span span(int accessor, const char* shape, int components, const std::string& expected_by);
   const std::string& buffer(int i, const std::string& expected_by);
   void split_glb(const std::string& bytes, std::string& text);
   void check_version() const;

@@ -4,7 +4,6 @@
 
 #include "clench/base/convert.h"
 #include "clench/io/mesh/ply_header.h"
-#include "clench/io/text/byte_reader.h"
 #include "clench/io/text/file_errors.h"
 
 namespace clench {
@@ -24,8 +23,8 @@ class Values {
   /// `name` and `i` of `count`: the element that comes next, for errors
   void begin(const std::string& name, int i, int count);
   void end();
-  double next(PlyType type);
-  void skip(PlyType type, int count);
+  double next(NumberType type);
+  void skip(NumberType type, int count);
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
     throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
@@ -68,7 +67,7 @@ void Values::end() {
       fmt::format("{}: what follows the values of a {} is not used", place(), *element_);
 }
 
-double Values::next(PlyType type) {
+double Values::next(NumberType type) {
   if (ascii_) {
     const auto word = words_.word();
     const auto value = parse_number(word);
@@ -77,31 +76,13 @@ double Values::next(PlyType type) {
       words_.fail("expected a whole number, got {}", *value);
     return *value;
   }
-  need(static_cast<size_t>(ply_bytes(type)));
-  switch (type) {
-    case PlyType::int8:
-      return bytes_.next<int8_t>();
-    case PlyType::uint8:
-      return bytes_.next<uint8_t>();
-    case PlyType::int16:
-      return bytes_.next<int16_t>();
-    case PlyType::uint16:
-      return bytes_.next<uint16_t>();
-    case PlyType::int32:
-      return bytes_.next<int32_t>();
-    case PlyType::uint32:
-      return bytes_.next<uint32_t>();
-    case PlyType::float32:
-      return bytes_.next<float>();
-    case PlyType::float64:
-      return bytes_.next<double>();
-  }
-  return 0;
+  need(bytes_of(type));
+  return bytes_.next(type);
 }
 
-void Values::skip(PlyType type, int count) {
+void Values::skip(NumberType type, int count) {
   if (!ascii_) {
-    const size_t bytes = static_cast<size_t>(count) * static_cast<size_t>(ply_bytes(type));
+    const size_t bytes = static_cast<size_t>(count) * bytes_of(type);
     need(bytes);
     bytes_.skip(bytes);
     return;
@@ -151,8 +132,8 @@ int channel(const PlyProperty& property) {
   return -1;
 }
 
-float channel_value(double value, PlyType type) {
-  const double whole = type == PlyType::uint16 ? 65535 : 255;
+float channel_value(double value, NumberType type) {
+  const double whole = type == NumberType::uint16 ? 65535 : 255;
   return static_cast<float>(std::clamp(is_whole(type) ? value / whole : value, 0.0, 1.0));
 }
 

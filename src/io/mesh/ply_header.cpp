@@ -6,26 +6,25 @@
 
 namespace clench {
 
-static PlyType read_type(WordReader& words) {
-  static constexpr std::pair<const char*, PlyType> names[] = {
-      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
-      {"float64", PlyType::float64}};
+static NumberType read_type(WordReader& words) {
+  static constexpr std::pair<const char*, NumberType> names[] = {
+      {"char", NumberType::int8},      {"int8", NumberType::int8},
+      {"uchar", NumberType::uint8},    {"uint8", NumberType::uint8},
+      {"short", NumberType::int16},    {"int16", NumberType::int16},
+      {"ushort", NumberType::uint16},  {"uint16", NumberType::uint16},
+      {"int", NumberType::int32},      {"int32", NumberType::int32},
+      {"uint", NumberType::uint32},    {"uint32", NumberType::uint32},
+      {"float", NumberType::float32},  {"float32", NumberType::float32},
+      {"double", NumberType::float64}, {"float64", NumberType::float64}};
   const auto word = words.word();
   for (const auto& [name, type] : names)
     if (word == name) return type;
   words.fail("expected a type of PLY such as float or uchar, got {}", in_quotes(word));
 }
 
-int ply_bytes(PlyType type) {
-  static constexpr int bytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return bytes[static_cast<int>(type)];
+bool is_whole(NumberType type) {
+  return type != NumberType::float32 && type != NumberType::float64;
 }
-
-bool is_whole(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 int PlyElement::find(std::string_view property) const {
   for (size_t i = 0; i < properties.size(); ++i)

@@ -3,17 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "clench/io/text/byte_reader.h"
 #include "clench/io/text/word_reader.h"
 
 namespace clench {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;
+  NumberType type = NumberType::float32;
   bool list = false;
-  PlyType count_type = PlyType::uint8;  ///< of a list
+  NumberType count_type = NumberType::uint8;  ///< of a list
 };
 
 struct PlyElement {
@@ -28,8 +27,7 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-int ply_bytes(PlyType type);
-bool is_whole(PlyType type);
+bool is_whole(NumberType type);
 
 /// The lines from "ply" to "end_header".
 /// throws Error  "part.ply:3: expected ascii, binary_little_endian or binary_big_endian, got 'x'"

@@ -7,6 +7,14 @@
 
 namespace clench {
 
+/// How a number is kept.
+enum class NumberType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+inline size_t bytes_of(NumberType type) {
+  constexpr size_t bytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return bytes[static_cast<int>(type)];
+}
+
 class ByteReader {
  public:
   /// `bytes` must outlive it
@@ -31,6 +39,28 @@ class ByteReader {
     T value;
     std::memcpy(&value, raw, sizeof(T));
     return value;
+  }
+
+  double next(NumberType type) {
+    switch (type) {
+      case NumberType::int8:
+        return next<int8_t>();
+      case NumberType::uint8:
+        return next<uint8_t>();
+      case NumberType::int16:
+        return next<int16_t>();
+      case NumberType::uint16:
+        return next<uint16_t>();
+      case NumberType::int32:
+        return next<int32_t>();
+      case NumberType::uint32:
+        return next<uint32_t>();
+      case NumberType::float32:
+        return next<float>();
+      case NumberType::float64:
+        return next<double>();
+    }
+    return 0;
   }
 
  private:
