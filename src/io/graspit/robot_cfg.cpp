@@ -3,12 +3,10 @@
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/base/units.h"
-#include "clench/io/graspit/chain_links.h"
-#include "clench/io/graspit/robot_classes.h"
 #include "clench/io/graspit/robot_files.h"
+#include "clench/io/graspit/robot_parts.h"
 #include "clench/io/graspit/transform_list.h"
 #include "clench/io/text/file_errors.h"
-#include "clench/io/text/joint_expression.h"
 #include "clench/io/text/number_reader.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/text/repairs.h"
@@ -23,12 +21,11 @@ namespace fs = std::filesystem;
 constexpr int most_parts =
     1000;  // DOFs, chains, joints, links: far above any hand, far below what fills the memory
 
-/// Numbers of a DOF line as written; their units depend on the kind of its joints, which come
+/// The numbers of the DOF as written; their units depend on the kind of its joints, which come
 /// later.
 struct DofLine {
   Line line;
-  DofKind kind = DofKind::rigid;
-  double velocity = 0, effort = 0, kp = 0, kd = 0, scale = 0, breakaway = 0;
+  DofSpec dof = {};
 };
 
 class CfgReader {
@@ -61,7 +58,7 @@ class CfgReader {
   Repairs repairs_;
   LineReader lines_;
   std::vector<DofLine> dof_lines_;
-  std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
+  DofKinds dof_kinds_;
   NamedFiles named_;
   RobotSpec robot_;
 };
@@ -110,40 +107,31 @@ static void check_size(const Line& line, double x, const std::string& what) {
 void CfgReader::read_dofs() {
   const int dofs = count("number of DOFs", 0);
   for (int i = 0; i < dofs; ++i) {
-    DofLine d;
-    d.line = expected(fmt::format("the line of DOF {}", i));
-    const std::string_view kind = d.line.word(0);
-    if (kind == "r")
-      d.kind = DofKind::rigid;
-    else if (kind == "b")
-      d.kind = DofKind::breakaway;
-    else if (kind == "c")
-      d.kind = DofKind::compliant;
-    else
-      d.line.fail("DOF {}: expected type r, b or c, got {}", i, in_quotes(kind));
+    const Line line = expected(fmt::format("the line of DOF {}", i));
+    const std::string place = fmt::format("{}: DOF {}", line.place(), i);
+    DofSpec dof{.kind = dof_kind(line.word(0), place)};
     const auto number = [&](int k, const char* what) {
       const std::string subject = fmt::format("DOF {}: {}", i, what);
-      if (k > 2 && k >= d.line.size()) {
-        repairs_.add("missing",
-                     fmt::format("{}: {} is missing; 0 is used", d.line.place(), subject));
+      if (k > 2 && k >= line.size()) {
+        repairs_.add("missing", fmt::format("{}: {} is missing; 0 is used", place, what));
         return 0.0;
       }
-      const double x = d.line.number(k, subject);
-      check_size(d.line, x, subject);
+      const double x = line.number(k, subject);
+      check_size(line, x, subject);
       return x;
     };
-    d.velocity = number(1, "default velocity");
     const auto magnitude = [&](int k, const char* what) {
-      return repairs_.magnitude(number(k, what),
-                                fmt::format("{}: DOF {}: {}", d.line.place(), i, what));
+      return repairs_.magnitude(number(k, what), fmt::format("{}: {}", place, what));
     };
-    d.effort = magnitude(2, "max effort");
-    d.kp = number(3, "Kp");
-    d.kd = number(4, "Kd");
-    d.scale = number(5, "dragger scale");
-    if (d.kind == DofKind::breakaway) d.breakaway = magnitude(6, "breakaway torque");
-    used_up(d.line, d.kind == DofKind::breakaway ? 7 : 6);
-    dof_lines_.push_back(std::move(d));
+    dof.default_velocity = number(1, "default velocity");
+    dof.max_effort = magnitude(2, "max effort");
+    dof.kp = number(3, "Kp");
+    dof.kd = number(4, "Kd");
+    dof.dragger_scale = number(5, "dragger scale");
+    const bool breaks = dof.kind == DofKind::breakaway;
+    if (breaks) dof.breakaway_torque = magnitude(6, "breakaway torque");
+    used_up(line, breaks ? 7 : 6);
+    dof_lines_.push_back({line, dof});
   }
   dof_kinds_.resize(dofs);
 }
@@ -151,7 +139,7 @@ void CfgReader::read_dofs() {
 void CfgReader::read_chain(int number) {
   const int joints = count("number of joints", 0), links = count("number of links", 1);
   const Line transform = lines_.peek();
-  ChainLinks chain(read_transform_list(lines_, cache_.options().listeners()));
+  ChainLinks chain(read_transform_list(lines_, cache_.options().listeners()), dof_kinds_);
   for (int j = 0; j < joints; ++j) read_joint(chain, j);
   for (int l = 0; l < links; ++l)
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
@@ -173,51 +161,30 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
   joint.kind = line.word(0).starts_with('d') ? JointKind::revolute : JointKind::prismatic;
   const bool revolute = joint.kind == JointKind::revolute;
   const std::string_view text = line.word(revolute ? 0 : 1);
-  const auto expression = parse_joint_expression(text);
-  if (!expression) {
-    if (!revolute) value(0, "theta");
-    line.fail("joint {}: expected a joint expression such as d0*0.5+90 for {}, got {}", number,
-              revolute ? "theta" : "d", in_quotes(text));
-  }
-  joint.dof = expression->dof;
-  if (joint.dof >= static_cast<int>(dof_lines_.size()))
-    line.fail("joint {}: expected a DOF below {}, got d{}", number, dof_lines_.size(), joint.dof);
-  if (expression->ratio == 0)
-    line.fail("joint {}: expected a ratio other than 0, got {}", number, in_quotes(text));
+  const std::string place = fmt::format("{}: joint {}", line.place(), number);
+  if (!revolute && !parse_joint_expression(text)) value(0, "theta");  // a word there is told first
+  const auto [dof, ratio, offset] = expected_expression(text, joint.kind, dof_lines_.size(), place);
+  joint.dof = dof;
+  joint.ratio = ratio;
+  check_size(line, offset, fmt::format("joint {}: offset", number));
+  check_size(line, ratio, fmt::format("joint {}: ratio", number));
 
-  check_size(line, expression->offset, fmt::format("joint {}: offset", number));
-  check_size(line, expression->ratio, fmt::format("joint {}: ratio", number));
-
-  // degrees and millimetres to radians and metres
-  const double unit = revolute ? units::degree : units::millimetre;
-  const DenavitHartenberg numbers = {
-      .theta = revolute ? expression->offset * units::degree : value(0, "theta") * units::degree,
-      .d = revolute ? value(1, "d") * units::millimetre : expression->offset * units::millimetre,
-      .a = value(2, "a") * units::millimetre,
-      .alpha = value(3, "alpha") * units::degree};
-  double low = value(4, "min"), high = value(5, "max");
-  repairs_.order(low, high, fmt::format("{}: joint {}", line.place(), number));
-  joint.min = low * unit;
-  joint.max = high * unit;
-  const auto loss = [&](int i, const char* what, double loss_unit) {
+  const DenavitHartenberg numbers = {.theta = revolute ? offset : value(0, "theta"),
+                                     .d = revolute ? value(1, "d") : offset,
+                                     .a = value(2, "a"),
+                                     .alpha = value(3, "alpha")};
+  joint.min = value(4, "min");
+  joint.max = value(5, "max");
+  repairs_.order(joint.min, joint.max, place);
+  const auto loss = [&](int i, const char* what) {
     if (line.size() <= i) return 0.0;
-    return loss_unit * repairs_.magnitude(value(i, what), fmt::format("{}: joint {}: {}",
-                                                                      line.place(), number, what));
+    return repairs_.magnitude(value(i, what), fmt::format("{}: {}", place, what));
   };
-  joint.viscous =
-      loss(6, "viscous friction", revolute ? units::gram_square_millimetre : units::gram);
-  joint.coulomb = loss(7, "Coulomb friction",
-                       revolute ? units::gram_square_millimetre : units::gram_millimetre);
-  joint.spring = loss(8, "spring stiffness",
-                      revolute ? units::newton_millimetre : units::newton_per_millimetre);
-  if (line.size() > 9) joint.rest = value(9, "rest value") * (revolute ? 1.0 : units::millimetre);
+  joint.viscous = loss(6, "viscous friction");
+  joint.coulomb = loss(7, "Coulomb friction");
+  joint.spring = loss(8, "spring stiffness");
+  if (line.size() > 9) joint.rest = value(9, "rest value");
   used_up(line, 10);
-
-  // a DOF counts in the unit of its first joint: rad or mm
-  auto& kind = dof_kinds_[joint.dof];
-  if (!kind) kind = joint.kind;
-  joint.ratio = expression->ratio;
-  if (*kind != joint.kind) joint.ratio *= revolute ? 1 / units::millimetre : units::millimetre;
   errors_at(line, [&] { chain.add_joint(joint, numbers); });
 }
 
@@ -245,19 +212,9 @@ void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name
 
 void CfgReader::set_dof_units() {
   for (size_t i = 0; i < dof_lines_.size(); ++i) {
-    const DofLine& d = dof_lines_[i];
-    const bool slides = dof_kinds_[i] == JointKind::prismatic;
-    if (!dof_kinds_[i])
-      cache_.suspected(fmt::format("{}: DOF {} moves no joint", d.line.place(), i));
-    DofSpec dof;
-    dof.kind = d.kind;
-    dof.default_velocity = d.velocity * (slides ? units::millimetre : 1.0);
-    dof.max_effort = d.effort * (slides ? units::gram_millimetre : units::gram_square_millimetre);
-    dof.kp = d.kp * (slides ? units::gram_per_square_second : units::gram_square_millimetre);
-    dof.kd = d.kd * (slides ? units::gram : units::gram_square_millimetre);
-    dof.dragger_scale = d.scale * units::millimetre;
-    dof.breakaway_torque = d.breakaway;
-    robot_.dofs.push_back(dof);
+    const auto& [line, dof] = dof_lines_[i];
+    if (!dof_kinds_[i]) cache_.suspected(fmt::format("{}: DOF {} moves no joint", line.place(), i));
+    robot_.dofs.push_back(in_si(dof, dof_kinds_[i] == JointKind::prismatic));
   }
 }
 

@@ -4,13 +4,11 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/units.h"
-#include "clench/io/graspit/chain_links.h"
-#include "clench/io/graspit/robot_classes.h"
 #include "clench/io/graspit/robot_files.h"
+#include "clench/io/graspit/robot_parts.h"
 #include "clench/io/graspit/tendons_xml.h"
 #include "clench/io/graspit/transform_xml.h"
 #include "clench/io/text/file_errors.h"
-#include "clench/io/text/joint_expression.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/text/repairs.h"
 #include "clench/io/text/xml.h"
@@ -44,8 +42,7 @@ class XmlRobotReader {
   DenavitHartenberg read_expression(const XmlElement& element, JointSpec& joint,
                                     const std::string& subject);
   void read_limits(const XmlElement& element, JointSpec& joint, const std::string& subject);
-  void read_losses(const XmlElement& element, JointSpec& joint, const std::string& subject);
-  double magnitude(const XmlElement& element, const std::string& subject);
+  double magnitude(const XmlElement& parent, const char* name, const std::string& subject);
   double number_or_zero(const XmlElement& parent, const char* name, const std::string& subject);
   void read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place);
   void read_rule(const XmlElement& link, ChainPlace place);
@@ -62,7 +59,7 @@ class XmlRobotReader {
   FileCache& cache_;
   Repairs repairs_;
   std::vector<XmlElement> dofs_;
-  std::vector<std::optional<JointKind>> dof_kinds_;  // of its first joint
+  DofKinds dof_kinds_;
   std::vector<Chain> chains_;
   std::vector<PairOff> pairs_off_;  // to be looked at when all links are known
   RobotSpec robot_;
@@ -138,10 +135,13 @@ static double bounded(const XmlElement& element, const std::string& subject) {
   return x;
 }
 
-/// Of what is never negative.
-double XmlRobotReader::magnitude(const XmlElement& element, const std::string& subject) {
-  return repairs_.magnitude(bounded(element, subject),
-                            fmt::format("{}: {}: {}", element.place(), subject, element.name()));
+/// Of what is never negative; 0 when it is not there.
+double XmlRobotReader::magnitude(const XmlElement& parent, const char* name,
+                                 const std::string& subject) {
+  const XmlElement child = parent.child(name);
+  if (!child) return 0;
+  return repairs_.magnitude(bounded(child, subject),
+                            fmt::format("{}: {}: {}", child.place(), subject, name));
 }
 
 /// Of what counts as 0 when it is missing.
@@ -159,38 +159,29 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
                  .attributes = {"type"}},
                 warn());
   const size_t i = robot_.dofs.size();
-  const bool slides = dof_kinds_[i] == JointKind::prismatic;
   if (!dof_kinds_[i])
     cache_.suspected(fmt::format("{}: DOF {} moves no joint", element.place(), i));
   DofSpec dof;
+  const std::string subject = fmt::format("DOF {}", i);
+  const std::string place = fmt::format("{}: {}", element.place(), subject);
   const std::string kind = element.attribute("type").value_or("");
   if (kind.empty())
-    repairs_.add("kind", fmt::format("{}: DOF {}: no type; it is taken for r", element.place(), i));
-  else if (kind == "b")
-    dof.kind = DofKind::breakaway;
-  else if (kind == "c")
-    dof.kind = DofKind::compliant;
-  else if (kind != "r")
-    element.fail("DOF {}: expected type r, b or c, got {}", i, in_quotes(kind));
-  const std::string subject = fmt::format("DOF {}", i);
-  const auto number = [&](const char* name, double unit) {
+    repairs_.add("kind", place + ": no type; it is taken for r");
+  else
+    dof.kind = dof_kind(kind, place);
+  const auto number = [&](const char* name) {
     const XmlElement child = element.child(name);
-    return child ? bounded(child, subject) * unit : 0.0;
+    return child ? bounded(child, subject) : 0.0;
   };
-  const auto positive = [&](const char* name, double unit) {
-    const XmlElement child = element.child(name);
-    return child ? magnitude(child, subject) * unit : 0.0;
-  };
-  const double force = slides ? units::gram_millimetre : units::gram_square_millimetre;
-  dof.default_velocity =
-      number_or_zero(element, "defaultVelocity", subject) * (slides ? units::millimetre : 1.0);
-  dof.default_value = number("defaultValue", slides ? units::millimetre : units::degree);
-  dof.max_effort = positive("maxEffort", force);
-  dof.kp = number("Kp", slides ? units::gram_per_square_second : units::gram_square_millimetre);
-  dof.kd = number("Kd", slides ? units::gram : units::gram_square_millimetre);
-  dof.dragger_scale = number("draggerScale", units::millimetre);
-  if (dof.kind == DofKind::breakaway) dof.breakaway_torque = positive("breakAwayTorque", 1.0);
-  robot_.dofs.push_back(dof);
+  dof.default_velocity = number_or_zero(element, "defaultVelocity", subject);
+  dof.default_value = number("defaultValue");
+  dof.max_effort = magnitude(element, "maxEffort", subject);
+  dof.kp = number("Kp");
+  dof.kd = number("Kd");
+  dof.dragger_scale = number("draggerScale");
+  if (dof.kind == DofKind::breakaway)
+    dof.breakaway_torque = magnitude(element, "breakAwayTorque", subject);
+  robot_.dofs.push_back(in_si(dof, dof_kinds_[i] == JointKind::prismatic));
 }
 
 void XmlRobotReader::set_dof_units() {
@@ -220,7 +211,7 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
     element.fail("chain: expected at most {} joints and links, got {} and {}", max_parts,
                  joints.size(), links.size());
   if (links.empty()) element.fail("chain: expected a link, got none");
-  ChainLinks chain(read_transform_of(element, cache_.options().listeners()));
+  ChainLinks chain(read_transform_of(element, cache_.options().listeners()), dof_kinds_);
   for (const XmlElement& e : joints) read_joint(e, chain);
   chains_.emplace_back();
   for (int l = 0; l < static_cast<int>(links.size()); ++l) {
@@ -249,16 +240,13 @@ void XmlRobotReader::read_joint(const XmlElement& element, ChainLinks& chain) {
     element.fail("{}: expected type Revolute or Prismatic, got {}{}", subject, in_quotes(type),
                  did_you_mean(type, {"Revolute", "Prismatic"}));
   DenavitHartenberg numbers = read_expression(element, joint, subject);
-  numbers.a = number_or_zero(element, "a", subject) * units::millimetre;
-  numbers.alpha = number_or_zero(element, "alpha", subject) * units::degree;
+  numbers.a = number_or_zero(element, "a", subject);
+  numbers.alpha = number_or_zero(element, "alpha", subject);
   read_limits(element, joint, subject);
-  read_losses(element, joint, subject);
-
-  // a DOF counts in the unit of its first joint: rad or mm
-  auto& kind = dof_kinds_[joint.dof];
-  if (!kind) kind = joint.kind;
-  if (*kind != joint.kind)
-    joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimetre : units::millimetre;
+  joint.viscous = magnitude(element, "viscousFriction", subject);
+  joint.coulomb = magnitude(element, "CoulombFriction", subject);
+  joint.spring = magnitude(element, "springStiffness", subject);
+  if (const XmlElement rest = element.child("restValue")) joint.rest = rest.number();
   errors_at(element, [&] { chain.add_joint(joint, numbers); });
 }
 
@@ -266,47 +254,22 @@ DenavitHartenberg XmlRobotReader::read_expression(const XmlElement& element, Joi
                                                   const std::string& subject) {
   const bool revolute = joint.kind == JointKind::revolute;
   const XmlElement moved = element.expected(revolute ? "theta" : "d");
-  const std::string text = moved.text();
-  const auto expression = parse_joint_expression(text);
-  if (!expression)
-    moved.fail("{}: expected a joint expression such as d0*0.5+90 for {}, got {}", subject,
-               moved.name(), in_quotes(text));
-  if (expression->dof >= static_cast<int>(dofs_.size()))
-    moved.fail("{}: expected a DOF below {}, got d{}", subject, dofs_.size(), expression->dof);
-  if (expression->ratio == 0)
-    moved.fail("{}: expected a ratio other than 0, got {}", subject, in_quotes(text));
-  joint.dof = expression->dof;
-  joint.ratio = expression->ratio;
+  const auto [dof, ratio, offset] = expected_expression(
+      moved.text(), joint.kind, dofs_.size(), fmt::format("{}: {}", moved.place(), subject));
+  joint.dof = dof;
+  joint.ratio = ratio;
   const double other = number_or_zero(element, revolute ? "d" : "theta", subject);
-  return {.theta = (revolute ? expression->offset : other) * units::degree,
-          .d = (revolute ? other : expression->offset) * units::millimetre};
+  return {.theta = revolute ? offset : other, .d = revolute ? other : offset};
 }
 
 void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
                                  const std::string& subject) {
   const XmlElement low = element.expected("minValue"), high = element.expected("maxValue");
-  double min = bounded(low, subject), max = bounded(high, subject);
+  joint.min = bounded(low, subject);
+  joint.max = bounded(high, subject);
   // some files write the limits in the direction of a DOF that the joint runs against
-  repairs_.order(min, max, fmt::format("{}: {}", low.place(), subject), {"minValue", "maxValue"});
-  const double unit = joint.kind == JointKind::revolute ? units::degree : units::millimetre;
-  joint.min = min * unit;
-  joint.max = max * unit;
-}
-
-void XmlRobotReader::read_losses(const XmlElement& element, JointSpec& joint,
-                                 const std::string& subject) {
-  const bool revolute = joint.kind == JointKind::revolute;
-  const auto number = [&](const char* name, double unit) {
-    const XmlElement child = element.child(name);
-    return child ? magnitude(child, subject) * unit : 0.0;
-  };
-  joint.viscous = number("viscousFriction", revolute ? units::gram_square_millimetre : units::gram);
-  joint.coulomb =
-      number("CoulombFriction", revolute ? units::gram_square_millimetre : units::gram_millimetre);
-  joint.spring =
-      number("springStiffness", revolute ? units::newton_millimetre : units::newton_per_millimetre);
-  if (const XmlElement rest = element.child("restValue"))
-    joint.rest = rest.number() * (revolute ? 1.0 : units::millimetre);
+  repairs_.order(joint.min, joint.max, fmt::format("{}: {}", low.place(), subject),
+                 {"minValue", "maxValue"});
 }
 
 void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place) {
