@@ -1,4 +1,4 @@
-#include "clench/io/mesh/collada.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include "clench/base/error.h"
 #include "clench/io/mesh/mesh_files.h"

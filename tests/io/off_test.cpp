@@ -1,4 +1,4 @@
-#include "clench/io/mesh/off.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include "clench/base/error.h"
 #include "temporary.h"

@@ -1,4 +1,4 @@
-#include "clench/io/mesh/stl.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include "clench/base/error.h"
 #include "mesh_writers.h"

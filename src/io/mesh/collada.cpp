@@ -1,4 +1,4 @@
-#include "clench/io/mesh/collada.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include "clench/base/units.h"
 #include "clench/io/mesh/collada_mesh.h"

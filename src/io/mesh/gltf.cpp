@@ -1,4 +1,4 @@
-#include "clench/io/mesh/gltf.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include <Eigen/Geometry>
 

@@ -3,12 +3,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/base/units.h"
-#include "clench/io/mesh/collada.h"
-#include "clench/io/mesh/gltf.h"
-#include "clench/io/mesh/obj.h"
-#include "clench/io/mesh/off.h"
-#include "clench/io/mesh/ply.h"
-#include "clench/io/mesh/stl.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 namespace clench {
 
@@ -66,8 +61,7 @@ static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
     case GeometryFormat::gltf:
       return read_gltf(input, builder);
     case GeometryFormat::stl:
-      read_stl(input, builder);
-      return false;
+      return read_stl(input, builder);
     case GeometryFormat::none:
     case GeometryFormat::inventor:
       break;

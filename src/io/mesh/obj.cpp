@@ -1,4 +1,4 @@
-#include "clench/io/mesh/obj.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include <fmt/format.h>
 

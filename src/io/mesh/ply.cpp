@@ -1,4 +1,4 @@
-#include "clench/io/mesh/ply.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include <cmath>
 

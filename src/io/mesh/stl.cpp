@@ -1,4 +1,4 @@
-#include "clench/io/mesh/stl.h"
+#include "clench/io/mesh/mesh_readers.h"
 
 #include <cmath>
 #include <utility>
@@ -122,7 +122,7 @@ void read_binary(const MeshInput& input, GeometryBuilder& builder) {
 
 }  // namespace
 
-void read_stl(const MeshInput& input, GeometryBuilder& builder) {
+bool read_stl(const MeshInput& input, GeometryBuilder& builder) {
   if (is_ascii(input.bytes)) {
     builder.report.format = "ascii STL";
     const std::string text = plain_text(input.bytes);
@@ -132,6 +132,7 @@ void read_stl(const MeshInput& input, GeometryBuilder& builder) {
     builder.report.format = "binary STL";
     read_binary(input, builder);
   }
+  return false;
 }
 
 }  // namespace clench

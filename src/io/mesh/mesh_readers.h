@@ -1,0 +1,41 @@
+// The readers of mesh files, one a format: each adds the triangles of a file to a builder, in the
+// file's unit and with its upward axis, and tells whether colours come from the file.
+#pragma once
+#include "clench/io/mesh/geometry_builder.h"
+#include "clench/io/mesh/mesh_input.h"
+
+namespace clench {
+
+/// glTF 2.0, .gltf with its buffers, and .glb: triangles of all meshes of the file's scene, where
+/// its nodes place them; in metres, y up. Skins, morph targets and animations are not used, with a
+/// warning.
+/// throws  Error  "part.glb: accessors[3]: expected 36 bytes of bufferViews[1], got 24"
+bool read_gltf(const MeshInput& input, GeometryBuilder& builder);
+
+/// COLLADA (.dae), versions 1.4 and 1.5: polygons of all geometries of the file's scene, where its
+/// nodes place them. Skins and morphs are not used, with a warning.
+/// throws  Error  "part.dae:31: ..."
+bool read_collada(const MeshInput& input, GeometryBuilder& builder);
+
+/// Wavefront OBJ, and colours from MTL files: faces over the file's own points. Texture coordinates
+/// and normals are not read.
+/// throws  Error  "part.obj:31: expected one of 8 points after f, got 9"
+bool read_obj(const MeshInput& input, GeometryBuilder& builder);
+
+/// OFF of the Geomview kind, OFF, COFF, NOFF, STOFF and what these make together: faces over the
+/// file's own vertices. Texture coordinates and normals are not read.
+/// throws  Error  "part.off:31: expected 3 vertices from 0 to 8, got '9'"
+bool read_off(const MeshInput& input, GeometryBuilder& builder);
+
+/// PLY, ascii, and binary of both byte orders: faces and triangle strips over the file's own
+/// vertices. Elements other than these are stepped over, with a warning; so are properties other
+/// than places, colours and indices.
+/// throws  Error  "part.ply:31: ..." in header and ascii files, "part.ply: face 7 of 12: ..." else
+bool read_ply(const MeshInput& input, GeometryBuilder& builder);
+
+/// STL, ascii and binary: the facets. Normals are not read: the order of the corners says what is
+/// outside.
+/// throws  Error  "part.stl:31: expected 'vertex', got 'vertx'"  "part.stl: facet 12 of 99: ..."
+bool read_stl(const MeshInput& input, GeometryBuilder& builder);
+
+}  // namespace clench
