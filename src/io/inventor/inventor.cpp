@@ -2,7 +2,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/units.h"
-#include "clench/io/inventor/inventor_shapes.h"
+#include "clench/io/inventor/inventor_faces.h"
 
 namespace clench {
 

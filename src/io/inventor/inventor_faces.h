@@ -1,4 +1,5 @@
-// Faces of the Inventor and VRML shapes that list their points.
+// Faces of Inventor and VRML shapes: of those that list their points, and of those that are given by
+// their sizes.
 #pragma once
 #include "clench/io/inventor/inventor_walk.h"
 
@@ -16,5 +17,9 @@ struct InventorSurface {
 /// Gives the faces of a shape that lists its points.   returns  is it such a shape?
 /// throws Error  "IndexedFaceSet: number 7 of coordIndex: expected -1 or one of 8 points, got 12"
 bool list_faces(const InventorNode& shape, const InventorState& state, InventorSurface& surface);
+
+/// Gives the triangles of a cube, sphere, cylinder, cone or extrusion.   returns  is it one?
+/// throws Error  "Extrusion: expected at most ... triangles"
+bool cut_shape(const InventorNode& shape, const InventorState& state, InventorSurface& surface);
 
 }  // namespace clench

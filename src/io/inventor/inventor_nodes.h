@@ -50,4 +50,8 @@ struct InventorGraph {
   std::string place(const InventorNode& node) const;
 };
 
+/// Makes negative sizes positive and holds a complexity to 0..1; tells of these, of sizes and
+/// factors of 0, of arrays without copies and of switches to a child that is not there.
+void repair_values(InventorNode& node, InventorGraph& graph);
+
 }  // namespace clench

@@ -6,7 +6,6 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
-#include "clench/io/inventor/inventor_values.h"
 
 namespace clench {
 

@@ -1,11 +1,10 @@
-#include "clench/io/inventor/inventor_shapes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
+#include "clench/io/inventor/inventor_faces.h"
 
 namespace clench {
 

@@ -1,8 +1,9 @@
-#include "clench/io/inventor/inventor_values.h"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "clench/io/inventor/inventor_nodes.h"
 
 namespace clench {
 
@@ -10,88 +11,69 @@ namespace {
 
 using K = InventorKind;
 
-class ValueRepair {
- public:
-  ValueRepair(InventorNode& node, InventorGraph& graph) : node_(node), graph_(graph) {}
-  void repair();
-
- private:
-  template <class... Args>
-  void tell(std::string_view field, fmt::format_string<Args...> format, Args&&... args) {
-    const std::string& file = graph_.files[node_.file];
-    graph_.repairs.add(file, fmt::format("{}:{}: {}: {}: {}", file, node_.line, node_.type->name,
-                                         field, fmt::format(format, std::forward<Args>(args)...)));
-  }
-  /// calls use(field, number) for each number that the node gives
-  template <class Number, class Use>
-  void each(Use use) {
-    for (auto& [field, value] : node_.values)
-      if (auto* numbers = std::get_if<std::vector<Number>>(&value))
-        for (Number& x : *numbers) use(field->name, x);
-  }
-  void repair_sizes();
-  void check_factors();
-  void check_choice();
-
-  InventorNode& node_;
-  InventorGraph& graph_;
-};
-
-// all numbers of these shapes are lengths
-void ValueRepair::repair_sizes() {
-  each<float>([&](std::string_view field, float& x) {
-    if (x == 0) tell(field, "0 leaves no volume");
-    if (x < 0) tell(field, "{} is negative; {} is used", x, -x);
-    x = std::abs(x);
-  });
+/// Tells what `fault` says of each number that the node gives; it may put the number right.
+template <class Number, class Fault>
+void tell_faults(InventorNode& node, InventorGraph& graph, Fault fault) {
+  const std::string& file = graph.files[node.file];
+  for (auto& [field, value] : node.values)
+    if (auto* numbers = std::get_if<std::vector<Number>>(&value))
+      for (Number& x : *numbers)
+        if (const std::string wrong = fault(x, field->name); !wrong.empty())
+          graph.repairs.add(file, fmt::format("{}:{}: {}: {}: {}", file, node.line, node.type->name,
+                                              field->name, wrong));
 }
 
-void ValueRepair::check_factors() {
-  each<float>([&](std::string_view field, float x) {
-    if (x == 0 && field.starts_with("scale") && field != "scaleOrientation")
-      tell(field, "a factor of 0 makes flat what it scales");
-  });
+// all numbers of cubes and the like are lengths
+std::string repair_size(float& x, std::string_view) {
+  const float given = x;
+  x = std::abs(x);
+  if (x == 0) return "0 leaves no volume";
+  return x == given ? "" : fmt::format("{} is negative; {} is used", given, x);
 }
 
-void ValueRepair::check_choice() {
-  constexpr int none = -1, inherited = -2, all = -3;
-  const auto count = static_cast<int>(node_.children.size());
-  each<int32_t>([&](std::string_view field, int32_t choice) {
-    if (choice != none && choice != inherited && choice != all && (choice < 0 || choice >= count))
-      tell(field, "{} is none of {} children; none is used", choice, count);
-  });
+std::string repair_complexity(float& x, std::string_view) {
+  const float given = x;
+  x = std::clamp(x, 0.0f, 1.0f);
+  return x == given ? "" : fmt::format("{} is not in 0..1; {} is used", given, x);
 }
 
-void ValueRepair::repair() {
-  switch (node_.type->kind) {
+std::string factor_fault(float x, std::string_view field) {
+  const bool factor = field.starts_with("scale") && field != "scaleOrientation";
+  return factor && x == 0 ? "a factor of 0 makes flat what it scales" : "";
+}
+
+std::string count_fault(int32_t count, std::string_view) {
+  return count > 0 ? "" : fmt::format("{} makes no copies", count);
+}
+
+}  // namespace
+
+void repair_values(InventorNode& node, InventorGraph& graph) {
+  switch (node.type->kind) {
     case K::cube:
     case K::sphere:
     case K::cylinder:
     case K::cone:
-      return repair_sizes();
+      return tell_faults<float>(node, graph, repair_size);
     case K::scale:
     case K::transform:
     case K::vrml_transform:
-      return check_factors();
-    case K::switching:
-      return check_choice();
-    case K::array:
-      return each<int32_t>([&](std::string_view field, int32_t count) {
-        if (count <= 0) tell(field, "{} makes no copies", count);
-      });
+      return tell_faults<float>(node, graph, factor_fault);
     case K::complexity:
-      return each<float>([&](std::string_view field, float& x) {
-        const float bounded = std::clamp(x, 0.0f, 1.0f);
-        if (x != bounded) tell(field, "{} is not in 0..1; {} is used", x, bounded);
-        x = bounded;
+      return tell_faults<float>(node, graph, repair_complexity);
+    case K::array:
+      return tell_faults<int32_t>(node, graph, count_fault);
+    case K::switching:
+      return tell_faults<int32_t>(node, graph, [&](int32_t choice, std::string_view) {
+        // -1: none, -2: inherited, -3: all
+        const auto count = static_cast<int32_t>(node.children.size());
+        return choice >= -3 && choice < count
+                   ? ""
+                   : fmt::format("{} is none of {} children; none is used", choice, count);
       });
     default:
       return;
   }
 }
-
-}  // namespace
-
-void repair_values(InventorNode& node, InventorGraph& graph) { ValueRepair(node, graph).repair(); }
 
 }  // namespace clench
