@@ -4,7 +4,7 @@
 #include <array>
 
 #include "clench/base/units.h"
-#include "clench/io/graspit/transform_xml.h"
+#include "clench/io/graspit/transform_tags.h"
 #include "clench/io/inventor/read_geometry.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/text/repairs.h"

@@ -7,7 +7,7 @@
 #include "clench/io/graspit/robot_files.h"
 #include "clench/io/graspit/robot_parts.h"
 #include "clench/io/graspit/tendons_xml.h"
-#include "clench/io/graspit/transform_xml.h"
+#include "clench/io/graspit/transform_tags.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/text/repairs.h"

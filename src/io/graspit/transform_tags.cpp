@@ -1,6 +1,6 @@
 #include "clench/io/graspit/transform_tags.h"
 
-#include "clench/io/graspit/transform_list.h"
+#include <algorithm>
 
 namespace clench {
 
@@ -54,6 +54,21 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners&
     total = total ? *total * next : next;
     rest = trim(rest.substr(tail + end.size()));
   }
+  return total.value_or(Pose{});
+}
+
+Pose read_transform_of(const XmlElement& element, const Listeners& listeners) {
+  const XmlElement transform = element.child("transform");
+  if (!transform) return {};
+  std::optional<Pose> total;  // the only one is kept to the bit
+  for (const XmlElement& e : transform.children()) {
+    std::string value = e.text();
+    std::replace(value.begin(), value.end(), '\n', ' ');
+    const Pose next = read_transform_element(e.as_line(value), e.name(), value, listeners);
+    total = total ? *total * next : next;
+  }
+  transform.check({.many = {"translation", "rotation", "rotationMatrix", "fullTransform"}},
+                  listeners.warn);
   return total.value_or(Pose{});
 }
 

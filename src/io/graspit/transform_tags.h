@@ -1,7 +1,8 @@
-// Transforms as the XML files write them, where they stand in a text file.
+// Transforms as the XML files write them, there and where they stand in a text file.
 #pragma once
 #include "clench/base/text.h"
 #include "clench/io/graspit/transform_list.h"
+#include "clench/io/text/xml.h"
 #include "clench/math/pose.h"
 
 namespace clench {
@@ -16,5 +17,9 @@ Pose read_transform_element(const Line& line, std::string_view tag, std::string_
 /// inner elements alone, composed left to right. `line` is the first line; reads on to the closing
 /// tag.
 Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners& listeners = {});
+
+/// The child <transform> of an element, or identity when there is none.
+/// throws Error at the line of what stands in it and is no part of a transform
+Pose read_transform_of(const XmlElement& element, const Listeners& listeners);
 
 }  // namespace clench

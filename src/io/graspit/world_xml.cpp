@@ -2,7 +2,7 @@
 
 #include "clench/base/units.h"
 #include "clench/io/graspit/body_xml.h"
-#include "clench/io/graspit/transform_xml.h"
+#include "clench/io/graspit/transform_tags.h"
 #include "clench/io/graspit/world_parts.h"
 #include "clench/io/text/repair_names.h"
 
