@@ -265,9 +265,7 @@ VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
 std::string plain_text(const EigengraspSet& set) {
   std::string out = fmt::format("DIMENSIONS {}\n", set.dofs);
   const auto block = [&](const char* keyword, double eigenvalue, const VectorXd& values) {
-    out += fmt::format("\n{}\n{}\n", keyword, eigenvalue);
-    for (int i = 0; i < values.size(); ++i) out += fmt::format("{}{}", i ? " " : "", values[i]);
-    out += '\n';
+    out += fmt::format("\n{}\n{}\n{}\n", keyword, eigenvalue, listed(values));
   };
   for (const auto& grasp : set.grasps) block("EG", grasp.eigenvalue, grasp.vector);
   if (set.origin) block("ORIGIN", 0, *set.origin);

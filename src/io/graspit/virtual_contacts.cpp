@@ -179,20 +179,13 @@ VirtualContactSet read_xml(const std::string& name, const std::string& text, con
 
 // --- writing ---
 
-template <class Vector>
-std::string listed(const Vector& x) {
-  std::string out;
-  for (int i = 0; i < x.size(); ++i) out += fmt::format("{}{}", i ? " " : "", x[i]);
-  return out;
-}
-
 /// The numbers of a contact as both formats write them.
 struct Written {
   explicit Written(const Pose& X_LC, const FrictionEdges& friction) {
     const Eigen::Quaterniond& q = X_LC.rotation;
     rotation = fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
-    location = listed(Vector3d(X_LC.position / units::millimetre));
-    normal = listed(Vector3d(q * Vector3d::UnitZ()));
+    location = listed(X_LC.position / units::millimetre);
+    normal = listed(q * Vector3d::UnitZ());
     for (int e = 0; e < friction.cols(); ++e) {
       Vector6d edge = friction.col(e);
       edge.tail<3>() /= units::millimetre;

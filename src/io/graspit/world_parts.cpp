@@ -123,8 +123,15 @@ int chain_of(const WorldSpec& world, const Connection& connection) {
        excerpt(parent.links[connection.link].body.name));
 }
 
-std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w) {
-  return made_unit(Eigen::Vector4d(w, x, y, z));
+std::optional<Eigen::Quaterniond> camera_orientation(const Eigen::Vector4d& xyzw,
+                                                     const std::string& subject,
+                                                     const ReadOptions& options) {
+  const auto q = made_unit({xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
+  if (!q)
+    options.repaired(fmt::format(
+        "{}: expected a quaternion of length 1, got {} {} {} {}; the camera is not used", subject,
+        xyzw[0], xyzw[1], xyzw[2], xyzw[3]));
+  return q;
 }
 
 std::optional<Camera> checked_camera(const Camera& camera, const std::string& place,

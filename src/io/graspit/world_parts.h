@@ -31,8 +31,11 @@ void find_connections(WorldSpec& world, const std::vector<ConnectionPlace>& plac
 /// throws  Error "...: 'hand' is carried by a link ... that ends no chain"
 int chain_of(const WorldSpec& world, const Connection& connection);
 
-/// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation.
-std::optional<Eigen::Quaterniond> camera_orientation(double x, double y, double z, double w);
+/// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation, which is
+/// told.   `subject`  begins the sentence: "mug.wld:7: camera orientation"
+std::optional<Eigen::Quaterniond> camera_orientation(const Eigen::Vector4d& xyzw,
+                                                     const std::string& subject,
+                                                     const ReadOptions& options);
 
 /// A camera that check_camera refuses is none, which is told.
 std::optional<Camera> checked_camera(const Camera& camera, const std::string& place,

@@ -169,14 +169,9 @@ void WldReader::read_camera(bool focal_distance) {
   double x[8];
   for (int i = 0; i < 7; ++i)
     x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
-  const auto q = camera_orientation(x[3], x[4], x[5], x[6]);
-  if (!q) {
-    cache_.repaired(fmt::format(
-        "{}: camera orientation: expected a quaternion of length 1, got {} {} {} {}; the "
-        "camera is not used",
-        line.place(), x[3], x[4], x[5], x[6]));
-    return;
-  }
+  const auto q = camera_orientation({x[3], x[4], x[5], x[6]}, line.place() + ": camera orientation",
+                                    cache_.options());
+  if (!q) return;
   warn_of_surplus(line, focal_distance ? 8 : 7, cache_.options().warn);
   Camera camera;
   camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};

@@ -128,15 +128,9 @@ void XmlWorldReader::read_connection(const XmlElement& element) {
 void XmlWorldReader::read_camera(const XmlElement& element) {
   element.check({.once = {"position", "orientation", "focalDistance"}}, warn());
   const XmlElement turn = element.expected("orientation");
-  const auto x = turn.numbers(4);
-  const auto q = camera_orientation(x[0], x[1], x[2], x[3]);
-  if (!q) {
-    cache_.repaired(fmt::format(
-        "{}: orientation: expected a quaternion of length 1, got {} {} {} {}; the camera "
-        "is not used",
-        turn.place(), x[0], x[1], x[2], x[3]));
-    return;
-  }
+  const auto q = camera_orientation(Eigen::Vector4d(turn.numbers(4).data()),
+                                    turn.place() + ": orientation", cache_.options());
+  if (!q) return;
   Camera camera;
   camera.X_WC = {*q, element.expected("position").vector() * units::millimetre};
   if (const XmlElement focus = element.child("focalDistance"))

@@ -1,5 +1,7 @@
 #include "clench/io/text/number_reader.h"
 
+#include <fmt/ranges.h>
+
 namespace clench {
 
 bool NumberReader::more() {
@@ -48,6 +50,10 @@ void NumberReader::finish(const std::function<void(const std::string&)>& warn) {
 
 void warn_of_surplus(const Line& line, int used, const Listener& warn) {
   if (const std::string sentence = line.surplus(used); warn && !sentence.empty()) warn(sentence);
+}
+
+std::string listed(const Eigen::VectorXd& numbers) {
+  return fmt::format("{}", fmt::join(numbers, " "));
 }
 
 std::optional<Eigen::Quaterniond> made_unit(const Eigen::Vector4d& wxyz) {

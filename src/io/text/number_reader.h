@@ -41,6 +41,9 @@ class NumberReader {
 /// Warns when a line has more than the first `used` words, but for a comment that begins with '#'.
 void warn_of_surplus(const Line& line, int used, const Listener& warn);
 
+/// Numbers as a line holds them: "1 2.5 3".
+std::string listed(const Eigen::VectorXd& numbers);
+
 /// The quaternion made unit, kept to the bit when it is but for rounding; empty when near zero.
 std::optional<Eigen::Quaterniond> made_unit(const Eigen::Vector4d& wxyz);
 
