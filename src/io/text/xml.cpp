@@ -5,17 +5,63 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "clench/base/convert.h"
 #include "clench/base/suggest.h"
-#include "clench/io/text/xml_scan.h"
 
 namespace clench {
 
 namespace {
 
+// --- the text, before or instead of being parsed ---
+
 constexpr int deepest_nesting = 64;   // the parser calls itself for each
 constexpr int max_attributes = 1000;  // the parser compares each with all
+
+/// from 1
+int line_at(std::string_view text, size_t at) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + at, '\n'));
+}
+
+/// Past the end of what begins at `at` and is no element's tag: comment, CDATA, declaration; else
+/// 0.
+size_t skip_other(std::string_view text, size_t at) {
+  constexpr std::pair<std::string_view, std::string_view> others[] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
+  for (const auto& [begin, end] : others) {
+    if (!text.substr(at).starts_with(begin)) continue;
+    const size_t found = text.find(end, at + begin.size());
+    return found == std::string_view::npos ? text.size() : found + end.size();
+  }
+  return 0;
+}
+
+struct Tag {
+  size_t end = 0;  // of its '>', or of the text
+  int attributes = 0;
+  bool closed = false;
+};
+
+/// The tag that begins at `at`.
+Tag scan_tag(std::string_view text, size_t at) {
+  Tag tag;
+  char quote = 0;
+  for (tag.end = at + 1; tag.end < text.size(); ++tag.end) {
+    const char c = text[tag.end];
+    if (quote) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '=') {
+      ++tag.attributes;
+    } else if (c == '>') {
+      break;
+    }
+  }
+  tag.closed = tag.end < text.size() && text[tag.end - 1] == '/';
+  return tag;
+}
 
 /// Where '&' stands alone, which the parser garbles behind an entity. Those that a file declares
 /// itself it leaves as they stand: "&name;" would be a text.
