@@ -41,14 +41,16 @@ std::vector<int> first_at_place(const std::vector<Vector3d>& points, const Progr
   return first;
 }
 
-/// Vertex i becomes vertex to[i] <= i. Triangles left with a vertex twice go, and so do vertices
-/// that no triangle uses; the others keep their order.
-Surface with_vertices_merged(const Surface& from, const std::vector<int>& to) {
+/// Vertex i becomes vertex to[i] <= i. Triangles that are dropped or left with a vertex twice go,
+/// and so do vertices that no triangle uses; the others keep their order.
+/// dropped  one per triangle; empty: none
+Surface with_vertices_merged(const Surface& from, const std::vector<int>& to,
+                             const std::vector<char>& dropped = {}) {
   Surface out;
   for (size_t i = 0; i < from.mesh.triangles.size(); ++i) {
     const Triangle& t = from.mesh.triangles[i];
     const Triangle merged = {to[t[0]], to[t[1]], to[t[2]]};
-    if (repeats_a_vertex(merged)) continue;
+    if (repeats_a_vertex(merged) || (!dropped.empty() && dropped[i])) continue;
     out.mesh.triangles.push_back(merged);
     out.kept.push_back(from.kept[i]);
   }
@@ -65,10 +67,10 @@ Surface with_vertices_merged(const Surface& from, const std::vector<int>& to) {
   return out;
 }
 
-Surface without_unused_vertices(const Surface& from) {
+Surface without_unused_vertices(const Surface& from, const std::vector<char>& dropped = {}) {
   std::vector<int> same(from.mesh.vertices.size());
   std::iota(same.begin(), same.end(), 0);
-  return with_vertices_merged(from, same);
+  return with_vertices_merged(from, same, dropped);
 }
 
 void weld_places(Surface& s, bool always, const Progress& progress) {
@@ -101,15 +103,8 @@ void weld_seams(Surface& s, const Progress& progress) {
 
 /// Drops triangles if that leaves fewer faulty edges.
 void drop_if_better(Surface& s, const std::vector<char>& dropped, const Progress& progress) {
-  Surface rest;
-  rest.mesh.vertices = s.mesh.vertices;
-  for (size_t i = 0; i < s.mesh.triangles.size(); ++i) {
-    if (dropped[i]) continue;
-    rest.mesh.triangles.push_back(s.mesh.triangles[i]);
-    rest.kept.push_back(s.kept[i]);
-  }
+  Surface rest = without_unused_vertices(s, dropped);
   if (rest.mesh.triangles.empty()) return;
-  rest = without_unused_vertices(rest);
   rest.faults = find_faults(rest.mesh, progress);
   if (rest.faults.open_edges + rest.faults.tangled_edges <
       s.faults.open_edges + s.faults.tangled_edges)

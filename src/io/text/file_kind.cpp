@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <span>
 
 #include "clench/base/convert.h"
 #include "clench/base/file.h"
@@ -15,14 +15,15 @@ namespace {
 
 using Format = GeometryFormat;
 
-struct Ending {
+/// An ending, or the name of an outermost element.
+struct Mark {
   std::string_view text;
   FileKind kind;
   Format format = Format::none;
 };
 
 // a Lua file may hold anything; those that name a world return one
-constexpr Ending known_endings[] = {
+constexpr Mark known_endings[] = {
     {".wld", FileKind::world},
     {".lua", FileKind::world},
     {".cfg", FileKind::robot},
@@ -44,13 +45,8 @@ constexpr Ending known_endings[] = {
     {".dae", FileKind::body, Format::collada},
 };
 
-struct Root {
-  std::string_view text;
-  FileKind kind;
-};
-
 // the outermost element of a body is called as its author likes
-constexpr Root root_elements[] = {
+constexpr Mark root_elements[] = {
     {"world", FileKind::world},
     {"robot", FileKind::robot},
     {"mujoco", FileKind::robot},
@@ -58,10 +54,9 @@ constexpr Root root_elements[] = {
     {"virtual_contacts", FileKind::virtual_contacts},
 };
 
-template <class Entries>
-auto find(const Entries& entries, std::string_view text) {
-  const auto* found = std::ranges::find_if(entries, [&](const auto& e) { return e.text == text; });
-  return found == std::end(entries) ? nullptr : found;
+const Mark* find(std::span<const Mark> marks, std::string_view text) {
+  const auto found = std::ranges::find(marks, text, &Mark::text);
+  return found == marks.end() ? nullptr : &*found;
 }
 
 constexpr size_t max_numbers = 10'000'000;  // of a file that holds nothing else
@@ -158,10 +153,10 @@ FileKind file_kind(const std::filesystem::path& path) {
   const std::string ending = ending_of(path);
   if (ending == ".xml") {
     const std::string text = read_text(path);
-    const Root* root = find(root_elements, xml_root_name(text));
+    const Mark* root = find(root_elements, xml_root_name(text));
     return root ? root->kind : FileKind::body;
   }
-  if (const Ending* known = find(known_endings, ending)) return known->kind;
+  if (const Mark* known = find(known_endings, ending)) return known->kind;
   // any of these lists is whole in so many bytes
   if (const auto kind = kind_of_numbers(plain_text(read_start(path, size_t{4} << 20))))
     return *kind;
@@ -189,7 +184,7 @@ std::string ending_of(const std::filesystem::path& path) {
 }
 
 GeometryFormat geometry_format(std::string_view ending) {
-  const Ending* known = find(known_endings, ending);
+  const Mark* known = find(known_endings, ending);
   return known ? known->format : Format::none;
 }
 
@@ -199,7 +194,7 @@ bool is_inventor(const std::filesystem::path& path) {
 
 std::vector<std::string> geometry_endings() {
   std::vector<std::string> out;
-  for (const Ending& e : known_endings)
+  for (const Mark& e : known_endings)
     if (e.format != Format::none) out.emplace_back(e.text);
   return out;
 }
@@ -212,7 +207,7 @@ std::vector<std::string> body_endings() {
 
 std::vector<std::string> endings_of(GeometryFormat format) {
   std::vector<std::string> out;
-  for (const Ending& e : known_endings)
+  for (const Mark& e : known_endings)
     if (e.format == format) out.emplace_back(e.text);
   return out;
 }
