@@ -99,9 +99,10 @@ RobotSpec CfgReader::read() {
   return std::move(robot_);
 }
 
-/// What it is for is known to check_robot; until then its products must not overflow.
-static void check_size(const Line& line, double x, const std::string& what) {
-  if (const auto wrong = fault(number_rule, x); !wrong.empty()) line.fail("{}: {}", what, wrong);
+/// What a number is for is known to check_robot; until then its products must not overflow.
+static double in_bounds(double x, const char* what, const std::string& place) {
+  check(number_rule.called(what), x, place);
+  return x;
 }
 
 void CfgReader::read_dofs() {
@@ -111,14 +112,11 @@ void CfgReader::read_dofs() {
     const std::string place = fmt::format("{}: DOF {}", line.place(), i);
     DofSpec dof{.kind = dof_kind(line.word(0), place)};
     const auto number = [&](int k, const char* what) {
-      const std::string subject = fmt::format("DOF {}: {}", i, what);
       if (k > 2 && k >= line.size()) {
         repairs_.add("missing", fmt::format("{}: {} is missing; 0 is used", place, what));
         return 0.0;
       }
-      const double x = line.number(k, subject);
-      check_size(line, x, subject);
-      return x;
+      return in_bounds(line.number(k, fmt::format("DOF {}: {}", i, what)), what, place);
     };
     const auto magnitude = [&](int k, const char* what) {
       return repairs_.magnitude(number(k, what), fmt::format("{}: {}", place, what));
@@ -150,10 +148,9 @@ void CfgReader::read_chain(int number) {
 
 void CfgReader::read_joint(ChainLinks& chain, int number) {
   const Line line = expected(fmt::format("the line of joint {}", number));
+  const std::string place = fmt::format("{}: joint {}", line.place(), number);
   const auto value = [&](int i, const char* what) {
-    const double x = line.number(i, fmt::format("joint {}: {}", number, what));
-    check_size(line, x, fmt::format("joint {}: {}", number, what));
-    return x;
+    return in_bounds(line.number(i, fmt::format("joint {}: {}", number, what)), what, place);
   };
   JointSpec joint;
 
@@ -161,13 +158,11 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
   joint.kind = line.word(0).starts_with('d') ? JointKind::revolute : JointKind::prismatic;
   const bool revolute = joint.kind == JointKind::revolute;
   const std::string_view text = line.word(revolute ? 0 : 1);
-  const std::string place = fmt::format("{}: joint {}", line.place(), number);
   if (!revolute && !parse_joint_expression(text)) value(0, "theta");  // a word there is told first
   const auto [dof, ratio, offset] = expected_expression(text, joint.kind, dof_lines_.size(), place);
   joint.dof = dof;
   joint.ratio = ratio;
-  check_size(line, offset, fmt::format("joint {}: offset", number));
-  check_size(line, ratio, fmt::format("joint {}: ratio", number));
+  check_each(number_rule, {{"offset", offset}, {"ratio", ratio}}, place);
 
   const DenavitHartenberg numbers = {.theta = revolute ? offset : value(0, "theta"),
                                      .d = revolute ? value(1, "d") : offset,
