@@ -2,8 +2,7 @@
 
 #include "clench/base/text.h"
 #include "clench/io/graspit/body_xml.h"
-#include "clench/io/graspit/robot_cfg.h"
-#include "clench/io/graspit/robot_xml.h"
+#include "clench/io/graspit/graspit_readers.h"
 #include "clench/io/inventor/inventor.h"
 #include "clench/io/inventor/inventor_params.h"
 #include "clench/io/inventor/read_geometry.h"

@@ -6,9 +6,8 @@
 #include <set>
 
 #include "clench/base/text.h"
+#include "clench/io/graspit/graspit_readers.h"
 #include "clench/io/graspit/robot_files.h"
-#include "clench/io/graspit/world_wld.h"
-#include "clench/io/graspit/world_xml.h"
 #include "clench/io/load.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/text/file_errors.h"

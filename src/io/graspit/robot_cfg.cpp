@@ -1,4 +1,4 @@
-#include "clench/io/graspit/robot_cfg.h"
+#include "clench/io/graspit/graspit_readers.h"
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"

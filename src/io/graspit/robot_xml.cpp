@@ -1,4 +1,4 @@
-#include "clench/io/graspit/robot_xml.h"
+#include "clench/io/graspit/graspit_readers.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "clench/io/graspit/world_wld.h"
+#include "clench/io/graspit/graspit_readers.h"
 
 #include <algorithm>
 #include <iterator>

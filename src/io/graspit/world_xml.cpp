@@ -1,4 +1,4 @@
-#include "clench/io/graspit/world_xml.h"
+#include "clench/io/graspit/graspit_readers.h"
 
 #include "clench/base/units.h"
 #include "clench/io/graspit/body_xml.h"
