@@ -153,25 +153,22 @@ class Fields {
     const auto x = numbers(key, 3);
     return Vector3d::Map(x.data());
   }
-  std::map<std::string, double> named(const char* key) {
-    std::map<std::string, double> out;
-    const Json& object = get(key);
-    if (!object.is_object()) refuse(at(key), "an object of numbers", object);
-    for (const auto& [name, x] : object.items()) {
-      if (!x.is_number()) refuse(at(key) + "." + excerpt(name), "a number", x);
-      out[name] = x.get<double>();
-    }
-    return out;
+  bool boolean(const char* key) {
+    const Json& value = get(key);
+    if (!value.is_boolean()) refuse(at(key), "true or false", value);
+    return value.get<bool>();
   }
-  std::map<std::string, std::string> words(const char* key) {
-    std::map<std::string, std::string> out;
+  /// Numbers or strings by their names.
+  template <class T>
+  std::map<std::string, T> named(const char* key) {
+    constexpr bool texts = std::is_same_v<T, std::string>;
     const Json& object = get(key);
-    if (!object.is_object()) refuse(at(key), "an object of strings", object);
-    for (const auto& [name, x] : object.items()) {
-      if (!x.is_string()) refuse(at(key) + "." + excerpt(name), "a string", x);
-      out[name] = x.get<std::string>();
-    }
-    return out;
+    if (!object.is_object())
+      refuse(at(key), texts ? "an object of strings" : "an object of numbers", object);
+    for (const auto& [name, x] : object.items())
+      if (texts ? !x.is_string() : !x.is_number())
+        refuse(at(key) + "." + excerpt(name), texts ? "a string" : "a number", x);
+    return object.get<std::map<std::string, T>>();
   }
   std::string at(const char* key) const { return fmt::format("{}: {}", place_, key); }
   void done() const {
@@ -273,23 +270,18 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.gyration_radius = fields.positive("gyration_radius");
   out.options.edges = read_edges(fields);
   out.options.rho = out.rho;
-  const Json& soft = fields.get("soft");
-  if (!soft.is_boolean()) Fields::refuse(fields.at("soft"), "true or false", soft);
-  out.options.soft = soft.get<bool>();
+  out.options.soft = fields.boolean("soft");
   out.options.normal_force = fields.numbers("normal_force");
   const std::string modulus = fields.text("modulus", true);
   if (modulus != "series" && modulus != "larger")
     Fields::refuse(fields.at("modulus"), "'series' or 'larger'", fields.get("modulus"));
   out.options.modulus = modulus == "larger" ? ModulusRule::larger : ModulusRule::series;
-  out.measures = fields.named("measures");
-  out.info = fields.named("info");
-  if (fields.find("labels")) out.labels = fields.words("labels");
+  out.measures = fields.named<double>("measures");
+  out.info = fields.named<double>("info");
+  if (fields.find("labels")) out.labels = fields.named<std::string>("labels");
   if (const Json* pregrasp = fields.find("pregrasp"))
     out.pregrasp = read_pregrasp(*pregrasp, fields.at("pregrasp"));
-  if (const Json* free = fields.find("collision_free")) {
-    if (!free->is_boolean()) Fields::refuse(fields.at("collision_free"), "true or false", *free);
-    out.collision_free = free->get<bool>();
-  }
+  if (fields.find("collision_free")) out.collision_free = fields.boolean("collision_free");
   fields.done();
   return out;
 }
