@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
@@ -19,6 +20,12 @@ using Row = std::map<std::string, std::string>;
 
 static constexpr const char* pose_columns[] = {"x [m]", "y [m]", "z [m]", "qw", "qx", "qy", "qz"};
 
+static constexpr std::pair<const char*, std::string GraspSpec::*> text_columns[] = {
+    {"hand", &GraspSpec::hand_name},
+    {"object", &GraspSpec::object_name},
+    {"hand_file", &GraspSpec::hand_file},
+    {"object_file", &GraspSpec::object_file}};
+
 // --- writing ---
 
 static std::string text_cell(const std::string& text) { return text.empty() ? "" : csv_cell(text); }
@@ -28,20 +35,25 @@ static std::string note_cell(double x) {
   return x == std::floor(x) && std::abs(x) < 9e15 ? fmt::format("{:.0f}", x) : real_text(x);
 }
 
+/// Of each DOF, in their order.
+static std::vector<std::string> dof_columns(const GraspSpec& g) {
+  std::vector<std::string> out;
+  const auto names = dof_names_of(g);
+  for (size_t i = 0; i < g.dofs.size(); ++i)
+    out.push_back(
+        fmt::format("dof {} [{}]", names[i], i < g.dof_units.size() ? g.dof_units[i] : "rad or m"));
+  return out;
+}
+
 static Row row_of(const GraspSpec& g) {
-  Row row = {{"hand", text_cell(g.hand_name)},
-             {"object", text_cell(g.object_name)},
-             {"hand_file", text_cell(g.hand_file)},
-             {"object_file", text_cell(g.object_file)}};
+  Row row;
+  for (const auto& [name, text] : text_columns) row[name] = text_cell(g.*text);
   if (g.X_OH) {
     const auto numbers = pose_numbers(*g.X_OH);
     for (size_t i = 0; i < 7; ++i) row[pose_columns[i]] = real_text(numbers[i]);
   }
-  const auto names = dof_names_of(g);
-  for (size_t i = 0; i < g.dofs.size(); ++i) {
-    const std::string unit = i < g.dof_units.size() ? g.dof_units[i] : "rad or m";
-    row[fmt::format("dof {} [{}]", names[i], unit)] = real_text(g.dofs[i]);
-  }
+  const auto dofs = dof_columns(g);
+  for (size_t i = 0; i < dofs.size(); ++i) row[dofs[i]] = real_text(g.dofs[i]);
   for (const auto& [name, x] : g.measures)
     row[name == "epsilon" ? name : "measure " + name] = real_text(x);
   for (const auto& [name, x] : g.info) {
@@ -61,24 +73,18 @@ void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& pat
   std::vector<std::string> columns = {"hand",    "object", "planner",       "seed",
                                       "epsilon", "energy", "collision_free"};
   columns.insert(columns.end(), std::begin(pose_columns), std::end(pose_columns));
-  std::map<std::string, bool> known;
-  for (const auto& name : columns) known[name] = true;
+  std::set<std::string> known(columns.begin(), columns.end());
   // DOFs in their order; then the rest by name
-  for (const GraspSpec& g : grasps) {
-    const auto names = dof_names_of(g);
-    for (size_t i = 0; i < g.dofs.size(); ++i) {
-      const std::string unit = i < g.dof_units.size() ? g.dof_units[i] : "rad or m";
-      const std::string column = fmt::format("dof {} [{}]", names[i], unit);
-      if (known.try_emplace(column, true).second) columns.push_back(column);
-    }
-  }
+  for (const GraspSpec& g : grasps)
+    for (const std::string& column : dof_columns(g))
+      if (known.insert(column).second) columns.push_back(column);
   std::vector<Row> rows;
   for (const GraspSpec& g : grasps) rows.push_back(row_of(g));
-  std::map<std::string, bool> rest = {{"hand_file", true}, {"object_file", true}};
+  std::set<std::string> rest = {"hand_file", "object_file"};
   for (const Row& row : rows)
     for (const auto& [name, cell] : row)
-      if (!known.contains(name)) rest[name] = true;
-  for (const auto& [name, yes] : rest) columns.push_back(name);
+      if (!known.contains(name)) rest.insert(name);
+  columns.insert(columns.end(), rest.begin(), rest.end());
   std::string out;
   for (const auto& name : columns) out += (out.empty() ? "" : ",") + text_cell(name);
   out += '\n';
@@ -180,14 +186,10 @@ std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions&
                in_quotes(cell));
         return *x;
       };
-      if (column.name == "hand")
-        g.hand_name = cell;
-      else if (column.name == "object")
-        g.object_name = cell;
-      else if (column.name == "hand_file")
-        g.hand_file = cell;
-      else if (column.name == "object_file")
-        g.object_file = cell;
+      const auto text = std::ranges::find_if(
+          text_columns, [&](const auto& known) { return column.name == known.first; });
+      if (text != std::end(text_columns))
+        g.*text->second = cell;
       else if (column.name == "planner")
         g.labels["planner"] = cell;
       else if (column.kind == "label")
