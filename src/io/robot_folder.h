@@ -18,7 +18,6 @@ class RobotFolder {
 
   const std::string& file() const { return file_; }  ///< name shown in sentences
   const std::filesystem::path& path() const { return path_; }
-  const std::function<void(const std::string&)>& told() const { return warn_; }
   void warn(const std::string& sentence) const {
     if (warn_) warn_(sentence);
   }

@@ -4,11 +4,11 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/io/read.h"
+#include "clench/io/robot_folder.h"
 #include "clench/io/text/find_file.h"
 #include "clench/io/text/xml.h"
 #include "clench/io/tree/tree_model.h"
 #include "clench/io/urdf_clench_text.h"
-#include "clench/io/urdf_losses.h"
 #include "clench/io/urdf_plan.h"
 #include "clench/io/write_robot.h"
 #include "clench/math/rpy.h"
@@ -243,6 +243,19 @@ void UrdfText::beside_contacts(const std::string& text) {
   }
   const auto set = contact_set(robot_.name, chains_of(read), std::move(contacts));
   beside_.virtual_contacts = folder_.virtual_contacts(set);
+}
+
+/// Tells of what a URDF cannot hold.
+void report_losses(const RobotSpec& robot, const RobotFolder& folder) {
+  std::vector<char> moves(robot.dofs.size());
+  each_joint(robot, [&](const JointSpec& joint) { moves[joint.dof] = true; });
+  for (size_t d = 0; d < moves.size(); ++d)
+    if (!moves[d]) folder.lost(fmt::format("DOF {}, which moves no joint", d));
+  if (!robot.tactile.empty())
+    folder.lost(fmt::format("the {} tactile sensors", robot.tactile.size()));
+  if (!robot.tendons.empty() || !robot.wrappers.empty())
+    folder.lost(
+        fmt::format("the {} tendons and {} wrappers", robot.tendons.size(), robot.wrappers.size()));
 }
 
 /// Products of numbers that are in order may not be.
