@@ -281,21 +281,15 @@ static bool same(const std::optional<std::vector<VirtualContactSpec>>& a,
 /// Sets that the user gave the hand are written beside, and named by options.
 std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
   std::string out;
-  if (!same(now.eigengrasps, was.eigengrasps)) {
-    if (now.eigengrasps) {
-      const fs::path path = files_.write_beside(now.name + "_eigengrasps",
-                                                {{".xml", eigengrasps_xml(*now.eigengrasps)}});
-      out += ", eigengrasps = " + file(path.generic_string());
-    }
-  }
-  if (!same(now.virtual_contacts, was.virtual_contacts)) {
-    if (now.virtual_contacts) {
-      const auto set = contact_set(now.name, chains_of(now), *now.virtual_contacts);
-      const fs::path path = files_.write_beside(now.name + "_virtual_contacts",
-                                                {{".xml", virtual_contacts_xml(set)}});
-      out += ", virtual_contacts = " + file(path.generic_string());
-    }
-  }
+  const auto add = [&](const std::string& kind, const std::string& text) {
+    const fs::path path = files_.write_beside(now.name + "_" + kind, {{".xml", text}});
+    out += ", " + kind + " = " + file(path.generic_string());
+  };
+  if (now.eigengrasps && !same(now.eigengrasps, was.eigengrasps))
+    add("eigengrasps", eigengrasps_xml(*now.eigengrasps));
+  if (now.virtual_contacts && !same(now.virtual_contacts, was.virtual_contacts))
+    add("virtual_contacts",
+        virtual_contacts_xml(contact_set(now.name, chains_of(now), *now.virtual_contacts)));
   return out;
 }
 
