@@ -140,18 +140,14 @@ std::optional<int> Couplings::joint(const XmlValues& values, const char* attribu
         turns_of_balls_.push_back(turn->second);
     return {};
   }
-  std::vector<std::string> known;
-  for (const auto& [other, number] : numbers_) known.push_back(other);
-  values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, known));
+  values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, names_in(numbers_)));
 }
 
 const Tendon& Couplings::tendon(const XmlValues& values, const char* attribute) const {
   const std::string name = values.text(attribute);
   const auto found = tendons_.find(name);
   if (found != tendons_.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [other, t] : tendons_) known.push_back(other);
-  values.fail(attribute, "no tendon {}{}", in_quotes(name), did_you_mean(name, known));
+  values.fail(attribute, "no tendon {}{}", in_quotes(name), did_you_mean(name, names_in(tendons_)));
 }
 
 /// The joint at the end of the row of leaders; -1 when the row runs in a circle.
@@ -215,10 +211,10 @@ void Couplings::tie_joint(const XmlElement& element, const XmlValues& values) {
   c.resize(5);
   TreeJoint& tied = tree_.joints[follower];
   if (!values.has("joint2")) {
-    tied.min = tied.max = tied.start = tied.zero + c[0];
+    tied.min = tied.max = tied.motor.default_value = tied.zero + c[0];
     tied.endless = false;
     cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}, as the equality says",
-                            element.place(), excerpt(tied.name), tied.start,
+                            element.place(), excerpt(tied.name), tied.motor.default_value,
                             tied.kind == JointKind::revolute ? "rad" : "m"));
     return;
   }
@@ -289,7 +285,7 @@ void Couplings::take_control_range(const XmlElement& element, const XmlValues& v
   if (!joint.endless) low = std::max(joint.min, low), high = std::min(joint.max, high);
   if (low < high || (low == high && range[0] == range[1])) {
     joint.min = low, joint.max = high, joint.endless = false;
-    joint.start = std::clamp(joint.start, low, high);
+    joint.motor.default_value = std::clamp(joint.motor.default_value, low, high);
     if (low == high)
       cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
                               element.place(), excerpt(joint.name), low));
@@ -305,14 +301,15 @@ void Couplings::drive_joint(const XmlElement& element, const XmlValues& values, 
   driven_.push_back(number);
   const double gear = values.has("gear") ? values.numbers("gear", 1, 6)[0] : 1;
   if (gear == 0) return;
-  if (values.has("forcerange") && values.text("forcelimited", "auto") != "false") {
-    const auto range = values.numbers("forcerange", 2, 2);
-    joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
-  }
-  if (element.name() == "motor" && values.has("ctrlrange") && joint.effort == 0) {
-    const auto range = values.numbers("ctrlrange", 2, 2);
-    joint.effort = std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
-  }
+  const auto largest = [&](const char* name) {
+    const auto range = values.numbers(name, 2, 2);
+    return std::max(std::abs(range[0]), std::abs(range[1])) * std::abs(gear);
+  };
+  double& effort = joint.motor.max_effort;
+  if (values.has("forcerange") && values.text("forcelimited", "auto") != "false")
+    effort = largest("forcerange");
+  if (element.name() == "motor" && values.has("ctrlrange") && effort == 0)
+    effort = largest("ctrlrange");
   if (element.name() == "position") take_control_range(element, values, joint, gear);
 }
 
@@ -356,13 +353,14 @@ void Couplings::take_gains(const ActuatorSpec& servo, const Tendon* tendon) {
   if (tendon)
     for (const auto& [number, c] : tendon->joints)
       if (leader_of(number) == leader) reach += servo.gear * c * ratio(number);
-  TreeJoint& joint = tree_.joints[leader];
-  joint.kp += std::max(0.0, -servo.bias[1]) * reach * reach;
-  joint.kd += std::max(0.0, -servo.bias[2]) * reach * reach;
-  joint.damping_ratio = std::max(joint.damping_ratio, servo.damping_ratio);
+  DofSpec& motor = tree_.joints[leader].motor;
+  motor.kp += std::max(0.0, -servo.bias[1]) * reach * reach;
+  motor.kd += std::max(0.0, -servo.bias[2]) * reach * reach;
+  motor.damping_ratio = std::max(motor.damping_ratio, servo.damping_ratio);
   if (tendon && servo.force_range)
-    joint.effort = std::max(std::abs((*servo.force_range)[0]), std::abs((*servo.force_range)[1])) *
-                   std::abs(reach);
+    motor.max_effort =
+        std::max(std::abs((*servo.force_range)[0]), std::abs((*servo.force_range)[1])) *
+        std::abs(reach);
 }
 
 /// As a file says it, with how its force follows from control, length and velocity.
@@ -452,12 +450,12 @@ void Couplings::read_actuator(const XmlElement& element) {
 }
 
 void Couplings::mark_passive() {
-  for (auto& joint : tree_.joints) joint.driven = false;
+  for (auto& joint : tree_.joints) joint.motor.driven = false;
   for (const int number : driven_)
-    if (leader_of(number) >= 0) tree_.joints[leader_of(number)].driven = true;
+    if (leader_of(number) >= 0) tree_.joints[leader_of(number)].motor.driven = true;
   // of a model without actuators all joints may be meant to close
   if (!has_actuators_) return;
-  for (auto& joint : tree_.joints) joint.passive = !joint.driven;
+  for (auto& joint : tree_.joints) joint.passive = !joint.motor.driven;
   std::string names;
   int count = 0;
   for (const auto& joint : tree_.joints)

@@ -134,10 +134,8 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
 
 void MjcfDocument::check_class(const XmlElement& element, const std::string& name) const {
   if (name.empty() || class_numbers_.contains(name)) return;
-  std::vector<std::string> known;
-  for (const auto& [other, number] : class_numbers_) known.push_back(other);
   element.fail("{}: no default class {}{}", excerpt(element.name()), in_quotes(name),
-               did_you_mean(name, known));
+               did_you_mean(name, names_in(class_numbers_)));
 }
 
 XmlValues MjcfDocument::values(const XmlElement& element, const std::string& child_class,

@@ -106,11 +106,8 @@ std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
 std::shared_ptr<const Geometry> MjcfGeoms::mesh(const XmlValues& geom, bool collides) {
   const std::string name = geom.text("mesh");
   const auto found = meshes_.find(name);
-  if (found == meshes_.end()) {
-    std::vector<std::string> known;
-    for (const auto& [other, asset] : meshes_) known.push_back(other);
-    geom.fail("mesh", "no mesh {}{}", in_quotes(name), did_you_mean(name, known));
-  }
+  if (found == meshes_.end())
+    geom.fail("mesh", "no mesh {}{}", in_quotes(name), did_you_mean(name, names_in(meshes_)));
   Asset& asset = found->second;
   try {
     return read_mesh(asset);
@@ -155,20 +152,12 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
     length = document_.repairs().magnitude(length, values.subject("size"));
   for (size_t i = 0; i < expected; ++i)
     if (!(size[i] > 0)) values.fail("size", "expected lengths > 0, got {}", size[i]);
-  std::string name = type;
-  for (size_t i = 0; i < expected; ++i) name += fmt::format(" {}", size[i]);
-  Mesh mesh = type == "sphere"     ? capsule_mesh(size[0], 0)
-              : type == "capsule"  ? capsule_mesh(size[0], 2 * size[1])
-              : type == "cylinder" ? cylinder_mesh(size[0], 2 * size[1])
-              : type == "box"      ? box_mesh(2 * Eigen::Vector3d(size[0], size[1], size[2]))
-                                   : ellipsoid_mesh({size[0], size[1], size[2]});
-  geom.piece.geometry = geometry_.made(name, std::move(mesh));
-  if (type == "capsule" || type == "cylinder")
-    geom.piece.solid = type == "capsule" ? capsule_solid(size[0], 2 * size[1])
-                                         : cylinder_solid(size[0], 2 * size[1]);
-  else if (type != "box")
-    geom.piece.solid =
-        type == "sphere" ? capsule_solid(size[0], 0) : ellipsoid_solid({size[0], size[1], size[2]});
+  // half sizes, but for radii
+  size.resize(expected);
+  if (round) size[1] *= 2;
+  if (type == "box")
+    for (double& length : size) length *= 2;
+  geom.piece = geometry_.primitive(type, size);
 }
 
 // a plane has no end and no thickness

@@ -13,32 +13,10 @@ constexpr int max_key_numbers = 100'000;
 // followers are off by so much where a simulation had settled [rad or m]
 constexpr double settled = 0.01;
 
-class KeyReader {
- public:
-  KeyReader(const XmlValues& values, const FileCache& cache, const WorldSpec& world)
-      : values_(values), cache_(cache), world_(world) {}
-  KeyframeSpec read(const std::vector<SceneBody>& bodies, const std::string& name);
-
- private:
-  Pose pose_at(const std::vector<double>& numbers, size_t at, const char* attribute) const;
-  void add_robot(const SceneBody& body, const Pose& X_WB, const double* q);
-
-  const XmlValues& values_;
-  const FileCache& cache_;
-  const WorldSpec& world_;
-  KeyframeSpec out_;
-};
-
 Eigen::Quaterniond turn_at(const XmlValues& values, const char* attribute, const double* wxyz) {
   const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   if (!(q.norm() > 1e-9)) values.fail(attribute, "expected a quaternion, got zeros");
   return q.normalized();
-}
-
-Pose KeyReader::pose_at(const std::vector<double>& numbers, size_t at,
-                        const char* attribute) const {
-  return {turn_at(values_, attribute, &numbers[at + 3]),
-          {numbers[at], numbers[at + 1], numbers[at + 2]}};
 }
 
 /// Angles about x, y and z, one after the other: R = Rx(a) Ry(b) Rz(c). Where b is a right angle, a
@@ -53,10 +31,11 @@ Eigen::Vector3d three_turns(const Eigen::Quaterniond& q) {
           std::atan2(cos_a * R(1, 0) + sin_a * R(2, 0), cos_a * R(1, 1) + sin_a * R(2, 1))};
 }
 
-/// q  one per joint
-void KeyReader::add_robot(const SceneBody& body, const Pose& X_WB, const double* q) {
-  const RobotSpec& robot = world_.robots[body.robot].robot;
-  std::vector<double> dofs, moved;
+/// Values of the DOFs of a robot whose joints are at q.
+std::vector<double> dofs_of(const SceneBody& body, const RobotSpec& robot,
+                            const std::vector<double>& q, const XmlValues& values,
+                            const FileCache& cache) {
+  std::vector<double> dofs;
   for (size_t j = 0; j < body.joints.size(); ++j) {
     const TreeJoint& joint = body.joints[j];
     if (joint.leader < 0) {
@@ -64,55 +43,60 @@ void KeyReader::add_robot(const SceneBody& body, const Pose& X_WB, const double*
       const auto [low, high] = dof_range(robot, dof);
       dofs.push_back(dof_is_endless(robot, dof) ? q[j] : std::clamp(q[j], low, high));
       if (std::abs(dofs.back() - q[j]) > 1e-6)
-        cache_.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
-                                    values_.subject("qpos"), excerpt(joint.name), q[j], low, high));
+        cache.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
+                                   values.subject("qpos"), excerpt(joint.name), q[j], low, high));
     } else if (std::abs(joint.ratio * q[joint.leader] + joint.offset - q[j]) > settled) {
-      cache_.warn(fmt::format(
+      cache.warn(fmt::format(
           "{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
           "follows",
-          values_.subject("qpos"), excerpt(joint.name), excerpt(body.joints[joint.leader].name),
+          values.subject("qpos"), excerpt(joint.name), excerpt(body.joints[joint.leader].name),
           q[j], joint.ratio * q[joint.leader] + joint.offset));
     }
   }
-  out_.robots.push_back({body.robot, X_WB, std::move(dofs)});
+  return dofs;
 }
 
-KeyframeSpec KeyReader::read(const std::vector<SceneBody>& bodies, const std::string& name) {
-  out_.name = name;
-  const bool given = values_.has("qpos"), moves = values_.has("mpos"), turns = values_.has("mquat");
-  const auto qpos = given ? values_.numbers("qpos", 1, max_key_numbers) : std::vector<double>();
+KeyframeSpec read_key(const XmlValues& values, const std::vector<SceneBody>& bodies,
+                      const std::string& name, const FileCache& cache, const WorldSpec& world) {
+  KeyframeSpec out;
+  out.name = name;
+  const bool given = values.has("qpos"), moves = values.has("mpos"), turns = values.has("mquat");
+  const auto qpos = given ? values.numbers("qpos", 1, max_key_numbers) : std::vector<double>();
   const int mocaps = static_cast<int>(std::ranges::count_if(bodies, &SceneBody::mocap));
-  const auto mpos = moves ? values_.numbers("mpos", 3 * mocaps, 3 * mocaps) : std::vector<double>();
+  const auto mpos = moves ? values.numbers("mpos", 3 * mocaps, 3 * mocaps) : std::vector<double>();
   const auto mquat =
-      turns ? values_.numbers("mquat", 4 * mocaps, 4 * mocaps) : std::vector<double>();
+      turns ? values.numbers("mquat", 4 * mocaps, 4 * mocaps) : std::vector<double>();
   size_t at = 0, mocap = 0;
   for (const SceneBody& body : bodies) {
     Pose X_WB = body.X_WB;
     if (body.mocap && moves) X_WB.position = Eigen::Vector3d::Map(&mpos[3 * mocap]);
-    if (body.mocap && turns) X_WB.rotation = turn_at(values_, "mquat", &mquat[4 * mocap]);
+    if (body.mocap && turns) X_WB.rotation = turn_at(values, "mquat", &mquat[4 * mocap]);
     mocap += body.mocap;
     // a free body's place stands first
-    if (body.free && given) X_WB = pose_at(qpos, at, "qpos");
+    if (body.free && given)
+      X_WB = {turn_at(values, "qpos", &qpos[at + 3]), Eigen::Vector3d::Map(&qpos[at])};
     if (body.free) at += 7;
     for (const auto& part : body.bodies)
-      if (body.free || body.mocap) out_.bodies.push_back({part.body, X_WB * part.X_SB});
+      if (body.free || body.mocap) out.bodies.push_back({part.body, X_WB * part.X_SB});
     if (body.robot < 0) continue;
     std::vector<double> q;
-    for (const TreeJoint& joint : body.joints) q.push_back(joint.start);
+    for (const TreeJoint& joint : body.joints) q.push_back(joint.motor.default_value);
     for (const auto& slots : body.slots)
       for (const QposSlot& slot : slots) {
         if (slot.kind == QposSlot::Kind::joint) {
           if (given) q[slot.joint] = qpos[at];
         } else if (slot.kind == QposSlot::Kind::ball && given) {
-          const Eigen::Vector3d turn = three_turns(turn_at(values_, "qpos", &qpos[at]));
+          const Eigen::Vector3d turn = three_turns(turn_at(values, "qpos", &qpos[at]));
           std::copy(turn.begin(), turn.end(), q.begin() + slot.joint);
         }
         if (slot.kind != QposSlot::Kind::free) at += slot.size();
       }
     const bool on_world = !body.free && !body.mocap;
-    add_robot(body, on_world ? world_.robots[body.robot].X_WB : X_WB, q.data());
+    const PlacedRobot& placed = world.robots[body.robot];
+    out.robots.push_back(
+        {body.robot, on_world ? placed.X_WB : X_WB, dofs_of(body, placed.robot, q, values, cache)});
   }
-  return std::move(out_);
+  return out;
 }
 
 /// How many numbers a row has.
@@ -165,7 +149,7 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
                                          node->element.place(), excerpt(name)));
       continue;
     }
-    world.keyframes.push_back(KeyReader(values, cache, world).read(bodies, name));
+    world.keyframes.push_back(read_key(values, bodies, name, cache, world));
   }
 }
 

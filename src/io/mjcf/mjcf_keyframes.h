@@ -11,7 +11,6 @@ struct SceneBody {
     int body = 0;  ///< into WorldSpec::bodies
     Pose X_SB;     ///< in the scene's body
   };
-  std::string name;
   Pose X_WB;  ///< as the file places it
   bool free = false, mocap = false;
   int robot = -1;                            ///< into WorldSpec::robots

@@ -283,7 +283,6 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
 
 void SceneReader::add_body(const TopBody& body) {
   SceneBody scene;
-  scene.name = body.name;
   scene.mocap = body.mocap;
   scene.X_WB = body.X_frame * model_.document().pose(XmlValues(body.node->element));
   if (body.joints > 0)
@@ -330,10 +329,8 @@ void SceneReader::exclude() {
         pair[i] = found->second;
       known = known && found != by_name_.end();
     }
-    const bool one_robot = pair[0].kind == WorldEntry::Kind::robot &&
-                           pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
     const bool one = pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
-    if (known && !one && !one_robot) world_.never_meet.push_back(pair);
+    if (known && !one) world_.never_meet.push_back(pair);
   }
 }
 

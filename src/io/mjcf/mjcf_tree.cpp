@@ -218,7 +218,7 @@ void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int l
   const int number = static_cast<int>(tree_.model.joints.size());
   joint.name = own_name(element, joint.name, tree_.joints);
   tree_.joints[joint.name] = number;
-  joint.start = std::clamp(joint.zero, joint.min, joint.max);
+  joint.motor.default_value = std::clamp(joint.zero, joint.min, joint.max);
   tree_.model.joints.push_back(std::move(joint));
   tree_.model.links[link].joints.push_back(number);
 }

@@ -3,6 +3,7 @@
 #include "clench/base/error.h"
 #include "clench/io/inventor/read_geometry.h"
 #include "clench/io/text/file_cache.h"
+#include "clench/io/tree/tree_shapes.h"
 
 namespace clench {
 
@@ -27,6 +28,28 @@ std::shared_ptr<const Geometry> TreeGeometry::made(const std::string& name, Mesh
   Geometry geometry;
   geometry.mesh = std::move(mesh);
   return found = std::make_shared<const Geometry>(std::move(geometry));
+}
+
+GeometryPiece TreeGeometry::primitive(const std::string& kind, const std::vector<double>& sizes) {
+  GeometryPiece out;
+  Mesh mesh;
+  if (kind == "box") {
+    mesh = box_mesh({sizes[0], sizes[1], sizes[2]});
+  } else if (kind == "ellipsoid") {
+    mesh = ellipsoid_mesh({sizes[0], sizes[1], sizes[2]});
+    out.solid = ellipsoid_solid({sizes[0], sizes[1], sizes[2]});
+  } else if (kind == "cylinder") {
+    mesh = cylinder_mesh(sizes[0], sizes[1]);
+    out.solid = cylinder_solid(sizes[0], sizes[1]);
+  } else {
+    const double length = kind == "sphere" ? 0 : sizes[1];
+    mesh = capsule_mesh(sizes[0], length);
+    out.solid = capsule_solid(sizes[0], length);
+  }
+  std::string name = kind;
+  for (const double size : sizes) name += fmt::format(" {}", size);
+  out.geometry = made(name, std::move(mesh));
+  return out;
 }
 
 MassProperties solid_of(const GeometryPiece& piece) {

@@ -39,6 +39,9 @@ class TreeGeometry {
   std::shared_ptr<const Geometry> file(const std::filesystem::path& path);
   /// A mesh made by a formula, kept under its name.
   std::shared_ptr<const Geometry> made(const std::string& name, Mesh mesh);
+  /// A box of three edges, an ellipsoid of three radii, a sphere of its radius, or a capsule or
+  /// cylinder about z of radius and length [m].
+  GeometryPiece primitive(const std::string& kind, const std::vector<double>& sizes);
 
   struct Body {
     ShapePtr shape;  ///< null: no pieces

@@ -11,25 +11,16 @@
 
 namespace clench {
 
-/// One revolute or prismatic joint. q = ratio * leader + offset when it follows another.
-struct TreeJoint {
-  std::string name;
-  std::string place;  ///< "hand.urdf:31", for sentences
-  JointKind kind = JointKind::revolute;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< unit, in the frame before it
+/// A joint as its file gives it: q = ratio * leader + offset when it follows another. Its axis
+/// stands in the frame before it.
+struct TreeJoint : JointSpec {
+  std::string place;                                 ///< "hand.urdf:31", for sentences
+  DofSpec motor;                                     ///< what a leader's DOF becomes
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
   double zero = 0;                                   ///< q at which it changes no pose [rad or m]
-  double min = 0, max = 0;                           ///< [rad or m]
-  bool endless = false;                              ///< as JointSpec
-  double effort = 0, velocity = 0;                   ///< largest; 0: not known
-  double viscous = 0, coulomb = 0, spring = 0, rest = 0;  ///< as JointSpec
-  double armature = 0;                                    ///< likewise
-  double kp = 0, kd = 0, damping_ratio = 0;               ///< as DofSpec
-  double start = 0;                                       ///< value of a leader at first [rad or m]
-  bool passive = false;                                   ///< no motor closes it
-  bool driven = true;                                     ///< as DofSpec
-  int leader = -1;  ///< index into joints; -1: a DOF of its own
-  double ratio = 1, offset = 0;
+  bool passive = false;                              ///< no motor closes it
+  int leader = -1;                                   ///< index into joints; -1: a DOF of its own
+  double offset = 0;
 };
 
 /// frame = parent's frame * X_PL * joints, in their order

@@ -44,16 +44,8 @@ void RobotMaker::number_dofs() {
   for (const TreeJoint& joint : tree_.joints) {
     dof_of_.push_back(joint.leader < 0 ? static_cast<int>(robot_.dofs.size()) : -1);
     if (joint.leader >= 0) continue;
-    DofSpec dof;
-    dof.name = joint.name;
-    dof.max_effort = joint.effort;
-    dof.max_velocity = joint.velocity;
-    dof.kp = joint.kp;
-    dof.kd = joint.kd;
-    dof.damping_ratio = joint.damping_ratio;
-    dof.default_value = joint.start;
-    dof.driven = joint.driven;
-    robot_.dofs.push_back(dof);
+    robot_.dofs.push_back(joint.motor);
+    robot_.dofs.back().name = joint.name;
     passive_.push_back(joint.passive);
   }
 }
@@ -107,25 +99,14 @@ void RobotMaker::widen_followers() {
 JointSpec RobotMaker::joint_spec(const TreeJoint& joint, const Pose& before) const {
   const int leader =
       joint.leader < 0 ? static_cast<int>(&joint - tree_.joints.data()) : joint.leader;
-  const double offset = joint.leader < 0 ? 0 : joint.offset;
-  JointSpec spec;
-  spec.name = joint.name;
-  spec.kind = joint.kind;
-  spec.axis = joint.axis;
+  JointSpec spec = joint;
   spec.dof = dof_of_[leader];
-  spec.ratio = joint.leader < 0 ? 1 : joint.ratio;
   spec.X_PJ = before;
   if (!joint.anchor.isZero(0)) spec.X_PJ = spec.X_PJ * Pose::translation(joint.anchor);
   // what is constant of q goes into the frame, and is no part of the limits
-  if (offset != joint.zero) spec.X_PJ = spec.X_PJ * joint_motion(spec, offset - joint.zero);
-  spec.min = joint.min - offset;
-  spec.max = joint.max - offset;
-  spec.endless = joint.endless;
-  spec.viscous = joint.viscous;
-  spec.coulomb = joint.coulomb;
-  spec.armature = joint.armature;
-  spec.spring = joint.spring;
-  spec.rest = joint.rest - offset;
+  if (joint.offset != joint.zero)
+    spec.X_PJ = spec.X_PJ * joint_motion(spec, joint.offset - joint.zero);
+  for (double* q : {&spec.min, &spec.max, &spec.rest}) *q -= joint.offset;
   return spec;
 }
 

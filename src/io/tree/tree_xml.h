@@ -17,6 +17,14 @@ namespace clench {
 
 class UnusedXml;
 
+/// Names by which a map knows its entries, to suggest one of.
+template <class Map>
+std::vector<std::string> names_in(const Map& map) {
+  std::vector<std::string> out;
+  for (const auto& [name, entry] : map) out.push_back(name);
+  return out;
+}
+
 /// Attributes of an element and, behind it, of others that say what it leaves open: the nearest
 /// that has an attribute gives it. All throw Error with place, element, attribute, expected and
 /// got.

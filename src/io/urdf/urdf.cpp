@@ -8,7 +8,6 @@
 #include "clench/base/suggest.h"
 #include "clench/io/tree/tree_links.h"
 #include "clench/io/tree/tree_robot.h"
-#include "clench/io/tree/tree_shapes.h"
 #include "clench/io/tree/tree_xml.h"
 #include "clench/io/urdf/urdf_clench.h"
 #include "clench/io/urdf/urdf_files.h"
@@ -162,39 +161,27 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
     if (!(length > 0)) values.fail(name, "expected a length > 0, got {}", length);
     return length;
   };
-  GeometryPiece piece;
-  const auto made = [&](const std::string& name, Mesh mesh) {
-    piece.geometry = geometry_.made(name, std::move(mesh));
-  };
   if (kind == "box") {
-    auto s = values.numbers("size", 3, 3);
-    for (double& x : s) {
+    auto edges = values.numbers("size", 3, 3);
+    for (double& x : edges) {
       x = repairs_.magnitude(x, values.subject("size"));
       if (!(x > 0)) values.fail("size", "expected lengths > 0, got {}", x);
     }
-    made(fmt::format("box {} {} {}", s[0], s[1], s[2]), box_mesh({s[0], s[1], s[2]}));
-  } else if (kind == "sphere") {
-    const double r = positive("radius");
-    made(fmt::format("capsule {} 0", r), capsule_mesh(r, 0));
-    piece.solid = capsule_solid(r, 0);
-  } else if (kind == "cylinder" || kind == "capsule") {
-    const double r = positive("radius"), l = positive("length");
-    made(fmt::format("{} {} {}", kind, r, l),
-         kind == "cylinder" ? cylinder_mesh(r, l) : capsule_mesh(r, l));
-    piece.solid = kind == "cylinder" ? cylinder_solid(r, l) : capsule_solid(r, l);
-  } else {
-    piece.scale = values.vec3("scale", {1, 1, 1});
-    if (piece.scale.cwiseAbs().minCoeff() == 0)
-      values.fail("scale", "expected factors other than 0");
-    const std::string name = values.text("filename");
-    try {
-      piece.geometry = geometry_.file(find_robot_file(name, path_, cache_.options()));
-    } catch (const Error& error) {
-      // what is only looked at may be missing
-      if (!visual) shape.fail("mesh: {}", error.what());
-      warn(shape, fmt::format("mesh: {}; it is not drawn", error.what()));
-      return {};
-    }
+    return geometry_.primitive(kind, edges);
+  }
+  if (kind == "sphere") return geometry_.primitive(kind, {positive("radius")});
+  if (kind != "mesh") return geometry_.primitive(kind, {positive("radius"), positive("length")});
+  GeometryPiece piece;
+  piece.scale = values.vec3("scale", {1, 1, 1});
+  if (piece.scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "expected factors other than 0");
+  const std::string name = values.text("filename");
+  try {
+    piece.geometry = geometry_.file(find_robot_file(name, path_, cache_.options()));
+  } catch (const Error& error) {
+    // what is only looked at may be missing
+    if (!visual) shape.fail("mesh: {}", error.what());
+    warn(shape, fmt::format("mesh: {}; it is not drawn", error.what()));
+    return {};
   }
   return piece;
 }
@@ -272,9 +259,8 @@ int UrdfReader::link_of(const XmlElement& joint, const char* end) const {
   const std::string name = element.expected_attribute("link");
   const auto found = link_numbers_.find(name);
   if (found != link_numbers_.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [link, number] : link_numbers_) known.push_back(link);
-  element.fail("{}: no link {}{}", end, in_quotes(name), did_you_mean(name, known));
+  element.fail("{}: no link {}{}", end, in_quotes(name),
+               did_you_mean(name, names_in(link_numbers_)));
 }
 
 void UrdfReader::read_joint_names(const XmlElement& element) {
@@ -377,8 +363,8 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
       const double value = values.not_negative(name, 0, repairs_);
       return value < unlimited ? value : 0;
     };
-    joint.effort = limit("effort");
-    joint.velocity = limit("velocity");
+    joint.motor.max_effort = limit("effort");
+    joint.motor.max_velocity = limit("velocity");
     const bool given = from.type != "continuous" && (values.has("lower") || values.has("upper"));
     const double low = given ? values.number("lower", 0) : -unlimited,
                  high = given ? values.number("upper", 0) : unlimited;
@@ -403,7 +389,7 @@ TreeJoint UrdfReader::read_joint(const FileJoint& from) {
   joint.kind = from.type == "prismatic" ? JointKind::prismatic : JointKind::revolute;
   read_axis(from, joint);
   read_limits(from, joint);
-  joint.start = std::clamp(0.0, joint.min, joint.max);
+  joint.motor.default_value = std::clamp(0.0, joint.min, joint.max);
   if (const XmlElement dynamics = from.element.child("dynamics")) {
     unused_.attributes(dynamics, {"damping", "friction"});
     joint.viscous = XmlValues(dynamics).not_negative("damping", 0, repairs_);
@@ -424,12 +410,9 @@ void UrdfReader::read_mimics() {
     const XmlValues values(mimic);
     const std::string name = values.text("joint");
     const auto leader = joint_numbers_.find(name);
-    if (leader == joint_numbers_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [joint, number] : joint_numbers_) known.push_back(joint);
+    if (leader == joint_numbers_.end())
       mimic.fail("joint '{}': mimic: no joint that moves is called {}{}", excerpt(from.name),
-                 in_quotes(name), did_you_mean(name, known));
-    }
+                 in_quotes(name), did_you_mean(name, names_in(joint_numbers_)));
     TreeJoint& joint = tree_.joints[self->second];
     joint.leader = leader->second;
     joint.ratio = values.number("multiplier", 1);

@@ -121,7 +121,7 @@ void ClenchReader::read_dof(const XmlElement& element) {
   dof.damping_ratio = checked(values, "damping_ratio", 0, not_negative_rule);
   dof.breakaway_torque = checked(values, "breakaway", 0, not_negative_rule);
   dof.dragger_scale = checked(values, "handle", 0, number_rule);
-  dof.driven = values.word("driven", {"true", "false"}, "true") == "true";
+  dof.driven = values.boolean("driven", true);
   dof.default_value = checked(values, "start", dof.default_value, limit_rule);
 }
 
