@@ -157,25 +157,25 @@ TEST_CASE("constraints are 0 where they hold and grow with how far they do not")
   scene.world.set_pose(scene.hand, Pose::translation({0, 0, 0.5}));
   const Vector3d z =
       (scene.world.pose(scene.robot().base) * scene.robot().X_BA).rotation * Vector3d::UnitZ();
-  CHECK(ApproachCone(scene.hand, z, 0.1).value(scene.world) == 0);
-  CHECK(ApproachCone(scene.hand, -z, 0.1).value(scene.world) ==
+  CHECK(approach_cone_energy(scene.hand, z, 0.1)->value(scene.world) == 0);
+  CHECK(approach_cone_energy(scene.hand, -z, 0.1)->value(scene.world) ==
         doctest::Approx(std::numbers::pi - 0.1));
-  CHECK(ReachEnergy(scene.hand, {0, 0, 0.5}, 10).value(scene.world) == 0);
+  CHECK(reach_energy(scene.hand, {0, 0, 0.5}, 10)->value(scene.world) == 0);
   const Vector3d at = (scene.world.pose(scene.robot().base) * scene.robot().X_BA).position;
-  CHECK(ReachEnergy(scene.hand, at + Vector3d(0, 0.3, 0), 0.1).value(scene.world) ==
+  CHECK(reach_energy(scene.hand, at + Vector3d(0, 0.3, 0), 0.1)->value(scene.world) ==
         doctest::Approx(200));
-  CHECK(KeepOutBox(scene.hand, {}, {5, 5, 5}, {6, 6, 6}).value(scene.world) == 0);
+  CHECK(keep_out_energy(scene.hand, {}, {5, 5, 5}, {6, 6, 6})->value(scene.world) == 0);
   // a half space that the whole hand is in
-  CHECK(KeepOutBox(scene.hand, {}, {-5, -5, -5}, {5, 5, 0.6}).value(scene.world) > 100);
-  CHECK(PenetrationEnergy(scene.world, scene.hand).value(scene.world) == 0);
-  CHECK_THROWS_WITH_AS(ApproachCone(scene.hand, {0, 0, 0}, 0.1),
+  CHECK(keep_out_energy(scene.hand, {}, {-5, -5, -5}, {5, 5, 0.6})->value(scene.world) > 100);
+  CHECK(penetration_energy(scene.world, scene.hand)->value(scene.world) == 0);
+  CHECK_THROWS_WITH_AS(approach_cone_energy(scene.hand, {0, 0, 0}, 0.1),
                        "energy: axis: expected a direction", Error);
-  CHECK_THROWS_WITH_AS(ApproachCone(scene.hand, z, 4),
+  CHECK_THROWS_WITH_AS(approach_cone_energy(scene.hand, z, 4),
                        "energy: angle must lie in [0, pi] rad, got 4", Error);
-  CHECK_THROWS_WITH_AS(ReachEnergy(scene.hand, z, -1), "energy: radius must be >= 0 [m], got -1",
+  CHECK_THROWS_WITH_AS(reach_energy(scene.hand, z, -1), "energy: radius must be >= 0 [m], got -1",
                        Error);
-  CHECK_THROWS_AS(KeepOutBox(scene.hand, {}, {1, 0, 0}, {0, 1, 1}), Error);
-  CHECK_THROWS_WITH_AS(PenetrationEnergy(scene.world, scene.hand, 0),
+  CHECK_THROWS_AS(keep_out_energy(scene.hand, {}, {1, 0, 0}, {0, 1, 1}), Error);
+  CHECK_THROWS_WITH_AS(penetration_energy(scene.world, scene.hand, 0),
                        "energy: points: expected 1 to 10000, got 0", Error);
 }
 
@@ -189,17 +189,17 @@ TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   const auto parts = scene.world.bodies_of(scene.hand);
   const double gap = distance(scene.world, parts, std::array{floor}).distance;
   REQUIRE(gap > 0.1);
-  CHECK(ClearanceEnergy(who, gap - 0.01).value(scene.world) == 0);
-  CHECK(ClearanceEnergy(who, gap + 0.01).value(scene.world) == doctest::Approx(10));
-  CHECK_THROWS_WITH_AS(ClearanceEnergy(who, -1), "energy: distance must be >= 0 [m], got -1",
+  CHECK(clearance_energy(who, gap - 0.01)->value(scene.world) == 0);
+  CHECK(clearance_energy(who, gap + 0.01)->value(scene.world) == doctest::Approx(10));
+  CHECK_THROWS_WITH_AS(clearance_energy(who, -1), "energy: distance must be >= 0 [m], got -1",
                        Error);
   // sunk into the floor's top by 5 mm
-  PenetrationEnergy penetration(scene.world, scene.hand, 2000);
+  const EnergyPtr penetration = penetration_energy(scene.world, scene.hand, 2000);
   const Pose X = scene.world.pose(scene.robot().base);
   scene.world.set_pose(scene.object, Pose::translation({3, 0, 0}));
   scene.world.set_pose(scene.hand, Pose{X.rotation, X.position - Vector3d(0, 0, gap + 0.005)});
   // the deepest of its points, and a thousandth for the pairs
-  CHECK(penetration.value(scene.world) > 4.9);
+  CHECK(penetration->value(scene.world) > 4.9);
 }
 
 TEST_CASE("energies of 600 states of Barrett and mug are the original's") {

@@ -1,7 +1,6 @@
 #include "clench/planning/energy/constraint_energy.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,73 +16,60 @@ static Pose approach_pose(const World& world, Id<Robot> hand) {
   return world.pose(robot.base) * robot.X_BA;
 }
 
-// --- ApproachCone ---
-
-ApproachCone::ApproachCone(Id<Robot> hand, const Vector3d& axis, double max_angle)
-    : hand_(hand), axis_(axis.stableNormalized()), max_angle_(max_angle) {
+EnergyPtr approach_cone_energy(Id<Robot> hand, const Vector3d& axis, double max_angle) {
   if (!axis.allFinite() || axis.isZero(0)) fail("energy: axis: expected a direction");
   if (!(max_angle >= 0 && max_angle <= std::numbers::pi))
     fail("energy: angle must lie in [0, pi] rad, got {}", max_angle);
+  return std::make_unique<PlainEnergy>(
+      [hand, unit = Vector3d(axis.stableNormalized()), max_angle](const World& world) {
+        const Vector3d z = turned(approach_pose(world, hand).rotation, Vector3d::UnitZ());
+        const double angle = std::atan2(z.cross(unit).norm(), z.dot(unit));
+        return std::max(0.0, angle - max_angle);
+      });
 }
 
-double ApproachCone::bounded_value(World& world, double) {
-  const Vector3d z = turned(approach_pose(world, hand_).rotation, Vector3d::UnitZ());
-  const double angle = std::atan2(z.cross(axis_).norm(), z.dot(axis_));
-  return std::max(0.0, angle - max_angle_);
-}
-
-// --- KeepOutBox ---
-
-KeepOutBox::KeepOutBox(Id<Robot> hand, const Pose& X_WK, const Vector3d& low, const Vector3d& high)
-    : hand_(hand), X_KW_(X_WK.inverse()), low_(low), high_(high) {
+EnergyPtr keep_out_energy(Id<Robot> hand, const Pose& X_WK, const Vector3d& low,
+                          const Vector3d& high) {
   if (!X_WK.is_finite() || !((low.array() <= high.array()).all()))
     fail("energy: expected a box whose low corner is below its high one");
+  return std::make_unique<PlainEnergy>(
+      [hand, X_KW = X_WK.inverse(), low, high](const World& world) {
+        double deepest = 0;
+        for (const Id<Body> id : world.bodies_of(hand)) {
+          if (!world.body(id).shape) continue;
+          const Bounds box = world.body(id).shape->bounds_at(X_KW * world.pose(id));
+          // the shortest way out
+          const double depth = std::min((box.high - low).minCoeff(), (high - box.low).minCoeff());
+          deepest = std::max(deepest, depth);
+        }
+        return energy_length * deepest;
+      });
 }
 
-double KeepOutBox::bounded_value(World& world, double) {
-  double deepest = 0;
-  for (const Id<Body> id : world.bodies_of(hand_)) {
-    if (!world.body(id).shape) continue;
-    const Bounds box = world.body(id).shape->bounds_at(X_KW_ * world.pose(id));
-    // the shortest way out
-    const double depth = std::min((box.high - low_).minCoeff(), (high_ - box.low).minCoeff());
-    deepest = std::max(deepest, depth);
-  }
-  return energy_length * deepest;
+EnergyPtr clearance_energy(const HandAndObject& who, double least) {
+  if (!(std::isfinite(least) && least >= 0))
+    fail("energy: distance must be >= 0 [m], got {}", least);
+  return std::make_unique<PlainEnergy>([who, least](World& world) {
+    const auto parts = world.bodies_of(who.hand);
+    std::vector<Id<Body>> others;
+    for (const Id<Body> id : world.bodies())
+      if (id != who.object && std::ranges::find(parts, id) == parts.end()) others.push_back(id);
+    const BodyDistance near = distance(world, parts, others, least, &world.context());
+    return near.a ? energy_length * (least - near.distance) : 0;
+  });
 }
 
-// --- ClearanceEnergy ---
-
-ClearanceEnergy::ClearanceEnergy(const HandAndObject& who, double distance)
-    : who_(who), distance_(distance) {
-  if (!(std::isfinite(distance) && distance >= 0))
-    fail("energy: distance must be >= 0 [m], got {}", distance);
-}
-
-double ClearanceEnergy::bounded_value(World& world, double) {
-  const auto parts = world.bodies_of(who_.hand);
-  std::vector<Id<Body>> others;
-  for (const Id<Body> id : world.bodies())
-    if (id != who_.object && std::ranges::find(parts, id) == parts.end()) others.push_back(id);
-  const BodyDistance near = distance(world, parts, others, distance_, &world.context());
-  return near.a ? energy_length * (distance_ - near.distance) : 0;
-}
-
-// --- ReachEnergy ---
-
-ReachEnergy::ReachEnergy(Id<Robot> hand, const Vector3d& p_W, double radius)
-    : hand_(hand), p_W_(p_W), radius_(radius) {
+EnergyPtr reach_energy(Id<Robot> hand, const Vector3d& p_W, double radius) {
   if (!p_W.allFinite()) fail("energy: point: expected finite coordinates");
   if (!(std::isfinite(radius) && radius >= 0))
     fail("energy: radius must be >= 0 [m], got {}", radius);
+  return std::make_unique<PlainEnergy>([hand, p_W, radius](const World& world) {
+    const double away = (approach_pose(world, hand).position - p_W).norm();
+    return energy_length * std::max(0.0, away - radius);
+  });
 }
 
-double ReachEnergy::bounded_value(World& world, double) {
-  const double away = (approach_pose(world, hand_).position - p_W_).norm();
-  return energy_length * std::max(0.0, away - radius_);
-}
-
-// --- PenetrationEnergy ---
+// --- penetration ---
 
 // points that cover the vertices evenly: each time the one farthest from those before
 static std::vector<Vector3d> spread_points(const std::vector<Vector3d>& vertices, int count) {
@@ -99,22 +85,13 @@ static std::vector<Vector3d> spread_points(const std::vector<Vector3d>& vertices
   return out;
 }
 
-PenetrationEnergy::PenetrationEnergy(const World& world, Id<Robot> hand, int points) : hand_(hand) {
-  if (points < 1 || points > 10000) fail("energy: points: expected 1 to 10000, got {}", points);
-  for (const Id<Body> id : world.bodies_of(hand)) {
-    const ShapePtr& shape = world.body(id).shape;
-    if (!shape) continue;
-    parts_.push_back(id);
-    points_.push_back(spread_points(shape->mesh().vertices, points));
-  }
-}
-
-double PenetrationEnergy::depth(World& world, Id<Body> part, Id<Body> other) const {
-  const auto i = std::ranges::find(parts_, part) - parts_.begin();
+// of the deepest of a part's points in another body
+static double deepest_point(const World& world, Id<Body> part, const std::vector<Vector3d>& points,
+                            Id<Body> other) {
   const Shape& shape = *world.body(other).shape;
   const Pose X_OP = relative_pose(world, other, part);
   double deepest = 0;
-  for (const Vector3d& p : points_[i]) {
+  for (const Vector3d& p : points) {
     const Vector3d p_O = X_OP * p;
     const double away = closest_point(shape, p_O).distance;
     if (away > deepest && contains(shape, p_O)) deepest = away;
@@ -122,16 +99,28 @@ double PenetrationEnergy::depth(World& world, Id<Body> part, Id<Body> other) con
   return deepest;
 }
 
-double PenetrationEnergy::bounded_value(World& world, double) {
-  constexpr double touch = 1e-3;  // of a pair that collides, however shallow [mm]
-  double sum = 0;
-  const auto mine = [&](Id<Body> id) { return std::ranges::find(parts_, id) != parts_.end(); };
-  for (const auto& [a, b] : colliding_pairs(world, parts_, world.bodies(), &world.context())) {
-    double deep = mine(a) ? depth(world, a, b) : 0;
-    if (mine(b)) deep = std::max(deep, depth(world, b, a));
-    sum += energy_length * deep + touch;
+EnergyPtr penetration_energy(const World& world, Id<Robot> hand, int count) {
+  if (count < 1 || count > 10000) fail("energy: points: expected 1 to 10000, got {}", count);
+  std::vector<Id<Body>> parts;
+  std::vector<std::vector<Vector3d>> points;  // of each part, in its frame
+  for (const Id<Body> id : world.bodies_of(hand)) {
+    const ShapePtr& shape = world.body(id).shape;
+    if (!shape) continue;
+    parts.push_back(id);
+    points.push_back(spread_points(shape->mesh().vertices, count));
   }
-  return sum;
+  return std::make_unique<PlainEnergy>([parts, points](World& now) {
+    constexpr double touch = 1e-3;  // of a pair that collides, however shallow [mm]
+    // 0 for what is no part of the hand
+    const auto depth = [&](Id<Body> part, Id<Body> other) {
+      const auto at = std::ranges::find(parts, part);
+      return at == parts.end() ? 0 : deepest_point(now, part, points[at - parts.begin()], other);
+    };
+    double sum = 0;
+    for (const auto& [a, b] : colliding_pairs(now, parts, now.bodies(), &now.context()))
+      sum += energy_length * std::max(depth(a, b), depth(b, a)) + touch;
+    return sum;
+  });
 }
 
 }  // namespace clench

@@ -176,7 +176,7 @@ int approach_cone(lua_State* L) {
   const Eigen::Vector3d axis = options.vec3("axis");
   const double angle = options.number("angle", 0);
   options.done();
-  return push_energy(L, world, std::make_unique<ApproachCone>(who.hand, axis, angle));
+  return push_energy(L, world, approach_cone_energy(who.hand, axis, angle));
 }
 
 int keep_out(lua_State* L) {
@@ -185,7 +185,7 @@ int keep_out(lua_State* L) {
   const Pose pose = options.pose("pose", Pose{});
   const Eigen::Vector3d low = options.vec3("low"), high = options.vec3("high");
   options.done();
-  return push_energy(L, world, std::make_unique<KeepOutBox>(who.hand, pose, low, high));
+  return push_energy(L, world, keep_out_energy(who.hand, pose, low, high));
 }
 
 int clearance(lua_State* L) {
@@ -193,7 +193,7 @@ int clearance(lua_State* L) {
   const auto [world, who] = read_subject(options);
   const double distance = options.number("distance");
   options.done();
-  return push_energy(L, world, std::make_unique<ClearanceEnergy>(who, distance));
+  return push_energy(L, world, clearance_energy(who, distance));
 }
 
 int reach(lua_State* L) {
@@ -202,7 +202,7 @@ int reach(lua_State* L) {
   const Eigen::Vector3d point = options.vec3("point");
   const double radius = options.number("radius");
   options.done();
-  return push_energy(L, world, std::make_unique<ReachEnergy>(who.hand, point, radius));
+  return push_energy(L, world, reach_energy(who.hand, point, radius));
 }
 
 int penetration(lua_State* L) {
@@ -210,7 +210,7 @@ int penetration(lua_State* L) {
   const auto [world, who] = read_hand(options);
   const int points = options.integer("points", 64);
   options.done();
-  return push_energy(L, world, std::make_unique<PenetrationEnergy>(*world, who.hand, points));
+  return push_energy(L, world, penetration_energy(*world, who.hand, points));
 }
 
 // --- trees of terms ---
