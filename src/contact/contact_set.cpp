@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "clench/base/disjoint_sets.h"
 #include "clench/base/error.h"
 #include "clench/contact/cone.h"
 #include "clench/contact/near_points.h"
@@ -81,24 +82,19 @@ static void join_neighbours(std::vector<NearPoint>& points, double reach) {
   std::sort(sorted.begin(), sorted.end());
 
   // the least region of all that are linked stands for them
-  Indices linked(regions);
-  std::iota(linked.begin(), linked.end(), 0);
-  const auto root = [&](int i) {
-    while (linked[i] != i) i = linked[i] = linked[linked[i]];
-    return i;
-  };
+  DisjointSets linked(regions);
   for (const auto& [home, i] : sorted)
     for (int k = 0; k < 27; ++k) {
       const Cell next = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1};
       auto other = std::lower_bound(sorted.begin(), sorted.end(), std::pair(next, 0));
       for (; other != sorted.end() && other->first == next; ++other) {
         const NearPoint &p = points[i], &q = points[other->second];
-        const int r = root(p.region), s = root(q.region);
-        if (r != s && (p.p_a - q.p_a).norm() <= reach && p.normal.dot(q.normal) > same_normal)
-          linked[std::max(r, s)] = std::min(r, s);
+        const bool apart = linked.find(p.region) != linked.find(q.region);
+        if (apart && (p.p_a - q.p_a).norm() <= reach && p.normal.dot(q.normal) > same_normal)
+          linked.join(p.region, q.region);
       }
     }
-  for (NearPoint& point : points) point.region = root(point.region);
+  for (NearPoint& point : points) point.region = linked.find(point.region);
 }
 
 // Within a region the closest point takes all those whose normals agree with its own, and so on.

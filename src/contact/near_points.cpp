@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
+#include "clench/base/disjoint_sets.h"
 #include "clench/contact/near_surface.h"
 
 namespace clench {
@@ -28,23 +28,6 @@ namespace {
 
 // a negative volume says that the triangles face inwards
 double facing(const Shape& shape) { return shape.closed() && shape.solid().volume < 0 ? -1 : 1; }
-
-// Pairs of triangles that share a near corner or near crossed edges belong to one region.
-class Regions {
- public:
-  explicit Regions(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int of(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j) {
-    i = of(i), j = of(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // near crossed edges, and the pair of triangles where they were seen
 struct Crossing {
@@ -79,7 +62,7 @@ class Collector {
     add_crossings();
     add_lost_regions();
     for (NearPoint& point : points_) {
-      point.region = regions_.of(point.region);
+      point.region = regions_.find(point.region);
       point.gap = std::max(point.gap, points_[0].gap);  // nearer by rounding only
     }
     return std::move(points_);
@@ -224,10 +207,10 @@ class Collector {
   // every region has its closest pair at least
   void add_lost_regions() {
     std::vector<char> found(pairs_.size(), 0);
-    for (const NearPoint& point : points_) found[regions_.of(point.region)] = 1;
+    for (const NearPoint& point : points_) found[regions_.find(point.region)] = 1;
     std::vector<int> closest(pairs_.size(), -1);
     for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
-      int& best = closest[regions_.of(pair)];
+      int& best = closest[regions_.find(pair)];
       if (best < 0 || nearer(pairs_[pair], pairs_[best])) best = pair;
     }
     for (size_t region = 0; region < closest.size(); ++region)
@@ -237,7 +220,7 @@ class Collector {
   const std::vector<TrianglePair>& pairs_;
   double threshold_, rounding_, facing_a_, facing_b_;
   NearSurface a_, b_;
-  Regions regions_;
+  DisjointSets regions_;              // of pairs that share a near corner or near crossed edges
   std::vector<int> seen_a_, seen_b_;  // first pair where a corner was near
   std::vector<Crossing> crossings_;
   std::vector<NearPoint> points_;

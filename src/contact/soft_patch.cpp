@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
+#include "clench/base/disjoint_sets.h"
 #include "clench/base/error.h"
 #include "clench/contact/cone.h"
 #include "clench/math/decompositions.h"
@@ -37,41 +37,34 @@ std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const 
                                     const Elasticity& elastic_a, const Elasticity& elastic_b,
                                     const std::vector<Touch>& touches) {
   const double radius = neighbourhood_radius(larger_modulus(elastic_a, elastic_b));
-  const size_t count = touches.size();
+  const int count = static_cast<int>(touches.size());
   std::vector<Vector3d> points;
   for (const Touch& touch : touches) points.push_back(0.5 * (touch.p_a + touch.p_b));
 
-  // what steps lead to gets the least number of all
-  std::vector<size_t> group(count);
-  std::iota(group.begin(), group.end(), size_t{0});
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (size_t i = 0; i < count; ++i)
-      for (size_t j = 0; j < i; ++j) {
-        if (group[i] == group[j] || (points[i] - points[j]).norm() >= 2 * radius) continue;
-        if (touches[i].normal_b.dot(touches[j].normal_b) < one_side) continue;
-        group[i] = group[j] = std::min(group[i], group[j]);
-        changed = true;
-      }
-  }
+  DisjointSets groups(points.size());
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < i; ++j)
+      if ((points[i] - points[j]).norm() < 2 * radius &&
+          touches[i].normal_b.dot(touches[j].normal_b) >= one_side)
+        groups.join(i, j);
 
-  std::vector<SoftSitePtr> out(count);
-  for (size_t first = 0; first < count; ++first) {
-    if (group[first] != first) continue;
+  std::vector<SoftSitePtr> out(points.size());
+  for (int first = 0; first < count; ++first) {
+    if (groups.find(first) != first) continue;
     auto site = std::make_shared<SoftSite>();
     site->a = a, site->b = b, site->X_AB = X_AB;
     site->elastic_a = elastic_a, site->elastic_b = elastic_b;
     site->radius = radius;
-    std::vector<size_t> members;
-    for (size_t i = first; i < count; ++i)
-      if (group[i] == first) members.push_back(i), out[i] = site;
+    std::vector<int> members;
+    for (int i = first; i < count; ++i)
+      if (groups.find(i) == first) members.push_back(i), out[i] = site;
     // sums in an order of their own: that of the touches must not matter
-    std::sort(members.begin(), members.end(), [&](size_t i, size_t j) {
+    std::sort(members.begin(), members.end(), [&](int i, int j) {
       const Vector3d &p = points[i], &q = points[j];
       return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
     });
     site->centre_A = site->normal_A = Vector3d::Zero();
-    for (const size_t i : members) {
+    for (const int i : members) {
       site->points_A.push_back(points[i]);
       site->centre_A += points[i] / static_cast<double>(members.size());
       site->normal_A += touches[i].normal_b;

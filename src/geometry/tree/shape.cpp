@@ -2,49 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "clench/base/hash.h"
+#include "clench/geometry/mesh/parts.h"
 #include "clench/geometry/tree/tree.h"
 
 namespace clench {
 
 namespace {
-
-// Union and find over vertices: the lowest index stands for the whole part.
-class Parts {
- public:
-  explicit Parts(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  int find(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(int u, int v) {
-    u = find(u), v = find(v);
-    parent_[std::max(u, v)] = std::min(u, v);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
-Parts parts_of(const Mesh& mesh) {
-  Parts parts(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) parts.join(t[0], t[1]), parts.join(t[0], t[2]);
-
-  // files without shared vertices are connected by position
-  std::vector<int> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int v) {
-    const Eigen::Vector3d& p = mesh.vertices[v];
-    return std::array<double, 3>{p.x(), p.y(), p.z()};
-  };
-  std::sort(order.begin(), order.end(), [&](int u, int v) { return key(u) < key(v); });
-  for (size_t i = 1; i < order.size(); ++i)
-    if (mesh.vertices[order[i - 1]] == mesh.vertices[order[i]]) parts.join(order[i - 1], order[i]);
-  return parts;
-}
 
 Shape::Extremes farthest_along_axes(const Mesh& mesh, const std::vector<int>& vertices) {
   Shape::Extremes out;
@@ -71,7 +36,7 @@ bool Shape::has_volume() const {
 void Shape::find_parts() {
   // beyond that many, their extremes would take more room than the mesh
   constexpr size_t few = 64;
-  Parts parts = parts_of(mesh_);
+  DisjointSets parts = connected_vertices(mesh_);
   // the number of the part by the vertex that stands for it
   std::vector<int> numbers(mesh_.vertices.size(), -1);
   for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
