@@ -6,7 +6,6 @@
 #include <span>
 
 #include "clench/render/mesh/corner_normals.h"
-#include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/pieces.h"
 #include "clench/render/mesh/refine.h"
 
@@ -20,12 +19,12 @@ constexpr float longest_edge = 0.07f, longest_clear_edge = 0.2f;
 // of one piece, by splitting; what comes with more keeps them
 constexpr size_t max_triangles = 200000;
 
-void find_scale(std::span<const Piece> pieces, DrawList& list) {
+Extent extent_of_pieces(std::span<const Piece> pieces) {
   const auto ball = ball_around([&](const auto& what) {
     for (const Piece& piece : pieces)
       for (const auto& p : piece.p_W) what(p);
   });
-  if (ball) list.centre = ball->centre, list.scale = ball->scale;
+  return ball.value_or(Extent{});
 }
 
 Batch append(Piece& piece, DrawList& list) {
@@ -81,14 +80,6 @@ void append_floor(DrawList& list) {
 
 }  // namespace
 
-Eye DrawList::to_scene(const Eye& world) const {
-  Eye out = world;
-  out.eye = (world.eye - centre) / scale;
-  out.target = (world.target - centre) / scale;
-  out.ortho_height = world.ortho_height / scale;
-  return out;
-}
-
 DrawList make_draw_list(const Scene& scene) {
   check(scene);
   // in this order: solid, seen through, marks, background
@@ -106,8 +97,9 @@ DrawList make_draw_list(const Scene& scene) {
   for (const DrawArrow& a : scene.arrows) pieces.push_back(arrow_piece(a));
   for (Piece& piece : behind) pieces.push_back(std::move(piece));
 
+  const size_t counted = first_behind > 0 ? first_behind : pieces.size();
   DrawList list;
-  find_scale(std::span(pieces).first(first_behind > 0 ? first_behind : pieces.size()), list);
+  static_cast<Extent&>(list) = extent_of_pieces(std::span(pieces).first(counted));
   for (size_t i = 0; i < pieces.size(); ++i) {
     const Batch batch = append(pieces[i], list);
     if (i < first_clear)

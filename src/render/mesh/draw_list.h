@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clench/render/mesh/corner.h"
+#include "clench/render/mesh/extent.h"
 #include "clench/scene/scene.h"
 
 namespace clench {
@@ -20,7 +21,8 @@ struct Batch {
   double radius = 0;
 };
 
-struct DrawList {
+/// In the units of its extent, that of the scene.
+struct DrawList : Extent {
   std::vector<Corner> corners;
   std::vector<uint32_t> indices;  ///< three a triangle
   std::vector<Batch> solid;       ///< meshes that hide what is behind them
@@ -30,10 +32,6 @@ struct DrawList {
   std::optional<double> ground;  ///< its height [scene units]
   std::vector<Batch> behind;     ///< meshes that are background: solid, throw no shadow
   size_t floor_corner = 0;       ///< the floor's first
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the scene's bounds, world [m]
-  double scale = 1;                                  ///< largest distance from it [m]
-
-  Eye to_scene(const Eye& world) const;
 };
 
 inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]

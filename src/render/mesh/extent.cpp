@@ -4,6 +4,14 @@
 
 namespace clench {
 
+Eye Extent::to_scene(const Eye& world) const {
+  Eye out = world;
+  out.eye = (world.eye - centre) / scale;
+  out.target = (world.target - centre) / scale;
+  out.ortho_height = world.ortho_height / scale;
+  return out;
+}
+
 Extent extent_of(const Scene& scene) {
   std::vector<Eigen::Vector3d> marks;
   const auto append = [&](const Piece& piece) {

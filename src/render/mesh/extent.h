@@ -13,6 +13,9 @@ namespace clench {
 struct Extent {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
+
+  /// An eye of the world, moved to the centre and divided by the scale.
+  Eye to_scene(const Eye& world) const;
 };
 
 /// About the centre of the bounds of all points that `each` gives to a function it is given, and

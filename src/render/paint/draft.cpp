@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "clench/base/error.h"
 #include "clench/render/figure/smooth_edges.h"
 #include "clench/render/mesh/draw_list.h"
 #include "clench/render/mesh/extent.h"
@@ -39,13 +38,6 @@ Eigen::Matrix4d moved_by(const DrawMesh& mesh, const StoredMesh& stored, const E
   out.topLeftCorner<3, 3>() = mesh.X_WM.rotation.toRotationMatrix() * (stored.scale / extent.scale);
   out.topRightCorner<3, 1>() = (mesh.X_WM * stored.centre - extent.centre) / extent.scale;
   return out;
-}
-
-// texels about as wide as the pixels of the picture
-int draft_map_size(const RenderOptions& options) {
-  int size = 128;
-  while (size < max_draft_map && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
-  return size;
 }
 
 // colours were multiplied by alpha
@@ -101,11 +93,8 @@ DraftPainter::DraftPainter(const Programs& programs, MeshStore& store, const Sce
     : programs_(programs),
       options_(options),
       extent_(extent_of(scene)),
-      eye_(eye),
-      map_size_(draft_map_size(options)) {
-  eye_.eye = (eye.eye - extent_.centre) / extent_.scale;
-  eye_.target = (eye.target - extent_.centre) / extent_.scale;
-  eye_.ortho_height /= extent_.scale;
+      eye_(extent_.to_scene(eye)),
+      map_size_(map_size_for(options, 128, max_draft_map)) {
   const Eigen::Vector2d depths = depth_range(eye_);
   projection_ = view_projection(eye_, static_cast<double>(options.width) / options.height,
                                 depths[0], depths[1]);
@@ -142,7 +131,7 @@ void DraftPainter::load_marks(const Scene& scene) {
   for (const DrawCone& cone : scene.cones) add(cone_piece(cone));
   for (const DrawArrow& arrow : scene.arrows) add(arrow_piece(arrow));
   if (indices.empty()) return;
-  marks_ = store_corners(corners, indices);
+  marks_.emplace(corners, indices);
   marks_->painted = true;
 }
 
@@ -155,7 +144,7 @@ void DraftPainter::load_floor(const Scene& scene) {
   for (const auto& [x, y] :
        {std::pair(-r, -r), std::pair(r, -r), std::pair(r, r), std::pair(-r, r)})
     corners.push_back({{x, y, z}, {0, 0, 1}, {}});
-  floor_ = store_corners(corners, {0, 1, 2, 0, 2, 3});
+  floor_.emplace(corners, std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
 }
 
 // what the lamp sees of the bodies that throw shadows
@@ -214,12 +203,7 @@ void DraftPainter::draw(const Placed& placed, unsigned program, const Eigen::Mat
   gl::set(program, "to_clip", Eigen::Matrix4f((clip * placed.to_scene).cast<float>()));
   gl::set(program, "painted", placed.mesh->painted ? 1.0f : 0.0f);
   gl::set(program, "one_paint", placed.paint);
-  if (both_sides) {
-    glBindVertexArray(placed.mesh->array);
-    glDrawElements(GL_TRIANGLES, placed.mesh->count, GL_UNSIGNED_INT, nullptr);
-  } else {
-    draw_triangles(*placed.mesh, placed.one_side);
-  }
+  draw_triangles(*placed.mesh, placed.one_side && !both_sides);
 }
 
 // far bodies first, and of each its far side; no shadow falls on them
@@ -348,8 +332,7 @@ Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, co
   }
   smooth_edges(out);
   divide_by_alpha(out);
-  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-    fail(ErrorKind::internal, "picture: the OpenGL driver reports error {:#x}", error);
+  check_driver();
   return out;
 }
 

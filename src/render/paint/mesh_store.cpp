@@ -6,7 +6,6 @@
 
 #include "clench/render/mesh/corner_normals.h"
 #include "clench/render/mesh/outward.h"
-#include "clench/render/paint/shadows.h"
 
 namespace clench {
 
@@ -46,16 +45,6 @@ void share_corners(const std::vector<Eigen::Vector3d>& vertices,
   }
 }
 
-StoredMesh store_corners(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices) {
-  StoredMesh out;
-  out.array = gl::make_vertex_array();
-  out.corners = gl::make_buffer(corners.data(), corners.size() * sizeof(Corner));
-  out.indices = gl::make_buffer(indices.data(), indices.size() * sizeof(uint32_t), true);
-  out.count = static_cast<int>(indices.size());
-  name_corner_fields();
-  return out;
-}
-
 const StoredMesh& MeshStore::at(const DrawMesh& mesh) {
   const auto found = std::ranges::find_if(entries_, [&](const Entry& entry) {
     return entry.shape == mesh.shape && entry.colors == mesh.triangle_colors;
@@ -75,7 +64,7 @@ const StoredMesh& MeshStore::at(const DrawMesh& mesh) {
   share_corners(vertices, from.triangles,
                 painted ? mesh.triangle_colors : std::vector{Eigen::Vector3f(1, 1, 1)}, corners,
                 indices);
-  entries_.push_front({mesh.shape, mesh.triangle_colors, store_corners(corners, indices), 0});
+  entries_.push_front({mesh.shape, mesh.triangle_colors, StoredMesh(corners, indices), 0});
   Entry& entry = entries_.front();
   entry.mesh.centre = centre;
   entry.mesh.scale = scale;

@@ -2,16 +2,14 @@
 #pragma once
 #include <list>
 
-#include "clench/render/gl/gl_objects.h"
-#include "clench/render/mesh/corner.h"
+#include "clench/render/paint/shadows.h"
 #include "clench/scene/scene.h"
 
 namespace clench {
 
 /// Corners with smooth normals, about the mesh's centre and divided by its radius.
-struct StoredMesh {
-  gl::Object array, corners, indices;
-  int count = 0;  ///< of indices
+struct StoredMesh : LoadedCorners {
+  using LoadedCorners::LoadedCorners;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
   bool closed = false;   ///< a solid whose triangles all run counter-clockwise seen from outside
@@ -47,8 +45,5 @@ void share_corners(const std::vector<Eigen::Vector3d>& vertices,
                    const std::vector<Triangle>& triangles,
                    const std::vector<Eigen::Vector3f>& colors, std::vector<Corner>& corners,
                    std::vector<uint32_t>& indices);
-
-/// Loads them; the array reads both.
-StoredMesh store_corners(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices);
 
 }  // namespace clench

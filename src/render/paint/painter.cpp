@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "clench/base/error.h"
 #include "clench/render/mesh/outward.h"
 #include "clench/render/paint/outline.h"
 #include "clench/render/paint/tile.h"
@@ -63,7 +62,7 @@ class Painter {
 
   const Programs& programs_;
   const DrawList& list_;
-  const LoadedList& loaded_;
+  const LoadedCorners& loaded_;
   const Eye& eye_;
   Eigen::Vector3f shading_eye_;
   RenderOptions options_;
@@ -81,13 +80,6 @@ class Painter {
   Shadows shadows_;
 };
 
-// maps of the lamp about as fine as the picture
-int map_size(const RenderOptions& options) {
-  int size = 256;
-  while (size < 1024 && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
-  return size;
-}
-
 Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
                  const RenderOptions& options)
     : programs_(programs),
@@ -98,7 +90,7 @@ Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
       options_(options),
       heavy_(scene.heavy()),
       lamps_(heavy_ ? lamps_per_sample / 2 : lamps_per_sample),
-      shadows_(programs, map_size(options), lamps_per_sample) {
+      shadows_(programs, map_size_for(options, 256, 1024), lamps_per_sample) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const Eigen::Vector2d depths = depth_range(eye);
   projection_ = view_projection(eye, aspect, depths[0], depths[1]);
@@ -284,8 +276,7 @@ Picture paint(const Programs& programs, PaperScene& scene, const Eye& eye,
   Picture out = empty_picture(options);
   Painter painter(programs, scene, eye, options);
   for (const Tile& tile : tiles_of(options)) painter.paint(tile, out);
-  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-    fail(ErrorKind::internal, "picture: the OpenGL driver reports error {:#x}", error);
+  check_driver();
   return out;
 }
 

@@ -27,7 +27,7 @@ int room_lights(const RenderOptions& options, size_t casters) {
 PaperScene::PaperScene(const Programs& programs, const Scene& scene)
     : programs_(programs),
       list_(make_draw_list(scene)),
-      loaded_(list_),
+      loaded_(list_.corners, list_.indices),
       coarse_(programs, room_map_size) {
   for (const auto* batches : {&list_.solid, &list_.clear})
     for (const Batch& batch : *batches) casters_ += batch.caster_count / 3;

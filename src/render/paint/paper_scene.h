@@ -17,7 +17,7 @@ class PaperScene {
   PaperScene(const Programs& programs, const Scene& scene);
 
   const DrawList& list() const { return list_; }
-  const LoadedList& loaded() const { return loaded_; }
+  const LoadedCorners& loaded() const { return loaded_; }
   size_t bytes() const;
 
   /// Triangles that throw shadows, so many that fewer lights and one side of what is closed must
@@ -36,7 +36,7 @@ class PaperScene {
  private:
   const Programs& programs_;
   DrawList list_;
-  LoadedList loaded_;
+  LoadedCorners loaded_;
   Shadows coarse_;
   size_t casters_ = 0;
   int room_count_ = 0;

@@ -39,17 +39,14 @@ gl::Object smooth_floor(const Programs& programs, const DrawList& list, unsigned
 
 }  // namespace
 
-LoadedList::LoadedList(const DrawList& list)
+LoadedCorners::LoadedCorners(const std::vector<Corner>& from, const std::vector<uint32_t>& order)
     : array(gl::make_vertex_array()),
-      corners(gl::make_buffer(list.corners.data(), list.corners.size() * sizeof(Corner))),
-      indices(gl::make_buffer(list.indices.data(), list.indices.size() * sizeof(uint32_t), true)) {
-  name_corner_fields();
-}
-
-void name_corner_fields() {
-  const auto field = [](int at, int count, GLenum type, size_t offset) {
+      corners(gl::make_buffer(from.data(), from.size() * sizeof(Corner))),
+      indices(gl::make_buffer(order.data(), order.size() * sizeof(uint32_t), true)),
+      count(static_cast<int>(order.size())) {
+  const auto field = [](int at, int numbers, GLenum type, size_t offset) {
     glEnableVertexAttribArray(at);
-    glVertexAttribPointer(at, count, type, type == GL_UNSIGNED_SHORT, sizeof(Corner),
+    glVertexAttribPointer(at, numbers, type, type == GL_UNSIGNED_SHORT, sizeof(Corner),
                           reinterpret_cast<const void*>(offset));
   };
   field(0, 3, GL_FLOAT, offsetof(Corner, p));
@@ -57,7 +54,7 @@ void name_corner_fields() {
   field(2, 4, GL_UNSIGNED_SHORT, offsetof(Corner, paint));
 }
 
-void read_light(const LoadedList& loaded, int place, unsigned light) {
+void read_light(const LoadedCorners& loaded, int place, unsigned light) {
   glBindVertexArray(loaded.array);
   glBindBuffer(GL_ARRAY_BUFFER, light);
   glEnableVertexAttribArray(place);
@@ -76,7 +73,8 @@ Shadows::Shadows(const Programs& programs, int size, int count)
       maps_(gl::make_shadow_maps(size, count)),
       framebuffer_(gl::make_framebuffer({}, 0)) {}
 
-void Shadows::cast(const DrawList& list, const LoadedList& loaded, std::span<const Light> lights) {
+void Shadows::cast(const DrawList& list, const LoadedCorners& loaded,
+                   std::span<const Light> lights) {
   const unsigned program = programs_.shadow;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, size_, size_);
@@ -130,7 +128,7 @@ void Shadows::give(unsigned program) const {
   gl::bind(program, "maps", 0, maps_, true);
 }
 
-gl::Object gather(const Programs& programs, const DrawList& list, const LoadedList& loaded,
+gl::Object gather(const Programs& programs, const DrawList& list, const LoadedCorners& loaded,
                   Shadows& shadows, const std::vector<Light>& lights, const Progress& progress) {
   const int rows = std::max<int>(1, (list.corners.size() + gathered_width - 1) / gathered_width);
   GLint max_rows = 0;

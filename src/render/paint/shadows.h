@@ -9,14 +9,12 @@
 
 namespace clench {
 
-/// A draw list on the graphics card, in the order of its indices.
-struct LoadedList {
-  explicit LoadedList(const DrawList& list);
+/// Corners of triangles on the graphics card, in the order of their indices; the array reads both.
+struct LoadedCorners {
+  LoadedCorners(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices);
   gl::Object array, corners, indices;
+  int count;  ///< of indices
 };
-
-/// The vertex array that is bound reads the buffer of corners that is bound.
-void name_corner_fields();
 
 /// One triangle over all of the framebuffer; reads nothing but the program.
 class Cover {
@@ -37,7 +35,7 @@ class Shadows {
 
   /// Draws the maps of these lights, at most `count`. Bodies that are seen through stop a part of
   /// the lights.
-  void cast(const DrawList& list, const LoadedList& loaded, std::span<const Light> lights);
+  void cast(const DrawList& list, const LoadedCorners& loaded, std::span<const Light> lights);
   /// The lights just cast, for a program that has `light_part`; takes texture unit 0.
   void give(unsigned program) const;
 
@@ -51,12 +49,12 @@ class Shadows {
 };
 
 /// The corners of a list read this buffer of light at a place of `surface_vertex`.
-void read_light(const LoadedList& loaded, int place, unsigned light);
+void read_light(const LoadedCorners& loaded, int place, unsigned light);
 
 /// Light at each corner, a buffer of four numbers each: front and back, and how open each lies.
 /// throws Error when there are more corners than a texture holds
 /// throws Stopped
-gl::Object gather(const Programs& programs, const DrawList& list, const LoadedList& loaded,
+gl::Object gather(const Programs& programs, const DrawList& list, const LoadedCorners& loaded,
                   Shadows& shadows, const std::vector<Light>& lights, const Progress& progress);
 
 }  // namespace clench

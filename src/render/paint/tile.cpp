@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/error.h"
 #include "clench/render/mesh/draw_list.h"
 #include "clench/render/view/frame.h"
 
@@ -68,6 +69,17 @@ void read_tile(const Tile& tile, Picture& out) {
       if (!out.alpha.empty()) out.alpha[first + x] = from[3];
     }
   }
+}
+
+int map_size_for(const RenderOptions& options, int least, int most) {
+  int size = least;
+  while (size < most && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
+  return size;
+}
+
+void check_driver() {
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    fail(ErrorKind::internal, "picture: the OpenGL driver reports error {:#x}", error);
 }
 
 Picture empty_picture(const RenderOptions& options) {

@@ -33,6 +33,13 @@ Eigen::Vector3f shading_eye(const Eye& eye);
 /// Of the framebuffer that is bound, which holds the tile: red, green, blue, alpha.
 void read_tile(const Tile& tile, Picture& out);
 
+/// Size of a map of shadows, its texels about as wide as the pixels of the picture: a power of two
+/// times `least`, at most `most`.
+int map_size_for(const RenderOptions& options, int least, int most);
+
+/// throws  Error when OpenGL has met a fault
+void check_driver();
+
 /// Of this size, with alpha unless a studio is behind.
 Picture empty_picture(const RenderOptions& options);
 
