@@ -27,7 +27,7 @@ void Stepper::disengage() {
       loads[place.body].head<3>() += force;
       loads[place.body].tail<3>() += torque + (p_W - trees_[t].about()).cross(force);
     };
-    for (const Touch& touch : touches_) {
+    for (const TouchingPoint& touch : touches_) {
       const Manifold& m = state.manifolds[touch.manifold];
       const ManifoldPoint& p = m.points[touch.point];
       const Eigen::Vector3d force = world_.pose(m.a).rotation * p.force,

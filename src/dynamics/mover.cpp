@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/dynamics/tree/tree_dynamics.h"
+#include "clench/math/decompositions.h"
 #include "clench/model/dof.h"
 
 namespace clench {
@@ -45,14 +46,14 @@ Mover::Mover(World& world, const System& system) : world_(world) {
         return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
                                    all.begin() + static_cast<std::ptrdiff_t>(first + count));
       };
-      machines_.push_back({id,
-                           world.pose(robot.base),
-                           state.twists[robot.base.index],
-                           {dofs.begin(), dofs.end()},
-                           {joints.begin(), joints.end()},
-                           from(state.dof_velocities, robot.first_dof, robot.dofs.size()),
-                           from(state.joint_velocities, robot.first_joint, robot.joints.size())});
-      if (!robot.mounting && machines_.back().rests()) machines_.pop_back();
+      robots_.push_back({id,
+                         world.pose(robot.base),
+                         state.twists[robot.base.index],
+                         {dofs.begin(), dofs.end()},
+                         {joints.begin(), joints.end()},
+                         from(state.dof_velocities, robot.first_dof, robot.dofs.size()),
+                         from(state.joint_velocities, robot.first_joint, robot.joints.size())});
+      if (!robot.mounting && robots_.back().rests()) robots_.pop_back();
     }
   find_carriers(system);
 }
@@ -198,7 +199,7 @@ Pose Mover::carried(const Part& part, double s) const {
   return X_WC * moved_rigidly(X_CB, part.com, part.relative, s);
 }
 
-bool Mover::Machine::rests() const {
+bool Mover::RobotStart::rests() const {
   const auto none = [](const std::vector<double>& all) {
     return std::ranges::all_of(all, [](double x) { return x == 0; });
   };
@@ -259,7 +260,7 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
   }
   const Eigen::Quaterniond near(spin.rotation);
   const Eigen::Quaterniond turned =
-      (Eigen::Quaterniond::FromTwoVectors(near * spin.momentum, momentum) * near).normalized();
+      (shortest_rotation(near * spin.momentum, momentum) * near).normalized();
   after.angular = turned * (inverse * spin.momentum);
   const Eigen::Vector3d c = part.X_WB * part.com + s * part.twist.linear;
   return {turned, c - turned * part.com};
@@ -270,39 +271,38 @@ void Mover::place(double s) {
   placed_ = s;
   for (Part& part : parts_)
     if (!part.carrier) world_.drift(part.body, moved(part, s, part.after));
-  for (Machine& machine : machines_) {
-    const Robot& robot = world_.robot(machine.robot);
-    std::vector<double> dofs = machine.dofs, joints = machine.joints;
-    machine.picked_up.clear();
+  for (RobotStart& start : robots_) {
+    const Robot& robot = world_.robot(start.robot);
+    std::vector<double> dofs = start.dofs, joints = start.joints;
+    start.picked_up.clear();
     for (size_t i = 0; i < dofs.size(); ++i) {
-      const double moved = dofs[i] + s * machine.dof_velocities[i];
+      const double moved = dofs[i] + s * start.dof_velocities[i];
       const auto [low, high] = range_around(robot, static_cast<int>(i), moved);
       dofs[i] = std::clamp(moved, std::min(dofs[i], low), std::max(dofs[i], high));
     }
     for (size_t j = 0; j < joints.size(); ++j) {
       const Joint& joint = robot.joints[j];
       const double followed = joint.ratio * dofs[joint.dof];
-      if (world_.follows_dof(machine.robot, static_cast<int>(j))) {
+      if (world_.follows_dof(start.robot, static_cast<int>(j))) {
         joints[j] = followed;
         continue;
       }
-      joints[j] += s * machine.joint_velocities[j];
+      joints[j] += s * start.joint_velocities[j];
       const DofSpec& dof = robot.dofs[joint.dof];
       if (dof.kind != DofKind::breakaway) continue;
       // opening, the DOF picks up what it left behind where it meets it
       const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
       constexpr double met = 1e-5;  // [rad or m]
-      if (closing * machine.dof_velocities[joint.dof] >= 0 ||
-          closing * (followed - joints[j]) > met)
+      if (closing * start.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > met)
         continue;
       joints[j] = followed;
-      machine.picked_up.push_back(static_cast<int>(j));
+      start.picked_up.push_back(static_cast<int>(j));
     }
     // a robot that is carried stands where its carrier has put it
-    const Pose X_WB =
-        robot.mounting ? world_.pose(robot.base)
-                       : moved_rigidly(machine.X_WB, world_.body(robot.base).com, machine.twist, s);
-    world_.drift(machine.robot, X_WB, dofs, joints);
+    const Pose X_WB = robot.mounting
+                          ? world_.pose(robot.base)
+                          : moved_rigidly(start.X_WB, world_.body(robot.base).com, start.twist, s);
+    world_.drift(start.robot, X_WB, dofs, joints);
   }
   place_welded();
   bool more = false;
@@ -324,8 +324,8 @@ void Mover::finish(double s) {
     world_.edit_dynamics().twists[part.body.index] = {
         part.after.linear + part.after.angular.cross(arm), part.after.angular};
   }
-  for (const Machine& machine : machines_)
-    for (const int joint : machine.picked_up) world_.set_follows_dof(machine.robot, joint, true);
+  for (const RobotStart& start : robots_)
+    for (const int joint : start.picked_up) world_.set_follows_dof(start.robot, joint, true);
 }
 
 void Mover::place_welded() {

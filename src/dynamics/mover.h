@@ -34,7 +34,7 @@ class Mover {
   static Part free_part(const World& world, const Articulation& tree);
   class Carriers;
   void find_carriers(const System& system);
-  struct Machine {  // a robot
+  struct RobotStart {  // a robot as it stood and moved when the step began
     Id<Robot> robot;
     Pose X_WB;  // of its base, when nobody carries it
     Twist twist;
@@ -49,7 +49,7 @@ class Mover {
   World& world_;
   double placed_ = -1;       // where everything is [s]; negative: nobody has been asked to move
   std::vector<Part> parts_;  // what is carried by others of them after these
-  std::vector<Machine> machines_;  // carriers before what they carry
+  std::vector<RobotStart> robots_;  // carriers before what they carry
   struct Welded {
     Id<Body> body, to;
     Pose X_WB, X_WT;

@@ -8,9 +8,9 @@ namespace clench {
 
 void Stepper::solve_by_ode(double h) {
   std::vector<OdeContact> contacts;
-  for (const Block& block : blocks_) {
+  for (const PlacedBlock& block : blocks_) {
     if (block.row >= 0) continue;
-    const Touch& touch = touches_[block.touch];
+    const TouchingPoint& touch = touches_[block.touch];
     const ManifoldPoint& p = world_.dynamics()->manifolds[touch.manifold].points[touch.point];
     OdeContact contact{
         .a = touch.a, .b = touch.b, .p_W = touch.p_W, .frame = touch.frame, .mu = block.law.mu};
@@ -36,7 +36,7 @@ void Stepper::solve_by_ode(double h) {
                                         h);
   v_ = solution.v;
   size_t next = 0;
-  for (const Block& block : blocks_) {
+  for (const PlacedBlock& block : blocks_) {
     const int row = block.law.row;
     if (block.row >= 0) {
       r_[row] = solution.row_impulses[block.row];

@@ -87,9 +87,9 @@ void Stepper::find_free_velocities(double h) {
 // An impulse of bodies that meet at the end of a step cut short, and of all that touches them, is
 // no force of that short time.
 void Stepper::find_times(double h) {
-  const double whole = std::max(h, world_.dynamics()->asked);
+  const double whole = std::max(h, world_.dynamics()->whole_step);
   tree_times_.assign(trees_.size(), h);
-  for (Block& block : blocks_) block.time = h;
+  for (PlacedBlock& block : blocks_) block.time = h;
   if (h == whole) return;
   for (const Island& island : islands_) {
     if (std::ranges::none_of(island.blocks, [&](int i) { return blocks_[i].meets; })) continue;
@@ -117,16 +117,16 @@ void Stepper::keep() {
   for (const Articulation& tree : system_.trees)
     for (const Coordinate& c : tree.coordinates)
       if (c.joint < 0) state.dof_efforts[c.dof_index] = feedforward_effort(world_, c, state);
-  for (const Block& block : blocks_) {
+  for (const PlacedBlock& block : blocks_) {
     const int row = block.law.row;
     const double time = block.time;
     if (block.row >= 0) {
       const CoordinateRow& c = coordinate_rows_[block.row];
-      state.row_forces.push_back({static_cast<int>(c.kind), c.index, r_[row] / time});
+      state.row_forces.push_back({c.kind, c.index, r_[row] / time});
       if (c.kind == RowKind::motor) state.dof_efforts[c.index] += r_[row] / time;
       continue;
     }
-    const Touch& touch = touches_[block.touch];
+    const TouchingPoint& touch = touches_[block.touch];
     Manifold& m = state.manifolds[touch.manifold];
     ManifoldPoint& p = m.points[touch.point];
     const int linear = std::min(block.law.size(), 3);

@@ -1,7 +1,6 @@
 // Stepper: islands of bodies that touch, each solved by itself.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "clench/dynamics/solve/friction_residual.h"
 #include "clench/dynamics/stepper.h"
@@ -18,24 +17,17 @@ static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
 
 void Stepper::find_islands() {
   const size_t trees = trees_.size();
-  leader_.resize(trees);
-  std::iota(leader_.begin(), leader_.end(), 0);
-  const auto find = [&](int t) {
-    while (leader_[t] != t) t = leader_[t] = leader_[leader_[t]];
-    return t;
-  };
-  for (const Block& block : blocks_)
-    if (block.tree[0] >= 0 && block.tree[1] >= 0) {
-      const int a = find(block.tree[0]), b = find(block.tree[1]);
-      leader_[std::max(a, b)] = std::min(a, b);
-    }
+  touching_trees_.reset(trees);
+  for (const PlacedBlock& block : blocks_)
+    if (block.tree[0] >= 0 && block.tree[1] >= 0)
+      touching_trees_.join(block.tree[0], block.tree[1]);
   island_of_.assign(trees, -1);
   // those of the last step keep their room
   size_t count = 0;
   for (size_t i = 0; i < blocks_.size(); ++i) {
     const int tree = blocks_[i].tree[0] >= 0 ? blocks_[i].tree[0] : blocks_[i].tree[1];
     if (tree < 0) continue;
-    int& island = island_of_[find(tree)];
+    int& island = island_of_[touching_trees_.find(tree)];
     if (island < 0) {
       island = static_cast<int>(count++);
       if (islands_.size() < count) islands_.emplace_back();
@@ -45,7 +37,7 @@ void Stepper::find_islands() {
   }
   islands_.resize(count);
   for (size_t t = 0; t < trees; ++t)
-    if (const int island = island_of_[find(static_cast<int>(t))];
+    if (const int island = island_of_[touching_trees_.find(static_cast<int>(t))];
         island >= 0 && !tree_rows_[t].rows.empty())
       islands_[island].trees.push_back(static_cast<int>(t));
 }

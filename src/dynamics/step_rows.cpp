@@ -83,7 +83,7 @@ int Stepper::add_columns(int tree, int count) {
 
 // The normal and two tangents, as columns; points of one normal have one.
 Eigen::Matrix3d Stepper::frame_of(const Manifold& m, int manifold, const ManifoldPoint& p) const {
-  const Touch* last = touches_.empty() ? nullptr : &touches_.back();
+  const TouchingPoint* last = touches_.empty() ? nullptr : &touches_.back();
   if (last && last->manifold == manifold && m.points[last->point].normal == p.normal)
     return last->frame;
   const Eigen::Vector3d normal = (world_.pose(m.a).rotation * p.normal).normalized();
@@ -94,7 +94,8 @@ Eigen::Matrix3d Stepper::frame_of(const Manifold& m, int manifold, const Manifol
 }
 
 // How each tree moves the point, b's against a's: columns of its rows.
-void Stepper::add_contact_columns(const Touch& touch, double torsion_radius, Block& block) {
+void Stepper::add_contact_columns(const TouchingPoint& touch, double torsion_radius,
+                                  PlacedBlock& block) {
   const std::array<Id<Body>, 2> bodies = {touch.a, touch.b};
   const Eigen::Vector3d normal = touch.frame.col(0);
   const int size = block.law.size();
@@ -117,8 +118,9 @@ void Stepper::add_contact_columns(const Touch& touch, double torsion_radius, Blo
 }
 
 // Velocities of the contact's rows when the step begins; those without contacts are added to q_.
-std::array<double, 4> Stepper::add_free_velocities(const Touch& touch, double torsion_radius,
-                                                   const Block& block) {
+std::array<double, 4> Stepper::add_free_velocities(const TouchingPoint& touch,
+                                                   double torsion_radius,
+                                                   const PlacedBlock& block) {
   // a surface runs along itself
   const Eigen::Vector3d normal = touch.frame.col(0),
                         belt = surface_velocity(touch.b) - surface_velocity(touch.a);
@@ -147,14 +149,14 @@ void Stepper::add_contact(int manifold, int point, double h) {
   const ManifoldPoint& p = m.points[point];
   const Body &a = world_.body(m.a), &b = world_.body(m.b);
   const Pose &X_WA = world_.pose(m.a), &X_WB = world_.pose(m.b);
-  Touch touch{.manifold = manifold,
-              .point = point,
-              .frame = frame_of(m, manifold, p),
-              .p_W = 0.5 * (X_WA * p.p_a + X_WB * p.p_b),
-              .a = m.a,
-              .b = m.b};
+  TouchingPoint touch{.manifold = manifold,
+                      .point = point,
+                      .frame = frame_of(m, manifold, p),
+                      .p_W = 0.5 * (X_WA * p.p_a + X_WB * p.p_b),
+                      .a = m.a,
+                      .b = m.b};
   const Friction friction = world_.materials().friction(a.material, b.material);
-  Block block;
+  PlacedBlock block;
   block.touch = static_cast<int>(touches_.size());
   block.law.row = row_count_;
   block.law.pair = manifold;
@@ -201,7 +203,7 @@ void Stepper::add_contact(int manifold, int point, double h) {
 
 void Stepper::add_row(int number, double h) {
   const CoordinateRow& row = coordinate_rows_[number];
-  Block block;
+  PlacedBlock block;
   block.row = number;
   block.law = {.row = row_count_, .low = row.low, .high = row.high};
   block.tree[0] = row.tree;
@@ -210,7 +212,7 @@ void Stepper::add_row(int number, double h) {
   q_.push_back(v_[system_.trees[row.tree].first + row.coordinate] - row.target);
   double warm = 0;
   const auto key = [](const RowForce& last) { return std::pair(last.kind, last.index); };
-  const std::pair wanted(static_cast<int>(row.kind), row.index);
+  const std::pair wanted(row.kind, row.index);
   const auto& all = world_.dynamics()->row_forces;
   if (const auto last = std::ranges::lower_bound(all, wanted, {}, key);
       last != all.end() && key(*last) == wanted)
@@ -243,7 +245,7 @@ void Stepper::find_rows(double h) {
   for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i), h);
   compliance_.setZero(row_count_);
   local_.resize(row_count_);
-  for (const Block& block : blocks_)
+  for (const PlacedBlock& block : blocks_)
     if (block.row >= 0) compliance_[block.law.row] = coordinate_rows_[block.row].compliance;
   for (size_t t = 0; t < trees_.size(); ++t)
     if (const auto count = static_cast<Eigen::Index>(tree_rows_[t].rows.size()); count > 0)

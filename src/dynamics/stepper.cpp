@@ -148,7 +148,7 @@ void Stepper::follow_pair(int number, double dt, Mover& mover, Meetings& meeting
   constexpr double far_turn = 0.5, whirl = 20;
   const Manifold& m = world_.dynamics()->manifolds[number];
   const Shape& shape = *world_.body(m.b).shape;
-  const Pose &before = m.X_AB_left, X_AB = relative_pose(world_, m.a, m.b);
+  const Pose &before = m.X_AB_end, X_AB = relative_pose(world_, m.a, m.b);
   const double threshold = world_.contact_threshold(), step = world_.dynamic_settings().step;
   // the bound holds on the whole way, which is longer than the chord of a turn
   const double turned = turn(world_, m, dt);
@@ -240,12 +240,12 @@ double Stepper::move(double dt) {
   if (passed < meetings.overlap_time) ++state.report.impacts;
   mover.finish(passed);
   measure_met(meetings, passed >= dt);
-  for (Manifold& m : state.manifolds) m.X_AB_left = relative_pose(world_, m.a, m.b);
+  for (Manifold& m : state.manifolds) m.X_AB_end = relative_pose(world_, m.a, m.b);
   state.time += passed;
   // the same moments however time is divided: sums of many steps are off by rounding
   const double step = world_.dynamic_settings().step, whole = std::round(state.time / step) * step;
   if (std::abs(whole - state.time) < rounding * step) state.time = whole;
-  state.asked = dt;
+  state.whole_step = dt;
   return passed;
 }
 

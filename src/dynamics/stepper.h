@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 
+#include "clench/base/disjoint_sets.h"
 #include "clench/dynamics/contact/manifolds.h"
 #include "clench/dynamics/control/motors.h"
 #include "clench/dynamics/mover.h"
@@ -33,7 +34,7 @@ class Stepper {
   void run(double duration);
 
  private:
-  struct Touch {  // a point of a manifold
+  struct TouchingPoint {  // a point of a manifold
     int manifold, point;
     Eigen::Matrix3d frame;  // columns: normal, tangents; world
     Eigen::Vector3d p_W;
@@ -41,7 +42,7 @@ class Stepper {
     double target = 0;  // lowest velocity along the normal
   };
   /// A contact or a row of a coordinate, and where its rows stand.
-  struct Block {
+  struct PlacedBlock {
     FrictionProblem::Block law;
     int touch = -1, row = -1;            // one of both
     std::array<int, 2> tree = {-1, -1};  // that it acts on
@@ -77,9 +78,9 @@ class Stepper {
   void add_mean_bias(int tree, double h, Eigen::VectorXd& change);
   void update_manifolds();
   Eigen::Matrix3d frame_of(const Manifold& m, int manifold, const ManifoldPoint& p) const;
-  void add_contact_columns(const Touch& touch, double torsion_radius, Block& block);
-  std::array<double, 4> add_free_velocities(const Touch& touch, double torsion_radius,
-                                            const Block& block);
+  void add_contact_columns(const TouchingPoint& touch, double torsion_radius, PlacedBlock& block);
+  std::array<double, 4> add_free_velocities(const TouchingPoint& touch, double torsion_radius,
+                                            const PlacedBlock& block);
   void add_contact(int manifold, int point, double h);
   void add_row(int row, double h);
   int add_columns(int tree, int count);
@@ -103,10 +104,11 @@ class Stepper {
   std::vector<JointForces> forces_;
   std::vector<TreeRows> tree_rows_;
   std::vector<CoordinateRow> coordinate_rows_;
-  std::vector<Touch> touches_;
-  std::vector<Block> blocks_;
+  std::vector<TouchingPoint> touches_;
+  std::vector<PlacedBlock> blocks_;
   std::vector<Island> islands_;
-  std::vector<int> leader_, island_of_;  // by tree
+  DisjointSets touching_trees_;
+  std::vector<int> island_of_;  // by tree
   Eigen::VectorXd v_, v_before_, r_, compliance_;
   std::vector<int> rows_;   // of the island that is solved
   std::vector<int> local_;  // of all rows: which one of its island's problem it is

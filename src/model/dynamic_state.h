@@ -71,7 +71,7 @@ struct Manifold {
   Id<Body> a, b;  ///< the earlier one is a
   Pose X_AB;      ///< when it was last measured
   /// when the last step ended: elsewhere, somebody has moved them, and it is measured anew
-  Pose X_AB_left;
+  Pose X_AB_end;
   /// they were at least this far apart when it was measured [m]; 0: they overlapped
   double clearance = 0;
   std::vector<ManifoldPoint> points;  ///< none beyond the contact threshold
@@ -91,17 +91,20 @@ struct StepReport {
   int contacts = 0;         ///< points of the last step
 };
 
+/// What acts on one coordinate by itself; the lock is that of a joint that has left its DOF.
+enum class RowKind { motor, low_limit, high_limit, dry_friction, lock };
+
 /// What a motor, limit, clutch or dry friction gave in the last step.
 struct RowForce {
-  int kind = 0;      ///< see dynamics/control/motors.h
-  int index = 0;     ///< likewise
+  RowKind kind = RowKind::motor;
+  int index = 0;     ///< of the DOF in the state's arrays; -1 - that of a joint by itself
   double force = 0;  ///< [N or N m]
 };
 
 /// Of a world that has moved; flat arrays like WorldState's.
 struct DynamicState {
   double time = 0;            ///< [s]
-  double asked = 0;           ///< length of the last step, were it not for an impact [s]
+  double whole_step = 0;      ///< length of the last step, were it not for an impact [s]
   std::vector<Twist> twists;  ///< by the index of the body's id; of links too, as of the last step
   /// likewise: as the last step left them, whatever somebody has set since
   std::vector<Twist> solved;

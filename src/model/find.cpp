@@ -108,7 +108,7 @@ static const Manifold* manifold_of(const World& world, Id<Body> a, Id<Body> b) {
 // Does something press there, and has nobody placed the two elsewhere since?
 static bool presses(const World& world, const Manifold& m) {
   return std::ranges::any_of(m.points, [](const ManifoldPoint& p) { return !p.force.isZero(0); }) &&
-         relative_pose(world, m.a, m.b) == m.X_AB_left;
+         relative_pose(world, m.a, m.b) == m.X_AB_end;
 }
 
 // The touch of each point of the last step: that on the same features, else the nearest. One that

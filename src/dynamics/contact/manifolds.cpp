@@ -300,10 +300,10 @@ void find_manifolds(World& world, const System& system, double travel) {
         if (changed) measure(world, state.manifolds.back());
       } else {
         state.manifolds.push_back(
-            {.a = pair.first, .b = pair.second, .X_AB = {}, .X_AB_left = {}, .points = {}});
+            {.a = pair.first, .b = pair.second, .X_AB = {}, .X_AB_end = {}, .points = {}});
         Manifold& made = state.manifolds.back();
         measure(world, made);
-        made.X_AB_left = made.X_AB;
+        made.X_AB_end = made.X_AB;
       }
     }
     state.sweep_poses.assign(world.model().bodies.size(), {});
@@ -314,11 +314,11 @@ void find_manifolds(World& world, const System& system, double travel) {
   }
   for (Manifold& m : state.manifolds) {
     const Pose X_AB = relative_pose(world, m.a, m.b);
-    if (X_AB == m.X_AB_left) continue;
+    if (X_AB == m.X_AB_end) continue;
     // placed elsewhere: what was there is no warm start
     m.points.clear();
     measure(world, m);
-    m.X_AB_left = X_AB;
+    m.X_AB_end = X_AB;
   }
 }
 

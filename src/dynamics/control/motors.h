@@ -4,14 +4,12 @@
 
 namespace clench {
 
-enum class RowKind { motor, low_limit, high_limit, dry_friction, lock };
-
 /// Of one coordinate: low <= impulse <= high holds its velocity at a target, which it may leave in
 /// the sense of the bound that is reached; with a compliance, velocity - target + compliance *
 /// impulse is 0 between them.
 struct CoordinateRow {
   RowKind kind = RowKind::motor;
-  int index = 0;  ///< of the DOF in the state's arrays; -1 - that of a joint by itself
+  int index = 0;  ///< as that of a RowForce
   int tree = 0, coordinate = 0;
   double target = 0;         ///< [rad/s or m/s]
   double low = 0, high = 0;  ///< [N m s or N s]

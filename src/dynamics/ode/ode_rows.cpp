@@ -1,4 +1,4 @@
-// What ODE's joints are asked for beside holding together, contacts, and what both gave.
+// What ODE's joints are target for beside holding together, contacts, and what both gave.
 #include <algorithm>
 #include <cmath>
 
@@ -65,7 +65,7 @@ void OdeScene::add_row(const CoordinateRow& row) {
   // that gives ours
   made.stop = true;
   const bool low = (row.kind == RowKind::low_limit) == (made.ratio > 0);
-  const double asked = made.ratio * row.target;
+  const double target = made.ratio * row.target;
   const auto set = [&](int parameter, double value) {
     joint.slides ? dJointSetSliderParam(joint.joint, parameter, value)
                  : dJointSetHingeParam(joint.joint, parameter, value);
@@ -76,18 +76,18 @@ void OdeScene::add_row(const CoordinateRow& row) {
   };
   // ODE stops a joint on one side at a time: the one that is nearer
   if (get(low ? dParamHiStop : dParamLoStop) == (low ? -1 : 1)) {
-    if (std::abs(get(dParamStopERP)) < std::abs(asked * h_)) return;
+    if (std::abs(get(dParamStopERP)) < std::abs(target * h_)) return;
     set(low ? dParamHiStop : dParamLoStop, low ? dInfinity : -dInfinity);
   }
   set(low ? dParamLoStop : dParamHiStop, low ? 1 : -1);
   set(dParamStopERP,
-      ((low ? asked : -asked) - stop_slack * static_cast<double>(rows_.size())) * h_);
+      ((low ? target : -target) - stop_slack * static_cast<double>(rows_.size())) * h_);
   dJointSetFeedback(joint.joint, made.feedback.get());
 }
 
 const OdeNode* OdeScene::node_of(Id<Body> id) const {
   const System::Place place = problem_.system.place(id);
-  if (place.tree < 0) return told_[id.index].body ? &told_[id.index] : nullptr;
+  if (place.tree < 0) return obstacle_nodes_[id.index].body ? &obstacle_nodes_[id.index] : nullptr;
   const OdeNode& node =
       trees_[place.tree].nodes[problem_.system.trees[place.tree].bodies[place.body].joint + 1];
   return node.body ? &node : nullptr;
@@ -95,7 +95,7 @@ const OdeNode* OdeScene::node_of(Id<Body> id) const {
 
 void OdeScene::add_contact(const OdeContact& contact) {
   touches_.emplace_back();
-  Touch& touch = touches_.back();
+  TouchFeedback& touch = touches_.back();
   touch.feedback = std::make_unique<dJointFeedback>();
   const OdeNode *a = node_of(contact.a), *b = node_of(contact.b);
   const bool a_free = a && a->free, b_free = b && b->free;
@@ -161,7 +161,7 @@ Eigen::Vector3d OdeScene::velocity_at(Id<Body> id, const Eigen::Vector3d& p_W) c
 }
 
 void OdeScene::read_contact(const OdeContact& contact, int number, OdeSolution& out) const {
-  const Touch& touch = touches_[number];
+  const TouchFeedback& touch = touches_[number];
   const Eigen::Vector3d relative = velocity_at(contact.b, contact.p_W) -
                                    velocity_at(contact.a, contact.p_W) + contact.surface_velocity;
   out.velocities.push_back(contact.frame.transpose() * relative);

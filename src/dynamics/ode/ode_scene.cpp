@@ -33,7 +33,7 @@ OdeScene::OdeScene(const World& world, const OdeProblem& problem, double h, doub
   start_ode();
   ode_.reset(dWorldCreate());
   trees_.resize(problem.system.trees.size());
-  told_.resize(world.model().bodies.size());
+  obstacle_nodes_.resize(world.model().bodies.size());
   double heaviest = 0;
   for (size_t t = 0; t < trees_.size(); ++t) {
     add_tree(problem.system.trees[t], static_cast<int>(t));
@@ -44,7 +44,7 @@ OdeScene::OdeScene(const World& world, const OdeProblem& problem, double h, doub
   for (const auto id : world.bodies())
     if (const Twist twist = world.twist(id);
         problem.system.place(id).tree < 0 && !twist.is_zero()) {
-      OdeNode& node = told_[id.index];
+      OdeNode& node = obstacle_nodes_[id.index];
       node.com = world.pose(id) * world.body(id).com;
       node.v = twist.linear;
       node.w = twist.angular;
@@ -245,7 +245,7 @@ void OdeScene::step() {
   };
   for (const OdeTree& tree : trees_)
     for (const OdeNode& node : tree.nodes) reset(node);
-  for (const OdeNode& node : told_) reset(node);
+  for (const OdeNode& node : obstacle_nodes_) reset(node);
   if (dWorldStep(ode_.get(), h_) == 0)
     fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
 }

@@ -68,7 +68,7 @@ class OdeScene {
     std::unique_ptr<dJointFeedback> feedback;
     bool stop;  // a limit: its torque is the joint's own
   };
-  struct Touch {
+  struct TouchFeedback {
     bool made = false, turned = false;  // turned: a is ODE's first body
     std::unique_ptr<dJointFeedback> feedback;
   };
@@ -92,9 +92,9 @@ class OdeScene {
   double h_, softness_;
   std::unique_ptr<dxWorld, OdeDelete> ode_;
   std::vector<OdeTree> trees_;
-  std::vector<OdeNode> told_;  // obstacles that move, by the index of the body's id
+  std::vector<OdeNode> obstacle_nodes_;  // obstacles that move, by the index of the body's id
   std::vector<Row> rows_;
-  std::vector<Touch> touches_;
+  std::vector<TouchFeedback> touches_;
 };
 
 }  // namespace clench

@@ -1,6 +1,5 @@
 #include "clench/dynamics/ode/ode_step.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +7,7 @@
 #include "clench/base/error.h"
 #include "clench/dynamics/ode/ode_library.h"
 #include "clench/dynamics/ode/ode_scene.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 
@@ -47,7 +47,7 @@ class Coupler {
     Eigen::VectorXd g = faults(torques);
     double fault = size() == 0 ? 0 : g.cwiseAbs().maxCoeff();
     for (int round = 0; round < 30 && fault > within; ++round) {
-      const Eigen::VectorXd way = slopes(torques, g).completeOrthogonalDecomposition().solve(-g);
+      const Eigen::VectorXd way = least_squares(slopes(torques, g), -g);
       double step = 1;
       Eigen::VectorXd next_g;
       // shorter where a contact opens or begins to slide on the way

@@ -75,8 +75,8 @@ class FrictionNewton {
                   const Eigen::VectorXd& u);
   void find_slides(const ScaledFriction& problem);
   /// Where a block leaves its state along z + alpha by, at most `most`, and into which.
-  double leaves(const ScaledFriction::Block& block, State state, const double* z, const double* by,
-                double most, State& next) const;
+  double leaves(const ScaledFriction::ScaledBlock& block, State state, const double* z,
+                const double* by, double most, State& next) const;
 
   std::vector<State> states_, factored_;
   std::vector<double>

@@ -95,8 +95,8 @@ void FrictionNewton::find_slides(const ScaledFriction& problem) {
   }
 }
 
-double FrictionNewton::leaves(const ScaledFriction::Block& block, State state, const double* z,
-                              const double* by, double most, State& next) const {
+double FrictionNewton::leaves(const ScaledFriction::ScaledBlock& block, State state,
+                              const double* z, const double* by, double most, State& next) const {
   double alpha = most;
   const auto meets = [&](double value, double change, State other) {
     // value + alpha change falls below 0

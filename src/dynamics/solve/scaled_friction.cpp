@@ -12,7 +12,7 @@ void ScaledFriction::set(const FrictionProblem& problem) {
   units.resize(n), weights.resize(n);
   blocks.resize(problem.blocks.size());
   for (size_t i = 0; i < blocks.size(); ++i) {
-    Block& block = blocks[i];
+    ScaledBlock& block = blocks[i];
     static_cast<FrictionProblem::Block&>(block) = problem.blocks[i];
     const double d = block_admittance(problem, block);
     block.moves = d > 1e-30 * largest && d > 1e-200;

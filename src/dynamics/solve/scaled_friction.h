@@ -7,7 +7,7 @@ namespace clench {
 /// Rows times a power of two per block, which changes no digit: then a mean of each block's
 /// diagonal is within 1/2 and 2, so that a feather between boulders is as well posed as a boulder.
 struct ScaledFriction {
-  struct Block : FrictionProblem::Block {
+  struct ScaledBlock : FrictionProblem::Block {
     double d = 1;       ///< mean of its diagonal
     bool moves = true;  ///< false: no impulse changes its velocity; its own is decided beforehand
   };
@@ -16,7 +16,7 @@ struct ScaledFriction {
   /// one of a row is so many of the problem's: impulses times it, velocities divided by it
   Eigen::VectorXd units;
   Eigen::VectorXd weights;  ///< d of the row's block; of contacts of one pair their mean
-  std::vector<Block> blocks;
+  std::vector<ScaledBlock> blocks;
 
   void set(const FrictionProblem& problem);
   int rows() const { return static_cast<int>(q.size()); }

@@ -15,7 +15,7 @@ class OffsetList {
       offsets_.resize(offsets_.size() + block, none);
       blocks_.push_back({none, false});
     }
-    Block& of = blocks_[index / block];
+    OffsetBlock& of = blocks_[index / block];
     of.stale |= offsets_[index] == of.least && offset > of.least;
     offsets_[index] = offset;
     of.least = offset < of.least ? offset : of.least;
@@ -23,7 +23,7 @@ class OffsetList {
 
   void drop(int index) {
     if (static_cast<int>(offsets_.size()) <= index) return;
-    Block& of = blocks_[index / block];
+    OffsetBlock& of = blocks_[index / block];
     of.stale |= offsets_[index] == of.least;
     offsets_[index] = none;
   }
@@ -45,7 +45,7 @@ class OffsetList {
  private:
   static constexpr int block = 64, lanes = 8;
   static constexpr double none = std::numeric_limits<double>::infinity();
-  struct Block {
+  struct OffsetBlock {
     double least;
     bool stale;  // the least may be gone
   };
@@ -63,7 +63,7 @@ class OffsetList {
   }
 
   std::vector<double> offsets_;
-  std::vector<Block> blocks_;
+  std::vector<OffsetBlock> blocks_;
 };
 
 }  // namespace clench

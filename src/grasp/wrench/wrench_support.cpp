@@ -50,8 +50,8 @@ WrenchSupport::WrenchSupport(int dimension, WrenchNorm norm, std::span<const Con
     int count = 0;
     for (const ContactPart& part : of) count += part.axis ? 0 : part.count;
     const int padded = (count + lanes - 1) / lanes * lanes;
-    const Block block{static_cast<int>(coordinates_.size()), count, padded};
-    if (count == 0) return Block{0, 0, 0};
+    const PointBlock block{static_cast<int>(coordinates_.size()), count, padded};
+    if (count == 0) return PointBlock{0, 0, 0};
     coordinates_.resize(coordinates_.size() + static_cast<size_t>(padded) * dimension);
     double* x = coordinates_.data() + block.begin;
     int column = 0;
@@ -64,7 +64,7 @@ WrenchSupport::WrenchSupport(int dimension, WrenchNorm norm, std::span<const Con
     return block;
   };
   if (norm == WrenchNorm::l1)
-    if (const Block all = add_block(parts); all.padded > 0) blocks_.push_back(all);
+    if (const PointBlock all = add_block(parts); all.padded > 0) blocks_.push_back(all);
   for (size_t i = 0; i < parts.size(); ++i) {
     const ContactPart& part = parts[i];
     Place place{-1, -1};
@@ -85,7 +85,8 @@ WrenchSupport::WrenchSupport(int dimension, WrenchNorm norm, std::span<const Con
   if (norm == WrenchNorm::linf) blocks_ = contact_blocks_;
 }
 
-double WrenchSupport::farthest(const Block& block, const double* direction, int& column) const {
+double WrenchSupport::farthest(const PointBlock& block, const double* direction,
+                               int& column) const {
   const double* x = coordinates_.data() + block.begin;
   switch (dimension_) {
     case 1:
@@ -117,7 +118,7 @@ double WrenchSupport::farthest(const Round& round, const double* direction, doub
   return value + length;
 }
 
-void WrenchSupport::add_point(const Block& block, int column, double* point) const {
+void WrenchSupport::add_point(const PointBlock& block, int column, double* point) const {
   const double* x = coordinates_.data() + block.begin + column;
   for (int row = 0; row < dimension_; ++row) point[row] += x[row * block.padded];
 }
@@ -134,7 +135,7 @@ double WrenchSupport::support(const double* direction, double* point) const {
   std::fill_n(point, dimension_, 0.0);
   if (norm_ == WrenchNorm::linf) {
     double sum = 0;
-    for (const Block& block : blocks_) {
+    for (const PointBlock& block : blocks_) {
       int column;
       const double value = farthest(block, direction, column);
       if (value > 0) add_point(block, column, point), sum += value;

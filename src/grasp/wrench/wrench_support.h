@@ -34,7 +34,7 @@ class WrenchSupport final : public SupportSet {
 
  private:
   // points as structure of arrays, padded by the first one
-  struct Block {
+  struct PointBlock {
     int begin, count, padded;
   };
   struct Round {
@@ -44,17 +44,17 @@ class WrenchSupport final : public SupportSet {
   struct Place {
     int block, round;  // -1: none
   };
-  double farthest(const Block& block, const double* direction, int& column) const;
+  double farthest(const PointBlock& block, const double* direction, int& column) const;
   double farthest(const Round& round, const double* direction, double* along) const;
-  void add_point(const Block& block, int column, double* point) const;
+  void add_point(const PointBlock& block, int column, double* point) const;
   void add_point(const Round& round, const double* along, double* point) const;
 
   int dimension_;
   WrenchNorm norm_;
   std::vector<double> coordinates_;  // of block after block, coordinate after coordinate
-  std::vector<Block> blocks_;
+  std::vector<PointBlock> blocks_;
   std::vector<Round> rounds_;
-  std::vector<Block> contact_blocks_;  // of each contact, for support_of
+  std::vector<PointBlock> contact_blocks_;  // of each contact, for support_of
   std::vector<Place> contacts_;
 };
 

@@ -33,7 +33,7 @@ std::string InventorGraph::place(const InventorNode& node) const {
 }
 
 void InventorWarnings::add(const std::string& file, const std::string& sentence) {
-  if (list_.size() > max_inventor_warnings || !told_.insert(sentence).second) return;
+  if (list_.size() > max_inventor_warnings || !warned_.insert(sentence).second) return;
   list_.push_back(list_.size() < max_inventor_warnings
                       ? sentence
                       : fmt::format("{}: further warnings are left out", file));

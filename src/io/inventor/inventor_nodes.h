@@ -36,7 +36,7 @@ class InventorWarnings {
 
  private:
   std::vector<std::string> list_;
-  std::set<std::string> told_;
+  std::set<std::string> warned_;
 };
 
 struct InventorGraph {

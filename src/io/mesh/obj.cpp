@@ -59,14 +59,14 @@ class ObjReader {
   std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
   std::map<std::string, Material> materials_;           // by the names that MTL files define
   size_t material_files_ = 0;                           // that were looked for
-  std::set<std::string> told_;
+  std::set<std::string> warned_;
   std::vector<std::string> warnings_;
 };
 
 void ObjReader::warn_once(const std::string& about, const std::string& place,
                           const std::string& sentence) {
   constexpr size_t max_warnings = 10;
-  if (told_.size() < max_warnings && told_.insert(about).second)
+  if (warned_.size() < max_warnings && warned_.insert(about).second)
     warnings_.push_back(place + ": " + sentence);
 }
 

@@ -31,7 +31,7 @@ class OffReader {
   int vertices_ = 0, faces_ = 0;
   bool normals_ = false, texture_ = false, vertex_colors_ = false, face_colors_ = false;
   std::vector<Eigen::Vector3f> colors_;  // of vertices
-  std::set<std::string> told_;
+  std::set<std::string> warned_;
 };
 
 /// What stands before "OFF": ST texture coordinates, C colours, N normals of the vertices.
@@ -78,7 +78,7 @@ void OffReader::to_line(const char* what, int i, int count) {
 }
 
 void OffReader::warn_once(const std::string& sentence) {
-  if (told_.insert(sentence).second) input_.warn(words_.place() + ": " + sentence);
+  if (warned_.insert(sentence).second) input_.warn(words_.place() + ": " + sentence);
 }
 
 /// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255. The fourth

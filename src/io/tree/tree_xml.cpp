@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"

@@ -90,7 +90,6 @@ class Annealing {
   Random random_;
   BestList best_;
   AnnealingCounts counts_;
-  Pose X_WR_;  // the object, which stays
   Values values_;
   std::vector<Id<Body>> parts_;
   double energy_value_ = 0, first_energy_ = 0;

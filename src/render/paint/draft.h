@@ -8,8 +8,7 @@
 
 namespace clench {
 
-/// Lives inside the life of a GlContext; `eye` is of the world. `store` holds meshes, `maps` one
-/// map of shadows.
+/// Lives inside the life of a GlContext; `eye` is of the world, `store` holds meshes.
 /// throws  Stopped; Error when the driver refuses, and as `check(scene)` does
 Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
               const RenderOptions& options);
