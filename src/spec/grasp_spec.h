@@ -3,10 +3,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clench/math/pose.h"
-#include "clench/spec/per_contact.h"
 #include "clench/spec/point_contact.h"
 
 namespace clench {
@@ -15,6 +15,18 @@ namespace clench {
 enum class TorqueLength {
   largest_radius,   ///< of its surface, from its centre of mass
   gyration_radius,  ///< root mean square of its mass, from its centre of mass
+};
+
+/// A number that is asked of each contact: none, one for all contacts, or one per contact.
+struct PerContact {
+  std::vector<double> values = {};
+
+  PerContact() = default;
+  PerContact(double all) : values{all} {}
+  PerContact(std::vector<double> each) : values(std::move(each)) {}
+  explicit operator bool() const { return !values.empty(); }
+  double of(int contact) const { return values.size() == 1 ? values[0] : values[contact]; }
+  bool fits(size_t contacts) const { return values.size() <= 1 || values.size() == contacts; }
 };
 
 /// How two elastic bodies act together.

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "clench/math/pose.h"
-#include "clench/spec/actuator_spec.h"
 #include "clench/spec/body_spec.h"
 #include "clench/spec/eigengrasp_spec.h"
 #include "clench/spec/glove_spec.h"
-#include "clench/spec/tendon_spec.h"
+#include "clench/spec/passive_parts.h"
 #include "clench/spec/virtual_contact_spec.h"
 
 namespace clench {

@@ -4,7 +4,6 @@
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
-#include "clench/script/lua/script_place.h"
 
 namespace clench {
 

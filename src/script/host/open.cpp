@@ -3,10 +3,10 @@
 #include <lua.hpp>
 
 #include "clench/script/bind/library.h"
+#include "clench/script/host/library_table.h"
 #include "clench/script/host/natives.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/guard.h"
-#include "clench/script/lua/library_table.h"
 #include "clench/script/lua/lookup.h"
 #include "clench/script/lua/packed.h"
 

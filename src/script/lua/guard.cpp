@@ -10,7 +10,6 @@
 #include "clench/base/text.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/owned.h"
-#include "clench/script/lua/script_place.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {
@@ -19,6 +18,21 @@ namespace clench {
 static const char error_key = 0;
 
 void set_error_metatable(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &error_key); }
+
+static constexpr const char* packed_source = "@stdlib/";
+
+void push_script_place(lua_State* L) {
+  lua_Debug info;
+  for (int level = 0; lua_getstack(L, level, &info); ++level) {
+    lua_getinfo(L, "Sl", &info);
+    if (info.currentline <= 0 ||
+        std::strncmp(info.source, packed_source, std::strlen(packed_source)) == 0)
+      continue;
+    lua_pushfstring(L, "%s:%d: ", info.short_src, info.currentline);
+    return;
+  }
+  lua_pushliteral(L, "");
+}
 
 void push_error_value(lua_State* L, const char* sentence, const char* kind) {
   push_script_place(L);

@@ -29,6 +29,11 @@ void protected_call(lua_State* L, int arguments, int results);
 /// returns  what fn returned, or -1 with an error value on top of the stack
 int run_guarded(lua_State* L, lua_CFunction fn);
 
+/// Pushes "a.lua:3: ", of the innermost function that is neither C nor of the standard library; ""
+/// where there is none. No C++ object may be alive where Lua errors jump: it raises them for want
+/// of memory.
+void push_script_place(lua_State* L);
+
 /// Pops what error values have as their metatable.
 void set_error_metatable(lua_State* L);
 /// Pushes the value of an error at the script's line. Raises Lua errors only for want of memory.

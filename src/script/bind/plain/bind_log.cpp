@@ -11,7 +11,6 @@
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
 #include "clench/script/lua/push.h"
-#include "clench/script/lua/script_place.h"
 
 namespace clench {
 

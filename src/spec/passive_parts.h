@@ -1,12 +1,12 @@
-// Tendons of a hand, the posts they wrap around, and tactile sensors: kept as a file describes
-// them; nothing acts on them.
+// Tendons of a hand, the posts they wrap around, tactile sensors and actuators: kept for scripts as
+// a file describes them; nothing acts on them. What motors take from an MJCF file's actuators
+// (limits, gains, which DOFs are driven) is in DofSpec.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "clench/spec/actuator_spec.h"
 
 namespace clench {
 
@@ -46,6 +46,23 @@ struct TactileSpec {
   int link = -1;  ///< -1: the base
   Eigen::Vector3d low_L = Eigen::Vector3d::Zero(),
                   high_L = Eigen::Vector3d::Zero();  ///< corners [m]
+};
+
+/// force = gain * control + bias[0] + bias[1] * length + bias[2] * velocity, times the gear, on its
+/// target. Length and velocity are those of the target times the gear. A position servo has gain kp
+/// and bias {0, -kp, -kv}.
+struct ActuatorSpec {
+  std::string name;           ///< empty: it has none
+  std::string kind;           ///< as its file calls it: "motor", "position", "general"
+  std::string joint, tendon;  ///< what it drives: the name of one of them; the other one is empty
+  int dof = -1;               ///< that it moves; -1: none of the robot
+  double gear = 1;            ///< length of the actuator per unit of the target
+  double gain = 1;            ///< [N m or N per unit of control]
+  std::array<double, 3> bias = {0, 0, 0};
+  double damping_ratio = 0;  ///< of a servo, whose bias has no damping then: as DofSpec
+  bool law_known = true;     ///< false: gain and bias do not describe it
+  std::optional<std::array<double, 2>> control_range;
+  std::optional<std::array<double, 2>> force_range;  ///< before the gear [N m or N]
 };
 
 /// All of these that a robot has.

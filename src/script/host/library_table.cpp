@@ -1,4 +1,4 @@
-#include "clench/script/lua/library_table.h"
+#include "clench/script/host/library_table.h"
 
 #include <algorithm>
 #include <cstring>
