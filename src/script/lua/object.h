@@ -3,6 +3,7 @@
 // the guard (guard.h) where it has become much.
 #pragma once
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <lua.hpp>
 #include <memory>
@@ -15,9 +16,12 @@
 
 namespace clench {
 
-/// The Class that stands for T, set beside each class's declaration; null: scripts hold no T.
+/// The Class that stands for T, a const Class* beside each class's declaration; null: scripts hold
+/// no T.
 template <class T>
-inline constexpr const Class* script_class = nullptr;
+inline constexpr std::nullptr_t script_class = nullptr;
+template <class T>
+concept Scripted = !std::is_null_pointer_v<decltype(script_class<T>)>;
 
 template <class T>
 const Class& class_of() {

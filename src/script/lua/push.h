@@ -60,8 +60,6 @@ int push(lua_State* L, const Eigen::MatrixBase<Derived>& m) {
 }
 
 template <class T>
-concept Scripted = (script_class<T> != nullptr);
-template <class T>
 concept ListItem = !std::is_same_v<T, double>;  // lists of numbers are pushed as they are
 
 /// An object of a class; nil for a null pointer.
