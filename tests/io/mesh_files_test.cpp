@@ -310,3 +310,36 @@ TEST_CASE("faces that take long to cut have an end, however many there are") {
   CHECK_THROWS_WITH_AS(for (int i = 0; i < 10'000; ++i) builder.add_face(face, {1, 1, 1}, 0),
                        "expected fewer faces of many corners that are not convex", Error);
 }
+
+TEST_CASE(
+    "a face with more corners than can be cut is an error of the kind limit in every format") {
+  const int count = max_concave_corners + 1;
+  std::string rows, obj_rows, from_0, from_1;
+  for (int i = 0; i < count; ++i) {
+    // a comb, which is not convex
+    const std::string row =
+        fmt::format("{} {} 0\n", i < count - 1 ? i : 0, i % 2 + 2 * (i == count - 1));
+    rows += row;
+    obj_rows += "v " + row;
+    from_0 += fmt::format(" {}", i);
+    from_1 += fmt::format(" {}", i + 1);
+  }
+  const std::string files[][2] = {
+      {"comb.off", fmt::format("OFF\n{} 1 0\n{}{}{}\n", count, rows, count, from_0)},
+      {"comb.obj", obj_rows + "f" + from_1 + "\n"},
+      {"comb.ply", fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
+                               "property float y\nproperty float z\nelement face 1\n"
+                               "property list ushort int vertex_indices\nend_header\n{}{}{}\n",
+                               count, rows, count, from_0)}};
+  const TemporaryFolder folder;
+  for (const auto& [name, text] : files) {
+    INFO(name);
+    try {
+      read_body(folder.write(name, text));
+      FAIL_CHECK("expected an error");
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::limit);
+      CHECK(std::string(error.what()).find(name + ":") != std::string::npos);
+    }
+  }
+}

@@ -185,8 +185,8 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
 
 void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name) {
   const Line kind_line = expected(fmt::format("the joint type of link {}", number));
-  errors_from(fmt::format("{}: link {}", kind_line.place(), number),
-              [&] { return joints_of_kind(kind_line.word(0)); });
+  errors_at(fmt::format("{}: link {}", kind_line.place(), number),
+            [&] { return joints_of_kind(kind_line.word(0)); });
   used_up(kind_line, 1);
   const Line line = expected(fmt::format("the file of link {}", number));
   used_up(line, 2);

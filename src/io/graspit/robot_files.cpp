@@ -39,7 +39,7 @@ static void read_named(Value (*read)(const fs::path&, const ReadOptions&), const
     return;
   }
   target =
-      errors_from(named.place, [&] { return fitted(robot, read(path, options), path, options); });
+      errors_at(named.place, [&] { return fitted(robot, read(path, options), path, options); });
   file = path.generic_string();
 }
 
@@ -51,8 +51,8 @@ static void read_chosen(Value (*read)(const fs::path&, const ReadOptions&), cons
   if (name.empty()) return;
   const fs::path path = find_file(name, {}, options);
   Value value = read(path, options);
-  target = errors_from(path.filename().string(),
-                       [&] { return fitted(robot, std::move(value), path, options); });
+  target = errors_at(path.filename().string(),
+                     [&] { return fitted(robot, std::move(value), path, options); });
   file = path.generic_string();
 }
 

@@ -277,8 +277,8 @@ void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, Cha
                 warn());
   const std::string kind = element.expected_attribute("dynamicJointType");
   const int last =
-      chain.last_joint() + errors_from(fmt::format("{}: link {}", element.place(), place.link),
-                                       [&] { return joints_of_kind(kind); });
+      chain.last_joint() + errors_at(fmt::format("{}: link {}", element.place(), place.link),
+                                     [&] { return joints_of_kind(kind); });
   if (last >= chain.joints())
     element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,
                  chain.joints());

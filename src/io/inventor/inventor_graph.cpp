@@ -54,7 +54,7 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
     fail("{}: expected at most {} included files, each counted as often as it is named", place,
          max_includes);
   fs::path& path = found_[{referrer, name}];
-  errors_from(place, [&] {
+  errors_at(place, [&] {
     if (path.empty()) path = fs::weakly_canonical(find_file(name, referrer, options_));
   });
   for (const auto& above : open_)
@@ -67,10 +67,10 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
 }
 
 const InventorNode* InventorLoader::load_part(const fs::path& path, const std::string& place) {
-  const std::string text = errors_from(place, [&] { return read_text(path); });
+  const std::string text = errors_at(place, [&] { return read_text(path); });
   // of a chain of files the first and the last are told
   if (open_.size() > 1) return load(path, text);
-  return errors_from(place, [&] { return load(path, text); });
+  return errors_at(place, [&] { return load(path, text); });
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ bool is_component_type(int type) {
 double component(ByteReader& bytes, NumberType type, bool normalized) {
   const double value = bytes.next(type);
   if (!normalized || type >= NumberType::uint32) return value;
-  constexpr double most[] = {127, 255, 32767, 65535};
-  return std::max(value / most[static_cast<int>(type)], -1.0);
+  constexpr double largest[] = {127, 255, 32767, 65535};
+  return std::max(value / largest[static_cast<int>(type)], -1.0);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const RobotSpec& FileCache::robot(const fs::path& path, const std::string& body)
 
 BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer,
                                const std::string& place) {
-  BodySpec out = errors_from(
+  BodySpec out = errors_at(
       place, [&] { return body(find_model(name, referrer, ModelKind::body, place, options_)); });
   out.source = name;
   return out;
@@ -35,7 +35,7 @@ RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referr
   const size_t at = name.rfind('#');
   const bool part = at != std::string::npos && at > 0;
   const std::string file = part ? name.substr(0, at) : name;
-  RobotSpec out = errors_from(place, [&] {
+  RobotSpec out = errors_at(place, [&] {
     return robot(find_model(file, referrer, ModelKind::robot, place, options_),
                  part ? name.substr(at + 1) : "");
   });
@@ -55,7 +55,7 @@ fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
 }
 
 BodySpec FileCache::part(const std::string& name, const fs::path& robot, const std::string& place) {
-  return errors_from(place, [&] {
+  return errors_at(place, [&] {
     const fs::path found = find_part(name, robot, place);
     BodySpec out = body(found);
     out.source = found.generic_string();

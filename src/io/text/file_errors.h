@@ -1,5 +1,8 @@
 // What is wrong with a file is an error of that kind, told at its place, whoever finds it.
 #pragma once
+#include <string>
+#include <type_traits>
+
 #include "clench/base/error.h"
 
 namespace clench {
@@ -15,23 +18,17 @@ auto of_file(Read&& read) {
   }
 }
 
-/// What `read` returns; its errors are told at `place`, a line, an element or a reader.
+/// What `read` returns; its errors begin with `place`, and stay of their kind.
+/// place  "Barrett.cfg:31", or a line, an element or a reader that knows it
 template <class Place, class Read>
 auto errors_at(const Place& place, Read&& read) {
   try {
     return read();
   } catch (const Error& error) {
-    place.fail("{}", error.what());
-  }
-}
-
-/// What `read` returns; its errors begin with `place`, "Barrett.cfg:31", and stay of their kind.
-template <class Read>
-auto errors_from(const std::string& place, Read&& read) {
-  try {
-    return read();
-  } catch (const Error& error) {
-    fail(error.kind(), "{}: {}", place, error.what());
+    if constexpr (std::is_convertible_v<const Place&, std::string>)
+      fail(error.kind(), "{}: {}", place, error.what());
+    else
+      fail(error.kind(), "{}: {}", place.place(), error.what());
   }
 }
 

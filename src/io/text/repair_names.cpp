@@ -39,7 +39,7 @@ static void repair_robot_names(RobotSpec& robot, const std::string& place,
 
 void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options) {
   repair_robot_names(robot, place, options);
-  errors_from(place, [&] { check_robot(robot); });
+  errors_at(place, [&] { check_robot(robot); });
 }
 
 }  // namespace clench

@@ -46,16 +46,16 @@ EnergyPtr keep_out_energy(Id<Robot> hand, const Pose& X_WK, const Vector3d& low,
       });
 }
 
-EnergyPtr clearance_energy(const HandAndObject& who, double least) {
-  if (!(std::isfinite(least) && least >= 0))
-    fail("energy: distance must be >= 0 [m], got {}", least);
-  return std::make_unique<PlainEnergy>([who, least](World& world) {
+EnergyPtr clearance_energy(const HandAndObject& who, double min_distance) {
+  if (!(std::isfinite(min_distance) && min_distance >= 0))
+    fail("energy: distance must be >= 0 [m], got {}", min_distance);
+  return std::make_unique<PlainEnergy>([who, min_distance](World& world) {
     const auto parts = world.bodies_of(who.hand);
     std::vector<Id<Body>> others;
     for (const Id<Body> id : world.bodies())
       if (id != who.object && std::ranges::find(parts, id) == parts.end()) others.push_back(id);
-    const BodyDistance near = distance(world, parts, others, least, &world.context());
-    return near.a ? energy_length * (least - near.distance) : 0;
+    const BodyDistance near = distance(world, parts, others, min_distance, &world.context());
+    return near.a ? energy_length * (min_distance - near.distance) : 0;
   });
 }
 

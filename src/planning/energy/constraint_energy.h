@@ -15,7 +15,7 @@ EnergyPtr keep_out_energy(Id<Robot> hand, const Pose& X_WK, const Eigen::Vector3
 
 /// How much nearer than a distance the hand is to bodies that are not its own and not what it
 /// grasps [mm].
-EnergyPtr clearance_energy(const HandAndObject& who, double distance);
+EnergyPtr clearance_energy(const HandAndObject& who, double min_distance);
 
 /// How much farther than a radius the approach frame's origin is from a point: what an arm reaches
 /// [mm].

@@ -74,20 +74,17 @@ class EnergyWithin : public Energy {
   double low_, high_;
 };
 
-/// A function of the world that remembers nothing: copies of it are good for any thread.
+/// A function of the world, >= 0, that remembers nothing: copies of it are good for any thread.
 class PlainEnergy : public Energy {
  public:
   using Function = std::function<double(World&)>;
-  /// lower_bound  no state has less
-  explicit PlainEnergy(Function function, double lower_bound = 0)
-      : function_(std::move(function)), lower_bound_(lower_bound) {}
+  explicit PlainEnergy(Function function) : function_(std::move(function)) {}
   double bounded_value(World& world, double) override { return function_(world); }
-  double lower_bound() const override { return lower_bound_; }
+  double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<PlainEnergy>(*this); }
 
  private:
   Function function_;
-  double lower_bound_;
 };
 
 /// A function as a term, a script's for instance.   throws what the function throws, and Error when

@@ -71,9 +71,9 @@ void read_tile(const Tile& tile, Picture& out) {
   }
 }
 
-int map_size_for(const RenderOptions& options, int least, int most) {
-  int size = least;
-  while (size < most && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
+int map_size_for(const RenderOptions& options, int min_size, int max_size) {
+  int size = min_size;
+  while (size < max_size && 5 * size < 4 * std::max(options.width, options.height)) size *= 2;
   return size;
 }
 

@@ -34,8 +34,8 @@ Eigen::Vector3f shading_eye(const Eye& eye);
 void read_tile(const Tile& tile, Picture& out);
 
 /// Size of a map of shadows, its texels about as wide as the pixels of the picture: a power of two
-/// times `least`, at most `most`.
-int map_size_for(const RenderOptions& options, int least, int most);
+/// times `min_size`, at most `max_size`.
+int map_size_for(const RenderOptions& options, int min_size, int max_size);
 
 /// throws  Error when OpenGL has met a fault
 void check_driver();

@@ -20,6 +20,7 @@ inline bool push_kept_table(lua_State* L, const void* key) {
 /// The one T of the state, made when it is first asked for.
 template <class T>
 T& kept(lua_State* L) {
+  static_assert(alignof(T) <= 8, "Lua aligns to 8 bytes only");
   static const char key = 0;  // its address names the T
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TUSERDATA) {
     lua_pop(L, 1);
