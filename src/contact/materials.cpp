@@ -20,11 +20,14 @@ constexpr double static_friction[material_names.size()][material_names.size()] =
     {0, 0.3, 0.4, 0.4, 0.6, 1.5, 0.7},  // stone
 };
 
-static constexpr size_t max_materials = 500;  // the table is square
+static constexpr size_t max_materials = 500;  // the table holds every pair
 
 MaterialTable::MaterialTable() : names_(material_names.begin(), material_names.end()) {
-  for (const auto& row : static_friction)
-    for (const double mu : row) table_.push_back({mu, std::max(0.0, mu - 0.1)});
+  for (size_t i = 0; i < names_.size(); ++i)
+    for (size_t j = 0; j <= i; ++j) {
+      const double mu = static_friction[i][j];
+      table_.push_back({mu, std::max(0.0, mu - 0.1)});
+    }
 }
 
 int MaterialTable::index(std::string_view name) const {
@@ -44,7 +47,7 @@ void MaterialTable::set_friction(std::string_view a, std::string_view b, Frictio
          friction.statics);
 
   const int i = find_or_add(a), j = find_or_add(b);
-  table_[i * names_.size() + j] = table_[j * names_.size() + i] = friction;
+  table_[place(i, j)] = friction;
 }
 
 int MaterialTable::find_or_add(std::string_view name) {
@@ -54,12 +57,8 @@ int MaterialTable::find_or_add(std::string_view name) {
   const size_t count = names_.size();
   if (count == max_materials)
     fail(ErrorKind::limit, "material '{}': expected at most {} materials", name, count);
-  // one more row and column, without friction
-  std::vector<Friction> grown((count + 1) * (count + 1));
-  for (size_t i = 0; i < count; ++i)
-    for (size_t j = 0; j < count; ++j) grown[i * (count + 1) + j] = table_[i * count + j];
-  table_ = std::move(grown);
   names_.emplace_back(name);
+  table_.resize(table_.size() + count + 1);  // without friction
   return static_cast<int>(count);
 }
 

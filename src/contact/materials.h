@@ -1,5 +1,6 @@
 // What bodies are made of, and the friction of each pair of materials.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,7 +29,7 @@ class MaterialTable {
   int index(std::string_view name) const;
   const std::string& name(int material) const { return names_[material]; }
   const std::vector<std::string>& names() const { return names_; }
-  Friction friction(int a, int b) const { return table_[a * names_.size() + b]; }
+  Friction friction(int a, int b) const { return table_[place(a, b)]; }
 
   /// Adds the names it does not know, frictionless against all others until told otherwise.
   /// throws Error when a coefficient is negative or not finite, or kinetic exceeds statics
@@ -36,8 +37,12 @@ class MaterialTable {
 
  private:
   int find_or_add(std::string_view name);
+  static size_t place(int a, int b) {
+    const size_t i = std::max(a, b), j = std::min(a, b);
+    return i * (i + 1) / 2 + j;
+  }
   std::vector<std::string> names_;
-  std::vector<Friction> table_;  // row by row
+  std::vector<Friction> table_;  // row by row, each up to the diagonal
 };
 
 }  // namespace clench

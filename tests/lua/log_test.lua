@@ -76,6 +76,11 @@ test("what cannot be logged is said in a sentence", function(t)
   t.fails(function() clench.files.save_arrays("build/a.npz", {a = {{1}, {1, 2}}}) end, "a[2]: expected a row of 1 numbers, got a row of 2 numbers")
   t.fails(function() clench.files.save_arrays("build/a.npz", {["../a"] = {1}}) end, "expected names without slashes")
   t.fails(function() clench.files.save_arrays("build/a.npz", {a = 1}) end, "a: expected a list of numbers, or of rows of them, got 1")
+  -- of many faults the first by name, whatever the order of the table
+  local many = {}
+  for i = 1, 40 do many["array" .. 140 - i] = i end
+  t.fails(function() clench.files.save_arrays("build/a.npz", many) end, "array100: expected a list")
+  t.fails(function() clench.files.save_arrays("build/a.npz", {[true] = {1}, a = {1}}) end, "arrays: expected names as keys, got true")
 end)
 
 test("a run is repeated to the bit, from a snapshot and from the stack", function(t)

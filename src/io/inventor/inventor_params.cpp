@@ -72,8 +72,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.material_given = true;
     } else if (key == "youngs") {
       body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
-      if (const std::string doubt = doubt_modulus(*body.elastic_modulus);
-          !doubt.empty() && options.warn)
+      if (const std::string doubt = doubt_modulus(*body.elastic_modulus); !doubt.empty())
         options.suspected(fmt::format("{}: youngs {}", line.place(), doubt));
     } else if (key == "useFlockOfBirds") {
       body.tracker = repairs.count(line.word(1), line.place() + ": useFlockOfBirds");

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 
 #include "clench/base/error.h"
@@ -18,15 +17,8 @@ int dof_named(const std::string& name, const RobotHandle& robot, const What& wha
 }
 
 std::vector<std::string> read_dof_names(lua_State* L, int i, const What& what) {
-  std::vector<std::string> names;
-  if (!lua_istable(L, i) || lua_rawlen(L, i) > 0) return names;
-  for (lua_pushnil(L); lua_next(L, i); lua_pop(L, 1)) {
-    if (lua_type(L, -2) != LUA_TSTRING)
-      fail("{}: expected names of DOFs, or a list of all values, got a table of both", what.text());
-    names.emplace_back(string_at(L, -2));
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+  if (!lua_istable(L, i) || lua_rawlen(L, i) > 0) return {};
+  return read_keys(L, i, what, "names of DOFs");
 }
 
 static std::vector<std::optional<double>> read_some_dofs(lua_State* L, int i, const What& what,

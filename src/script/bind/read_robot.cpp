@@ -4,31 +4,6 @@
 
 namespace clench {
 
-/// Visits the keys of the table on top of the stack as text, with the value on top.
-template <class Visit>
-static void each_key(lua_State* L, const std::string& subject, Visit visit) {
-  const int table = lua_gettop(L);
-  lua_pushnil(L);
-  while (lua_next(L, table)) {
-    std::string key;
-    if (lua_type(L, -2) == LUA_TSTRING)
-      key = string_at(L, -2);
-    else if (lua_isinteger(L, -2))
-      key = std::to_string(lua_tointeger(L, -2));
-    else
-      fail("{}: expected names or numbers as keys, got a {}", subject, luaL_typename(L, -2));
-    visit(key);
-    lua_pop(L, 1);
-  }
-}
-
-static std::filesystem::path check_folder(const std::string& name, const std::string& subject) {
-  std::error_code code;
-  if (!std::filesystem::is_directory(name, code))
-    fail("{}: expected a folder, got '{}'", subject, name);
-  return name;
-}
-
 // a folder for all packages, or a table of names and folders
 static void read_packages(lua_State* L, Table& options, ReadOptions& reading) {
   const std::string subject = options.subject() + ": package";
@@ -36,12 +11,11 @@ static void read_packages(lua_State* L, Table& options, ReadOptions& reading) {
   if (type == LUA_TSTRING) {
     reading.packages[""] = check_folder(options.string("package"), subject);
   } else if (type == LUA_TTABLE) {
-    each_key(L, subject, [&](const std::string& key) {
-      if (lua_type(L, -1) != LUA_TSTRING)
-        fail("{}: {}: expected a folder, got a {}", subject, key, luaL_typename(L, -1));
-      const std::string folder = read_string(L, -1, {L, subject, key});
-      reading.packages[key] = check_folder(folder, subject + ": " + key);
-    });
+    each_named(L, -1, {L, subject, {}}, "names of packages",
+               [&](const std::string& name, int i, const What& what) {
+                 if (lua_type(L, i) != LUA_TSTRING) fail_expected(what, "a folder", i);
+                 reading.packages[name] = check_folder(read_string(L, i, what), what.text());
+               });
   } else if (type != LUA_TNIL) {
     fail_expected(options.what("package"), "a folder or a table of folders", -1);
   }
@@ -52,15 +26,21 @@ static void read_closing(lua_State* L, Table& options, ReadOptions& reading) {
   const std::string subject = options.subject() + ": close";
   const int type = options.push("close");
   if (type == LUA_TTABLE) {
-    each_key(L, subject, [&](const std::string& key) {
-      if (lua_type(L, -1) != LUA_TNUMBER)
-        fail("{}: {}: expected 1, -1 or 0, got a {}", subject, key, luaL_typename(L, -1));
-      const double sense = lua_tonumber(L, -1);
-      if (lua_isinteger(L, -2) && lua_tointeger(L, -2) == static_cast<int>(lua_tointeger(L, -2)))
-        reading.closing_by_number[static_cast<int>(lua_tointeger(L, -2))] = sense;
-      else
-        reading.closing[key] = sense;
-    });
+    const auto sense = [&](int i, const What& what) {
+      if (lua_type(L, i) != LUA_TNUMBER) fail_expected(what, "1, -1 or 0", i);
+      return lua_tonumber(L, i);
+    };
+    std::vector<int> numbers;
+    const auto by_name = [&](const std::string& name, int i, const What& what) {
+      reading.closing[name] = sense(i, what);
+    };
+    each_named(L, -1, {L, subject, {}}, "names or numbers", by_name, &numbers);
+    for (const int number : numbers) {
+      lua_rawgeti(L, -1, number);
+      reading.closing_by_number[number] =
+          sense(lua_gettop(L), {L, subject, std::to_string(number)});
+      lua_pop(L, 1);
+    }
   } else if (type != LUA_TNIL) {
     fail_expected(options.what("close"), "a table such as {index = 1, [3] = -1}", -1);
   }

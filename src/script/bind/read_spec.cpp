@@ -26,20 +26,24 @@ static std::optional<double> read_unit(Table& options) {
       "unit", {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"inch", 0.0254}, {"foot", 0.3048}}, 1.0);
 }
 
+std::filesystem::path check_folder(const std::string& name, const std::string& subject) {
+  std::error_code code;
+  if (!std::filesystem::is_directory(name, code))
+    fail("{}: expected a folder, got '{}'", subject, name);
+  return name;
+}
+
 std::filesystem::path read_confine(lua_State* L, Table& options) {
   const std::string chosen = get_setting(L, Setting::confine);
   const std::string folder = options.string("confine", chosen);
-  std::error_code code;
-  if (options.has("confine") && !std::filesystem::is_directory(folder, code))
-    fail("{}: confine: expected a folder, got '{}'", options.subject(), folder);
-  return folder;
+  return options.has("confine") ? check_folder(folder, options.subject() + ": confine")
+                                : std::filesystem::path(folder);
 }
 
 ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
-  out.root = options.string("root", "");
-  if (!out.root.empty() && !std::filesystem::is_directory(out.root))
-    fail("{}: root: expected a folder, got '{}'", options.subject(), out.root.string());
+  const std::string root = options.string("root", "");
+  if (!root.empty()) out.root = check_folder(root, options.subject() + ": root");
   out.confine = read_confine(L, options);
   out.home = home_folder();
   out.mesh_scale = read_unit(options);

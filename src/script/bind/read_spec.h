@@ -5,6 +5,8 @@
 
 namespace clench {
 
+/// throws  Error "subject: expected a folder, got 'name'"
+std::filesystem::path check_folder(const std::string& name, const std::string& subject);
 /// The folder below which a call reads: its option confine, else what its state was given; empty:
 /// anywhere.
 std::filesystem::path read_confine(lua_State* L, Table& options);

@@ -1,7 +1,9 @@
 #include "clench/script/lua/read.h"
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
+#include <utility>
 
 #include "clench/base/text.h"
 #include "clench/script/lua/entry.h"
@@ -14,6 +16,11 @@ std::string What::text() const {
   std::string out = subject.empty() ? clench::subject(L) : std::string(subject);
   if (!key.empty()) out += ": " + key;
   return out;
+}
+
+What What::named(std::string_view name) const {
+  const std::string told = excerpt(name);
+  return {L, subject, key.empty() ? told : key + '.' + told};
 }
 
 static std::string quoted(lua_State* L, int index) {
@@ -112,19 +119,22 @@ static void push_item(lua_State* L, int list, int item) {
   lua_rawgeti(L, list, item);
 }
 
-// the key of a table that is none of its list: of names the least, so that no message hangs on the
-// order of a hash table; "" when there is none
+// so that no message hangs on the order of a hash table; "" is none yet
+static void keep_least(std::string& least, std::string text) {
+  if (least.empty() || text < least) least = std::move(text);
+}
+
+// the key of a table that is none of its list, of names the least; "" when there is none
 static std::string foreign_key(lua_State* L, int table, lua_Integer size, const char* extra) {
   std::string name, other;
   for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1)) {
     if (lua_isinteger(L, -2)) {
       const lua_Integer k = lua_tointeger(L, -2);
-      if (k < 1 || k > size) other = fmt::format("[{}]", k);
+      if (k < 1 || k > size) keep_least(other, fmt::format("[{}]", k));
     } else if (lua_type(L, -2) != LUA_TSTRING) {
-      other = "[" + described(L, -2) + "]";
+      keep_least(other, "[" + described(L, -2) + "]");
     } else if (!extra || string_at(L, -2) != extra) {
-      const std::string here = quoted(L, -2);
-      if (name.empty() || here < name) name = here;
+      keep_least(name, quoted(L, -2));
     }
   }
   return name.empty() ? other : name;
@@ -141,6 +151,26 @@ int read_list_size(lua_State* L, int i, const What& what, std::string_view expec
   if (!key.empty())
     fail("{}: expected {}, got a table with the key {}", what.text(), expected, key);
   return static_cast<int>(size);
+}
+
+std::vector<std::string> read_keys(lua_State* L, int table, const What& what,
+                                   std::string_view expected, std::vector<int>* numbers) {
+  table = lua_absindex(L, table);
+  std::vector<std::string> names;
+  std::string other;
+  for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1)) {
+    if (lua_type(L, -2) == LUA_TSTRING) {
+      names.emplace_back(string_at(L, -2));
+    } else if (numbers && lua_isinteger(L, -2) && std::in_range<int>(lua_tointeger(L, -2))) {
+      numbers->push_back(static_cast<int>(lua_tointeger(L, -2)));
+    } else {
+      keep_least(other, described(L, -2));
+    }
+  }
+  if (!other.empty()) fail("{}: expected {} as keys, got {}", what.text(), expected, other);
+  std::ranges::sort(names);
+  if (numbers) std::ranges::sort(*numbers);
+  return names;
 }
 
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count) {

@@ -22,6 +22,7 @@ struct What {
 
   std::string text() const;
   What item(int i) const { return {L, subject, key + '[' + std::to_string(i) + ']'}; }
+  What named(std::string_view name) const;
 };
 
 /// "a robot", "an object", "eigengrasps"
@@ -46,6 +47,11 @@ Pose read_pose(lua_State* L, int i, const What& what);
 /// throws  Error "...: expected a list of contacts, got a table with the key 'link'"
 int read_list_size(lua_State* L, int i, const What& what, std::string_view expected,
                    const char* extra = nullptr);
+/// The names in a table {name = value}, sorted, so that the first fault told is always the same.
+/// numbers  takes the keys that are ints, sorted; null: those are refused like all others
+/// throws   Error "...: expected names of variables as keys, got 3"
+std::vector<std::string> read_keys(lua_State* L, int table, const What& what,
+                                   std::string_view expected, std::vector<int>* numbers = nullptr);
 /// finite numbers; count < 0: any number of them
 /// throws  Error "...: expected 12 numbers, got 3"
 std::vector<double> read_numbers(lua_State* L, int i, const What& what, int count = -1);
@@ -90,6 +96,20 @@ void each_item(lua_State* L, int list, const What& what, std::string_view expect
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(L, list, i);
     read(lua_gettop(L), what.item(i));
+    lua_pop(L, 1);
+  }
+}
+
+/// Calls read(name, index, what) with each value of a table {name = value}, on top of the stack.
+/// throws  as read_keys, and what read throws
+template <class Read>
+void each_named(lua_State* L, int table, const What& what, std::string_view expected, Read read,
+                std::vector<int>* numbers = nullptr) {
+  table = lua_absindex(L, table);
+  for (const std::string& name : read_keys(L, table, what, expected, numbers)) {
+    lua_pushlstring(L, name.data(), name.size());
+    lua_rawget(L, table);
+    read(name, lua_gettop(L), what.named(name));
     lua_pop(L, 1);
   }
 }

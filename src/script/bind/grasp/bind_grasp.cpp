@@ -76,13 +76,9 @@ static int set_info(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   std::map<std::string, double> info;
   if (!lua_istable(L, 2)) fail_expected({L, {}, "value"}, "a table of names and numbers", 2);
-  for (lua_pushnil(L); lua_next(L, 2); lua_pop(L, 1)) {
-    if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TNUMBER ||
-        !std::isfinite(lua_tonumber(L, -1)))
-      fail("{}: expected names with finite numbers, got {} = {}", subject(L), described(L, -2),
-           described(L, -1));
-    info[std::string(string_at(L, -2))] = lua_tonumber(L, -1);
-  }
+  each_named(L, 2, {L, {}, {}}, "names", [&](const std::string& name, int i, const What& what) {
+    info[name] = read_number(L, i, what);
+  });
   g.grasp.info = std::move(info);
   return 0;
 }
@@ -91,12 +87,10 @@ static int set_labels(lua_State* L) {
   auto& g = self<GraspHandle>(L);
   std::map<std::string, std::string> labels;
   if (!lua_istable(L, 2)) fail_expected({L, {}, "value"}, "a table of names and strings", 2);
-  for (lua_pushnil(L); lua_next(L, 2); lua_pop(L, 1)) {
-    if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
-      fail("{}: expected names with strings, got {} = {}", subject(L), described(L, -2),
-           described(L, -1));
-    labels[std::string(string_at(L, -2))] = string_at(L, -1);
-  }
+  each_named(L, 2, {L, {}, {}}, "names", [&](const std::string& name, int i, const What& what) {
+    if (lua_type(L, i) != LUA_TSTRING) fail_expected(what, "a string", i);
+    labels[name] = string_at(L, i);
+  });
   g.grasp.labels = std::move(labels);
   return 0;
 }
@@ -265,14 +259,14 @@ Numbers that a script notes, by name: a seed, an energy, the number of a run. Th
 @type table<string, number>
 > grasp.info = {seed = 7}
 > grasp.info.seed  --> 7.0
-> grasp.info = {seed = "x"}  --> error: expected names with finite numbers)",
+> grasp.info = {seed = "x"}  --> error: seed: expected a number, got 'x')",
      guarded<set_info>},
     {"labels", getter<[](const GraspHandle& x) { return x.grasp.labels; }>, R"(
 Words that a script notes, by name: its planner, its script. They are kept in files.
 @type table<string, string>
 > grasp.labels = {planner = "mine"}
 > grasp.labels.planner  --> mine
-> grasp.labels = {planner = 3}  --> error: expected names with strings)",
+> grasp.labels = {planner = 3}  --> error: planner: expected a string, got 3)",
      guarded<set_labels>},
     {"pregrasp", getter<[](const GraspHandle& x) { return x.grasp.pregrasp; }>, R"(
 How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not

@@ -242,7 +242,7 @@ around. Both are the volume without round cones.
 > bounds = exact:volume_bounds()
 > bounds.lower < exact:volume() and exact:volume() < bounds.upper and bounds.upper < 1.05 * bounds.lower  --> true
 > bounds.lower > grasp:quality "volume"  --> true
-> exact:volume_bounds{edges = 64}.lower > bounds.lower  --> true)"},
+> exact:volume_bounds{edges = 16}.lower < bounds.lower  --> true)"},
     {"is_force_closure", guarded<closes_force>, R"(
 Is every wrench resisted?
 @return boolean

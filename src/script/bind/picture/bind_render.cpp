@@ -232,12 +232,12 @@ It needs EGL and OpenGL, but no display. What a picture needs is kept for the ne
 @param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
+> plain = clench.render(world, {size = {64, 48}, quality = "draft"})
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
-> clench.render(world, {size = {64, 48}, forces = held.forces}) == clench.render(world, {size = {64, 48}})  --> false
-> clench.render(world, {size = {64, 48}, approach = true}) == clench.render(world, {size = {64, 48}})  --> false
-> bare = clench.render(world, {size = {64, 48}, patches = true, contacts = false})
-> clench.render(world, {size = {64, 48}, patches = true}) == bare  --> true
-> clench.render(world, {size = {64, 48}, quality = "draft"})  --> picture of 64 x 48 pixels
+> clench.render(world, {size = {64, 48}, quality = "draft", forces = held.forces}) == plain  --> false
+> clench.render(world, {size = {64, 48}, quality = "draft", approach = true}) == plain  --> false
+> bare = clench.render(world, {size = {64, 48}, quality = "draft", patches = true, contacts = false})
+> clench.render(world, {size = {64, 48}, quality = "draft", patches = true}) == bare  --> true
 > clench.render(world, {size = {64, 48}, background = "white", orthographic = true, outline = 1})  --> picture of 64 x 48 pixels
 > clench.render(world, {cones = "force"})  --> error: 'force' needs the option forces
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
@@ -247,19 +247,19 @@ static const Entry render_fields[] = {
     {"width", getter<[](const Picture& x) { return x.width; }>, R"(
 Its width.
 @type integer  pixels
-> clench.render(world, {size = {64, 48}}).width  --> 64)"},
+> clench.render(world, {size = {64, 48}, quality = "draft"}).width  --> 64)"},
     {"height", getter<[](const Picture& x) { return x.height; }>, R"(
 Its height.
 @type integer  pixels
-> clench.render(world, {size = {64, 48}}).height  --> 48)"},
+> clench.render(world, {size = {64, 48}, quality = "draft"}).height  --> 48)"},
 };
 
 static const Entry render_methods[] = {
     {"save", guarded<render_save>, R"(
 Writes a PNG file, with alpha where the background is transparent.
 @param path string
-> clench.render(world, {size = {64, 48}}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
-> clench.render(world, {size = {64, 48}}):save("a.jpg")  --> error: .png)"},
+> clench.render(world, {size = {64, 48}, quality = "draft"}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
+> clench.render(world, {size = {64, 48}, quality = "draft"}):save("a.jpg")  --> error: .png)"},
     {"pixel", guarded<pixel>, R"(
 Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
 @param x integer
@@ -267,14 +267,14 @@ Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
 @return integer red
 @return integer green
 @return integer blue
-> select("#", clench.render(world, {size = {64, 48}}):pixel(1, 1))  --> 3)"},
+> select("#", clench.render(world, {size = {64, 48}, quality = "draft"}):pixel(1, 1))  --> 3)"},
     {"alpha", guarded<alpha>, R"(
 How much a pixel covers, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
 @param x integer
 @param y integer
 @return integer alpha
-> clench.render(world, {size = {64, 48}}):alpha(1, 1)  --> 255
-> clench.render(world, {size = {64, 48}, background = "transparent"}):alpha(1, 1)  --> 0)"},
+> clench.render(world, {size = {64, 48}, quality = "draft"}):alpha(1, 1)  --> 255
+> clench.render(world, {size = {64, 48}, quality = "draft", background = "transparent"}):alpha(1, 1)  --> 0)"},
 };
 
 static const Entry render_operators[] = {

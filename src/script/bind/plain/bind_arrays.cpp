@@ -46,15 +46,12 @@ static int save_arrays(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
   if (!lua_istable(L, 2)) fail_expected({L, {}, "arrays"}, "a table of names and lists", 2);
   std::map<std::string, NpyArray> arrays;
-  for (lua_pushnil(L); lua_next(L, 2); lua_pop(L, 1)) {
-    if (lua_type(L, -2) != LUA_TSTRING)
-      fail("{}: arrays: expected names as keys, got {}", subject(L), described(L, -2));
-    const std::string name(string_at(L, -2));
+  each_named(L, 2, {L, {}, "arrays"}, "names", [&](const std::string& name, int i, const What&) {
     // a name is one of a file in an archive
     if (name.empty() || name.find_first_of(std::string_view("/\\\0", 3)) != name.npos)
       fail("{}: arrays: expected names without slashes, got {}", subject(L), in_quotes(name));
-    arrays[name] = read_array(L, lua_gettop(L), fmt::format("{}: {}", subject(L), excerpt(name)));
-  }
+    arrays[name] = read_array(L, i, fmt::format("{}: {}", subject(L), excerpt(name)));
+  });
   write_file(path, npz_bytes(arrays));
   return 0;
 }

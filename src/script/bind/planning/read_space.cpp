@@ -11,29 +11,14 @@ namespace clench {
 
 namespace {
 
-// Visits the names of a table {name = value}, each value on top of the stack.
-template <class Visit>
-void each_named(lua_State* L, Table& options, const char* key, Visit visit) {
+// Calls read(name, index, what) with each value of an option {name = value}.
+template <class Read>
+void each_variable(lua_State* L, Table& options, const char* key, Read read) {
   const int type = options.push(key);
-  if (type != LUA_TNIL && type != LUA_TTABLE)
+  if (type == LUA_TTABLE)
+    each_named(L, -1, options.what(key), "names of variables", read);
+  else if (type != LUA_TNIL)
     fail_expected(options.what(key), "a table by names of variables", lua_gettop(L));
-  if (type == LUA_TTABLE) {
-    // in the order of names, so that the first fault told is always the same
-    std::vector<std::string> names;
-    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
-      if (lua_type(L, -2) != LUA_TSTRING)
-        fail("{}: expected names of variables, got {}", options.what(key).text(),
-             described(L, lua_gettop(L) - 1));
-      names.emplace_back(string_at(L, -2));
-    }
-    std::ranges::sort(names);
-    for (const std::string& name : names) {
-      lua_pushlstring(L, name.data(), name.size());
-      lua_rawget(L, -2);
-      visit(name, What{L, {}, std::string(key) + '.' + name});
-      lua_pop(L, 1);
-    }
-  }
   lua_pop(L, 1);
 }
 
@@ -80,18 +65,18 @@ SearchSpace read_space(lua_State* L, Table& options, const World& world, const H
     return space.variables()[find_variable(space.variables(), name)];
   };
 
-  each_named(L, options, "variables", [&](const std::string& name, const What& what) {
-    space.add_variable(read_variable(L, lua_gettop(L), name, what));
+  each_variable(L, options, "variables", [&](const std::string& name, int i, const What& what) {
+    space.add_variable(read_variable(L, i, name, what));
   });
-  each_named(L, options, "limits", [&](const std::string& name, const What& what) {
-    const auto range = read_numbers(L, lua_gettop(L), what, 2);
+  each_variable(L, options, "limits", [&](const std::string& name, int i, const What& what) {
+    const auto range = read_numbers(L, i, what, 2);
     Variable& v = of(name);
     v.min = range[0], v.max = range[1];
     if (v.min < v.max) v.value = std::clamp(v.value, v.min, v.max);
     v.circular = false;
   });
-  each_named(L, options, "jumps", [&](const std::string& name, const What& what) {
-    of(name).jump = read_number(L, lua_gettop(L), what);
+  each_variable(L, options, "jumps", [&](const std::string& name, int i, const What& what) {
+    of(name).jump = read_number(L, i, what);
   });
   if (options.choice("start", {{"default", false}, {"hand", true}}, false)) {
     const Values now = space.values(start);
@@ -99,11 +84,11 @@ SearchSpace read_space(lua_State* L, Table& options, const World& world, const H
       space.variables()[i].value =
           std::clamp(now[i], space.variables()[i].min, space.variables()[i].max);
   }
-  each_named(L, options, "values", [&](const std::string& name, const What& what) {
-    of(name).value = read_number(L, lua_gettop(L), what);
+  each_variable(L, options, "values", [&](const std::string& name, int i, const What& what) {
+    of(name).value = read_number(L, i, what);
   });
-  each_named(L, options, "targets", [&](const std::string& name, const What& what) {
-    const auto target = read_numbers(L, lua_gettop(L), what, 2);
+  each_variable(L, options, "targets", [&](const std::string& name, int i, const What& what) {
+    const auto target = read_numbers(L, i, what, 2);
     of(name).target = target[0], of(name).confidence = target[1];
   });
   if (options.has("fixed"))
