@@ -6,6 +6,7 @@
 #include "clench/base/random.h"
 #include "clench/grasp/wrench/facet_plane.h"
 #include "clench/grasp/wrench/first_simplex.h"
+#include "support/linear.h"
 
 using namespace clench;
 
@@ -63,7 +64,7 @@ void check_surface(FacetComplex<D>& complex) {
     Eigen::MatrixXd edges(D, D);
     for (int k = 0; k < D; ++k)
       edges.col(k) = Eigen::Map<const Eigen::VectorXd>(complex.point(facet.corner[k]).x, D);
-    const bool mirrored = (edges.determinant() > 0) == facet.turned;
+    const bool mirrored = (test::determinant(edges) > 0) == facet.turned;
     CHECK(mirrored == first_mirrored.value_or(mirrored));
     first_mirrored = mirrored;
   }

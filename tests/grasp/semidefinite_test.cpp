@@ -3,12 +3,12 @@
 #include <doctest/doctest.h>
 #include <dsdp/dsdp5.h>
 
-#include <Eigen/LU>
 #include <array>
 #include <deque>
 
 #include "clench/grasp/force/contact_forces.h"
 #include "grasp/held_object.h"
+#include "support/linear.h"
 
 using namespace clench;
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
@@ -81,23 +81,22 @@ std::array<double, 2> min_forces(const Grasp& grasp, const Vector6d& load, doubl
   Vector6d w = load;
   G.bottomRows(3) /= grasp.rho, w.tail<3>() /= grasp.rho;
   // forces f = span y + start, a row a force
-  const Eigen::FullPivLU<MatrixXd> lu(G);
-  const MatrixXd kernel = lu.kernel();
+  const auto [kernel, start] = test::solutions(G, -w);
   MatrixXd f(map.forces(), kernel.cols() + 1);
-  f << kernel, lu.solve(-w);
+  f << kernel, start;
   const int contacts = map.contacts();
   SemidefiniteProgram program(static_cast<int>(kernel.cols()), 2 * contacts);
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(f.cols());
   for (int i = 0; i < contacts; ++i) {
     const PointContact& point = grasp.points[i];
-    const int start = map.starts[i], count = map.starts[i + 1] - start;
-    MatrixXd across = f.middleRows(start + 1, count - 1);
+    const int first = map.starts[i], count = map.starts[i + 1] - first;
+    MatrixXd across = f.middleRows(first + 1, count - 1);
     if (count == 4) across.row(2) /= point.torsion_radius;
-    program.arrow((count > 1 ? point.mu : 1) * f.row(start), across);
-    Eigen::RowVectorXd room = -f.row(start);
+    program.arrow((count > 1 ? point.mu : 1) * f.row(first), across);
+    Eigen::RowVectorXd room = -f.row(first);
     room[room.size() - 1] += cap;
     program.arrow(room, MatrixXd(0, f.cols()));
-    sum += f.row(start);
+    sum += f.row(first);
   }
   const auto [reached, proved] = program.maximise(-sum.head(kernel.cols()).transpose());
   const double constant = sum[kernel.cols()];

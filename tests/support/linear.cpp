@@ -17,4 +17,13 @@ std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m) {
   return lu.kernel().col(0).normalized();
 }
 
+Solutions solutions(const Eigen::MatrixXd& m, const Eigen::VectorXd& right) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(m);
+  return {lu.kernel(), lu.solve(right)};
+}
+
+double determinant(const Eigen::MatrixXd& m) {
+  return Eigen::FullPivLU<Eigen::MatrixXd>(m).determinant();
+}
+
 }  // namespace clench::test

@@ -14,4 +14,13 @@ Eigen::MatrixXd random_turn(int d, Random& random);
 /// sign.
 std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m);
 
+/// All x of m x = right, as kernel * y + start. m has more columns than rows, which are independent.
+struct Solutions {
+  Eigen::MatrixXd kernel;
+  Eigen::VectorXd start;
+};
+Solutions solutions(const Eigen::MatrixXd& m, const Eigen::VectorXd& right);
+
+double determinant(const Eigen::MatrixXd& m);
+
 }  // namespace clench::test
