@@ -10,7 +10,7 @@ local function options_of(planner)
   local world, hand, mug = barrett_mug()
   local options = {hand = hand, object = mug, seed = 4}
   for key, value in pairs(({
-    sample = {count = 4, refine = 2}, random = {count = 20, threads = 2}, anneal = {steps = 3000}, antipodal = {count = 5},
+    sample = {count = 2, refine = 1}, random = {count = 20, threads = 2}, anneal = {steps = 3000}, antipodal = {count = 5},
     loop = {steps = 6000, loop_steps = 2000, energy = "contact", max_energy = 500}, guided = {steps = 2500, child_steps = 30},
     primitive = {density = 1, primitives = {{kind = "cylinder", pose = clench.pose {rpy = {math.pi / 2, 0, 0}}, radius = 0.04, height = 0.09}}},
   })[planner]) do options[key] = value end

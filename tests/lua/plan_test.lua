@@ -62,7 +62,7 @@ end)
 
 test("threads change no byte of what any planner finds", function(t)
   local planners = {
-    sample = {count = 3, refine = 2}, random = {count = 5}, guided = {steps = 2500, child_steps = 30, children = 2},
+    sample = {count = 2, refine = 1}, random = {count = 5}, guided = {steps = 2500, child_steps = 30, children = 2},
   }
   for name, options in pairs(planners) do
     local bytes
