@@ -68,6 +68,7 @@ TEST_CASE(
         turned.eye = Eye{.eye = {3, 2, 1}};
         used.draw(turned, options, own_font);
         CHECK(used.draw(some_things(), options, own_font) == expected);
+        CHECK(used.draw(some_things(), options, own_font) == expected);
       }
 }
 
