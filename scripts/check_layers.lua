@@ -251,17 +251,34 @@ local function check_circles(sources)
   end
 end
 
--- headers and names of one library in one source that is not its home
-local function check_library(source, library, sources)
-  local belongs = "belongs to " .. library.name .. ", which is seen only by " .. library.said
+--- name -> the libraries that have it, which is asked once a name.
+local function owners_of_names(libraries)
+  return setmetatable({}, {__index = function(known, name)
+    local owners = {}
+    for _, library in ipairs(libraries) do
+      if matches(name, library.names) then owners[#owners + 1] = library end
+    end
+    known[name] = owners
+    return owners
+  end})
+end
+
+-- headers and names of libraries in one source that is not their home
+local function check_libraries(source, libraries, owners, sources)
+  local function check(line, found, library)
+    if matches(source.path, library.homes) then return end
+    fault(at(source, line), "%s belongs to %s, which is seen only by %s", found, library.name, library.said)
+  end
   for _, include in ipairs(source.includes) do
-    if not sources[include.name] and matches(include.name, library.headers) then
-      fault(at(source, include.line), "<%s> %s", include.name, belongs)
+    for _, library in ipairs(libraries) do
+      if not sources[include.name] and matches(include.name, library.headers) then
+        check(include.line, "<" .. include.name .. ">", library)
+      end
     end
   end
   for line, text in ipairs(source.lines) do
     for name in text:gmatch "[%a_][%w_]*" do
-      if matches(name, library.names) then fault(at(source, line), "'%s' %s", name, belongs) end
+      for _, library in ipairs(owners[name]) do check(line, "'" .. name .. "'", library) end
     end
   end
 end
@@ -302,11 +319,8 @@ local sources = read_sources()
 check_modules(sources, modules, read_rooms("docs/architecture.md", modules))
 check_circles(sources)
 check_types(sources)
-for _, source in ipairs(sources) do
-  for _, library in ipairs(libraries) do
-    if not matches(source.path, library.homes) then check_library(source, library, sources) end
-  end
-end
+local owners = owners_of_names(libraries)
+for _, source in ipairs(sources) do check_libraries(source, libraries, owners, sources) end
 for _, text in ipairs(faults) do print(text) end
 print(("layers: %d files, %d faults"):format(#sources, #faults))
 os.exit(#faults == 0 and 0 or 1)

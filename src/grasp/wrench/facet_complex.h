@@ -136,7 +136,7 @@ int FacetComplex<D>::add_point(const double* x) {
 template <int D>
 void FacetComplex<D>::start(const Eight* planes) {
   used_ = D + 1;
-  if (facets_.size() < D + 1) facets_.resize(256);
+  if (facets_.size() < D + 1) facets_.resize(D + 1);
   for (int k = 0; k <= D; ++k) {
     Facet& facet = facets_[k];
     facet.plane = planes[k];
@@ -194,7 +194,7 @@ void FacetComplex<D>::reserve() {
   for (int i = 0; i < old; ++i) made_[i] = free_[free_.size() - 1 - i];
   free_.resize(free_.size() - old);
   for (int i = old; i < rim_count_; ++i) made_[i] = used_++;
-  if (static_cast<int>(facets_.size()) < used_) facets_.resize(used_ + used_ / 2);
+  if (static_cast<int>(facets_.size()) < used_) facets_.resize(used_);  // twice the room; no page is touched before it is used
   ridges_.resize(8 * static_cast<size_t>(rim_count_));
   size_t size = 256;
   while (size < 32 * static_cast<size_t>(rim_count_)) size *= 2;

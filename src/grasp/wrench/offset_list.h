@@ -1,56 +1,77 @@
 // Offsets of facets by number, of which the least is asked for again and again while many change
-// each time: blocks that know their own least, in no order. Includes no Eigen.
+// each time: blocks that know their own least, and groups of blocks that know theirs. Includes no
+// Eigen.
 #pragma once
+#include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace clench {
 
 class OffsetList {
  public:
-  void clear() { offsets_.clear(), blocks_.clear(); }
+  void clear() { offsets_.clear(), blocks_.clear(), groups_.clear(); }
 
   void set(int index, double offset) {
-    while (static_cast<int>(offsets_.size()) <= index) {
+    while (size() <= index) {
+      if (size() % group == 0) groups_.push_back({});
+      blocks_.push_back({});
       offsets_.resize(offsets_.size() + block, none);
-      blocks_.push_back({none, false});
     }
-    OffsetBlock& of = blocks_[index / block];
-    of.stale |= offsets_[index] == of.least && offset > of.least;
-    offsets_[index] = offset;
-    of.least = offset < of.least ? offset : of.least;
+    const double before = std::exchange(offsets_[index], offset);
+    blocks_[index / block].change(before, offset);
+    groups_[index / group].change(before, offset);
   }
 
   void drop(int index) {
-    if (static_cast<int>(offsets_.size()) <= index) return;
-    OffsetBlock& of = blocks_[index / block];
-    of.stale |= offsets_[index] == of.least;
-    offsets_[index] = none;
+    if (index < size()) set(index, none);
   }
 
   /// returns  the index of the least, the lowest of several; -1: there is none
   int least() {
     double least = none;
     int in = -1;
-    for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
-      if (blocks_[b].stale) refresh(b);
-      if (blocks_[b].least < least) least = blocks_[b].least, in = b;
+    for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+      if (groups_[g].stale) refresh_group(g);
+      if (groups_[g].least < least) least = groups_[g].least, in = g;
     }
     if (in < 0) return -1;
-    int index = in * block;
+    // a block that is stale and not the least's lies higher, or the group would be stale too
+    int b = in * (group / block);
+    while (blocks_[b].least != least) ++b;
+    int index = b * block;
     while (offsets_[index] != least) ++index;
     return index;
   }
 
  private:
-  static constexpr int block = 64, lanes = 8;
+  static constexpr int block = 64, group = 64 * block, lanes = 8;
   static constexpr double none = std::numeric_limits<double>::infinity();
-  struct OffsetBlock {
-    double least;
-    bool stale;  // the least may be gone
+  struct Least {
+    double least = none;
+    bool stale = false;  // the least may be gone
+
+    void change(double before, double now) {
+      stale |= before == least && now > least;
+      least = now < least ? now : least;
+    }
   };
 
-  void refresh(int b) {
+  int size() const { return static_cast<int>(offsets_.size()); }
+
+  void refresh_group(int g) {
+    double least = none;
+    const int first = g * (group / block);
+    const int end = std::min(first + group / block, static_cast<int>(blocks_.size()));
+    for (int b = first; b < end; ++b) {
+      if (blocks_[b].stale) refresh_block(b);
+      least = blocks_[b].least < least ? blocks_[b].least : least;
+    }
+    groups_[g] = {least, false};
+  }
+
+  void refresh_block(int b) {
     const double* x = &offsets_[static_cast<size_t>(b) * block];
     double least[lanes];
     for (int lane = 0; lane < lanes; ++lane) least[lane] = x[lane];
@@ -63,7 +84,7 @@ class OffsetList {
   }
 
   std::vector<double> offsets_;
-  std::vector<OffsetBlock> blocks_;
+  std::vector<Least> blocks_, groups_;
 };
 
 }  // namespace clench
