@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <algorithm>
 #include <cmath>
 
 namespace clench {
@@ -59,19 +58,21 @@ IndependentRows independent_rows(const MatrixXd& m, double tolerance) {
     qr.compute(m.transpose());
     rank = qr.rank();
   }
-  for (int k = 0; k < count; ++k) {
-    const int row = m.cols() > 0 ? qr.colsPermutation().indices()[k] : k;
-    (k < rank ? out.rows : out.others).push_back(row);
-  }
-  std::ranges::sort(out.rows);
-  std::ranges::sort(out.others);
-  const int others = static_cast<int>(out.others.size());
+  std::vector<Eigen::Index> place(count);  // of a row among the pivots
+  for (int k = 0; k < count; ++k)
+    place[m.cols() > 0 ? qr.colsPermutation().indices()[k] : k] = k;
+  for (int row = 0; row < count; ++row)
+    (place[row] < rank ? out.rows : out.others).push_back(row);
+  const Eigen::Index others = count - rank;
   out.weights = MatrixXd::Zero(others, rank);
   if (rank == 0 || others == 0) return out;
-  MatrixXd basis(m.cols(), rank), rest(m.cols(), others);
-  for (int k = 0; k < rank; ++k) basis.col(k) = m.row(out.rows[k]);
-  for (int k = 0; k < others; ++k) rest.col(k) = m.row(out.others[k]);
-  out.weights = Eigen::HouseholderQR<MatrixXd>(basis).solve(rest).transpose();
+  // the others are R12 in the basis in which the rows are R11
+  const auto R = qr.matrixR().topRows(rank);
+  MatrixXd weights = R.rightCols(others);
+  R.leftCols(rank).triangularView<Eigen::Upper>().solveInPlace(weights);
+  for (int i = 0; i < others; ++i)
+    for (int j = 0; j < rank; ++j)
+      out.weights(i, j) = weights(place[out.rows[j]], place[out.others[i]] - rank);
   return out;
 }
 

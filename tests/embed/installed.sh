@@ -1,23 +1,31 @@
 #!/bin/sh
-# Installed headers are whole: a host that includes all of them builds with the installed package, and with the build
-# folder, and runs.
+# Installed headers are whole: a host that includes all of them builds with the installed package, and runs. The
+# programs of the page on embedding build with the build folder, and run.
 #   installed.sh BUILD CMAKE GENERATOR
 set -eu
 build=$1 cmake=$2 generator=$3
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 step() { "$@" > "$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }; }
-step "$cmake" --install "$build" --prefix "$folder/clench"
-build_host() {  # NAME OPTION...
-  name=$1
-  shift
-  step "$cmake" -S tests/embed -B "$folder/$name" -G "$generator" "$@"
+build_hosts() {  # NAME SOURCES OPTION...
+  name=$1 sources=$2
+  shift 2
+  step "$cmake" -S tests/embed -B "$folder/$name" -G "$generator" -DHOSTS="$sources" "$@"
   step "$cmake" --build "$folder/$name"
-  "$folder/$name/host"
 }
-build_host installed -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$folder/clench"
+step "$cmake" --install "$build" --prefix "$folder/clench"
+build_hosts installed host.cpp -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$folder/clench"
 grep -q "$folder/clench" "$folder/installed/CMakeCache.txt"
-build_host beside -DCMAKE_BUILD_TYPE=Debug -Dclench_DIR="$build"
+"$folder/installed/host"
+
+# the page's blocks of C++, in their order
+awk -v folder="$folder" '/^```cpp$/ { file = folder "/" (++count == 1 ? "engine" : "scripts") ".cpp"; next }
+  /^```$/ { file = "" }
+  file { print > file }' docs/guide/embedding.md
+build_hosts beside "$folder/engine.cpp;$folder/scripts.cpp" -DCMAKE_BUILD_TYPE=Debug -Dclench_DIR="$build"
+"$folder/beside/engine"
+"$folder/beside/scripts"
+
 # what no public header includes is nobody's affair
 if test -e "$folder/clench/include/clench/io/text/xml.h"; then
   echo "io/text/xml.h is installed, which no public header includes"

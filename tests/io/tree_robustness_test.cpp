@@ -78,10 +78,10 @@ class TreeBench {
   ReadOptions options_;
 };
 
-const std::string urdf = read_text("tests/data/urdf/gripper.urdf");
-const std::string own = read_text("tests/data/urdf/own.urdf");
-const std::string scene = read_text("tests/data/mjcf/scene.xml");
-const std::string mjcf = read_text("tests/data/mjcf/hand.mjcf");
+std::string urdf() { return read_text("tests/data/urdf/gripper.urdf"); }
+std::string own() { return read_text("tests/data/urdf/own.urdf"); }
+std::string scene() { return read_text("tests/data/mjcf/scene.xml"); }
+std::string mjcf() { return read_text("tests/data/mjcf/hand.mjcf"); }
 
 void cut_tree_everywhere(const std::string& name, const std::string& text) {
   TreeBench bench;
@@ -156,33 +156,33 @@ void change_tree_at_random(const std::string& name, const std::string& text, int
 
 TEST_CASE("the robots of this file are sound") {
   TreeBench bench;
-  CHECK_FALSE(bench.refused("a.urdf", urdf));
-  CHECK_FALSE(bench.refused("a.xml", mjcf));
-  CHECK_FALSE(bench.refused("a.urdf", own));
-  CHECK_FALSE(bench.scene_refused("a.xml", scene));
+  CHECK_FALSE(bench.refused("a.urdf", urdf()));
+  CHECK_FALSE(bench.refused("a.xml", mjcf()));
+  CHECK_FALSE(bench.refused("a.urdf", own()));
+  CHECK_FALSE(bench.scene_refused("a.xml", scene()));
 }
 TEST_CASE("a URDF with an element of ours, changed at random, is an Error or a robot") {
-  change_tree_at_random("a.urdf", own, 400);
+  change_tree_at_random("a.urdf", own(), 400);
 }
 TEST_CASE("a scene changed at random is an Error or a world") {
   TreeBench bench;
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
     Random random(23, static_cast<uint64_t>(i));
-    const std::string bad = changed(scene, random);
+    const std::string bad = changed(scene(), random);
     INFO(bad);
     refused += bench.scene_refused("a.xml", bad);
   }
   CHECK(refused > 40);
   CHECK(refused < 400);
 }
-TEST_CASE("a URDF file cut short anywhere is an Error") { cut_tree_everywhere("a.urdf", urdf); }
-TEST_CASE("an MJCF file cut short anywhere is an Error") { cut_tree_everywhere("a.mjcf", mjcf); }
+TEST_CASE("a URDF file cut short anywhere is an Error") { cut_tree_everywhere("a.urdf", urdf()); }
+TEST_CASE("an MJCF file cut short anywhere is an Error") { cut_tree_everywhere("a.mjcf", mjcf()); }
 TEST_CASE("a URDF file changed at random is an Error or a robot") {
-  change_tree_at_random("a.urdf", urdf, 300);
+  change_tree_at_random("a.urdf", urdf(), 300);
 }
 TEST_CASE("an MJCF file changed at random is an Error or a robot") {
-  change_tree_at_random("a.mjcf", mjcf, 300);
+  change_tree_at_random("a.mjcf", mjcf(), 300);
 }
 TEST_CASE("noise is an Error in formats of robot trees") {
   TreeBench bench;

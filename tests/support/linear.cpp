@@ -1,14 +1,15 @@
 #include "support/linear.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
+
+#include "clench/math/decompositions.h"
 
 namespace clench::test {
 
 Eigen::MatrixXd random_turn(int d, Random& random) {
   Eigen::MatrixXd m(d, d);
   for (double& x : m.reshaped()) x = random.normal();
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(m).householderQ();
+  return singular_value_decomposition(m).u;
 }
 
 std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m) {
