@@ -1,4 +1,5 @@
-// A folder for files that a test writes; gone afterwards.
+// A folder for files that a test writes, alone in another, where readers look around too; gone
+// afterwards.
 #pragma once
 #include <unistd.h>
 
@@ -13,12 +14,12 @@ class TemporaryFolder {
   TemporaryFolder() {
     static int count = 0;
     path_ = std::filesystem::temp_directory_path() /
-            ("clench_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+            ("clench_test_" + std::to_string(getpid()) + "_" + std::to_string(count++)) / "in";
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() {
     std::error_code code;
-    std::filesystem::remove_all(path_, code);
+    std::filesystem::remove_all(path_.parent_path(), code);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
