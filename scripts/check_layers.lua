@@ -251,7 +251,7 @@ local function check_circles(sources)
   end
 end
 
---- name -> the libraries that have it, which is asked once a name.
+--- name -> the libraries that it belongs to, found once for each name.
 local function owners_of_names(libraries)
   return setmetatable({}, {__index = function(known, name)
     local owners = {}

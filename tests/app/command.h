@@ -13,35 +13,26 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "support/folder.h"
 
 namespace clench::test {
 
 namespace fs = std::filesystem;
 
-/// A folder of one's own, gone afterwards.
+/// A temporary folder whose paths go into commands.
 class Folder {
  public:
-  Folder() {
-    char name[] = "/tmp/clench_app_XXXXXX";
-    path_ = mkdtemp(name);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
   /// writes a file, returns its path
   std::string file(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name) << text;
-    return (path_ / name).string();
+    return folder_.write(name, text).string();
   }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string operator/(const std::string& name) const { return (folder_.path() / name).string(); }
 
  private:
-  fs::path path_;
+  TemporaryFolder folder_;
 };
 
 inline bool has(const std::string& text, const std::string& part) {

@@ -194,7 +194,8 @@ void FacetComplex<D>::reserve() {
   for (int i = 0; i < old; ++i) made_[i] = free_[free_.size() - 1 - i];
   free_.resize(free_.size() - old);
   for (int i = old; i < rim_count_; ++i) made_[i] = used_++;
-  if (static_cast<int>(facets_.size()) < used_) facets_.resize(used_);  // twice the room; no page is touched before it is used
+  // the room doubles, and its pages are not touched before they are used
+  if (static_cast<int>(facets_.size()) < used_) facets_.resize(used_);
   ridges_.resize(8 * static_cast<size_t>(rim_count_));
   size_t size = 256;
   while (size < 32 * static_cast<size_t>(rim_count_)) size *= 2;

@@ -442,12 +442,9 @@ double WrenchSpace::volume(const Progress& progress) const {
 // of the space in L1, scaled
 double WrenchSpace::hull_volume(const Progress& progress) const {
   if (affine_rank(spanning(), rank_tolerance) < dimension()) return 0;
-  Facets facets;
-  facets.end = FacetsEnd::too_many;
-  if (!too_many_facets_)
-    facets = all_facets(prepared().reach, {.max_facets = max_facets, .progress = progress});
-  too_many_facets_ = facets.end == FacetsEnd::too_many;
-  if (too_many_facets_)
+  const Facets facets =
+      all_facets(prepared().reach, {.max_facets = max_facets, .progress = progress});
+  if (facets.end == FacetsEnd::too_many)
     fail(ErrorKind::limit,
          "wrench space: volume: the hull of {} contact{} has more than {} facets; give fewer "
          "edges",

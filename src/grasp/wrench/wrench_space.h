@@ -140,7 +140,6 @@ class WrenchSpace {
   mutable std::optional<bool> closure_;
   mutable std::optional<Bracket> bracket_, final_;  // the nearest so far; that of epsilon
   mutable std::optional<double> volume_;
-  mutable bool too_many_facets_ = false;                               // it took seconds to know
   mutable std::optional<std::pair<int, VolumeBounds>> volume_bounds_;  // and their edges
   mutable std::optional<Weakest> weakest_;
 };

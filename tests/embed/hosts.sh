@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installed headers are whole: a host that includes all of them builds with the installed package, and runs. The
 # programs of the page on embedding build with the build folder, and run.
-#   installed.sh BUILD CMAKE GENERATOR
+#   hosts.sh BUILD CMAKE GENERATOR
 set -eu
 build=$1 cmake=$2 generator=$3
 folder=$(mktemp -d)
