@@ -40,11 +40,32 @@ struct DenseLu::Parts {
   Eigen::PartialPivLU<MatrixXd> lu;
 };
 
-DenseLu::DenseLu(const MatrixXd& m)
-    : parts_(std::make_shared<const Parts>(Parts{Eigen::PartialPivLU<MatrixXd>(m)})) {}
+DenseLu::DenseLu() : parts_(std::make_unique<Parts>()) {}
+DenseLu::~DenseLu() = default;
+void DenseLu::factor(const MatrixXd& m) { parts_->lu.compute(m); }
+
+void DenseLu::solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
+  x = parts_->lu.solve(right);
+}
 
 Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& right) const {
   return parts_->lu.solve(right);
+}
+
+struct DenseCholesky::Parts {
+  Eigen::LLT<MatrixXd> llt;
+};
+
+DenseCholesky::DenseCholesky() : parts_(std::make_unique<Parts>()) {}
+DenseCholesky::~DenseCholesky() = default;
+
+bool DenseCholesky::factor(const MatrixXd& m) {
+  parts_->llt.compute(m);
+  return parts_->llt.info() == Eigen::Success;
+}
+
+void DenseCholesky::solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
+  x = parts_->llt.solve(right);
 }
 
 IndependentRows independent_rows(const MatrixXd& m, double tolerance) {

@@ -36,16 +36,35 @@ Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd&
 /// fall.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& m, const Eigen::VectorXd& right);
 
-/// x of m x = right, for many right sides.
+/// x of m x = right, for many right sides. Factors of another matrix take the memory of those before.
 class DenseLu {
  public:
+  DenseLu();
+  explicit DenseLu(const Eigen::MatrixXd& m) : DenseLu() { factor(m); }
+  ~DenseLu();
   /// m  square; where it is singular, solutions are not finite or far off
-  explicit DenseLu(const Eigen::MatrixXd& m);
+  void factor(const Eigen::MatrixXd& m);
+  void solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
   struct Parts;
-  std::shared_ptr<const Parts> parts_;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// The same for symmetric matrices.
+class DenseCholesky {
+ public:
+  DenseCholesky();
+  ~DenseCholesky();
+  /// m        its lower triangle counts
+  /// returns  false: it is not positive definite
+  bool factor(const Eigen::MatrixXd& m);
+  void solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// others = weights * rows, as rows of m; `rows` are independent.

@@ -9,13 +9,13 @@
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/render/figure/sheet.h"
+#include "letters.h"
 
 using namespace clench;
+using clench::test::letters;
 using Eigen::Vector2f;
 
 namespace {
-
-const Font letters;
 
 template <class Item>
 std::vector<Item> items_of(const Drawing& drawing) {
@@ -47,7 +47,7 @@ Plot of(PlotSeries series) {
 
 TEST_CASE("points stand where the numbers at the axes say") {
   const Drawing drawing =
-      draw_plot(of({.kind = PlotKind::points, .x = {0, 5, 10}, .y = {-1, 0, 1}}), letters);
+      draw_plot(of({.kind = PlotKind::points, .x = {0, 5, 10}, .y = {-1, 0, 1}}), letters());
   const auto points = data_lines(drawing);
   REQUIRE(points.size() == 3);
   // evenly spaced numbers are evenly spaced points
@@ -71,7 +71,7 @@ TEST_CASE("a line has gaps where numbers are missing, and a number alone is a do
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
   const auto lines = data_lines(
-      draw_plot(of({.x = {0, 1, 2, 3, 4, 5, 6}, .y = {0, 1, nan, 2, infinity, 3, 4}}), letters));
+      draw_plot(of({.x = {0, 1, 2, 3, 4, 5, 6}, .y = {0, 1, nan, 2, infinity, 3, 4}}), letters()));
   REQUIRE(lines.size() == 3);
   std::vector<size_t> sizes;
   for (const auto& line : lines) sizes.push_back(line.points.size());
@@ -85,7 +85,7 @@ TEST_CASE("what is drawn of a line within a range is what of it lies there, by m
     Plot plot = of({.x = {random.uniform(-3, 3), random.uniform(-3, 3)},
                     .y = {random.uniform(-3, 3), random.uniform(-3, 3)}});
     plot.x.range = plot.y.range = std::array{-1.0, 1.0};
-    const auto lines = data_lines(draw_plot(plot, letters));
+    const auto lines = data_lines(draw_plot(plot, letters()));
     const PlotSeries& s = plot.series[0];
     int inside = 0;
     constexpr int samples = 20000;
@@ -104,7 +104,7 @@ TEST_CASE("what is drawn of a line within a range is what of it lies there, by m
     // pixels of the two axes differ: measured along x, or along y where that is longer
     Plot unit = of({.kind = PlotKind::points, .x = {-1, 1}, .y = {-1, 1}});
     unit.x.range = unit.y.range = plot.x.range;
-    const auto corners = data_lines(draw_plot(unit, letters));
+    const auto corners = data_lines(draw_plot(unit, letters()));
     const Vector2f size = corners[1].points[0] - corners[0].points[0];
     const Vector2f drawn = lines[0].points[1] - lines[0].points[0];
     const double length =
@@ -115,7 +115,7 @@ TEST_CASE("what is drawn of a line within a range is what of it lies there, by m
 
 TEST_CASE("bars stand on 0 between their edges, and their axis holds 0") {
   const auto bars = items_of<Drawing::Area>(
-      draw_plot(of({.kind = PlotKind::bars, .x = {0, 1, 2, 4}, .y = {10, 20, -5}}), letters));
+      draw_plot(of({.kind = PlotKind::bars, .x = {0, 1, 2, 4}, .y = {10, 20, -5}}), letters()));
   REQUIRE(bars.size() == 3);
   const float zero = bars[0].high.y();
   CHECK(bars[1].high.y() == zero);
@@ -131,9 +131,8 @@ TEST_CASE(
   Plot plot;
   plot.series = {{.kind = PlotKind::points, .x = {1, 10, 100, 0, -3}, .y = {1, 1, 1, 1, 1}}};
   plot.x.logarithmic = true;
-  const Font font;
   std::vector<float> xs;
-  for (const Drawing::Item& item : draw_plot(plot, font).items)
+  for (const Drawing::Item& item : draw_plot(plot, letters()).items)
     if (const auto* line = std::get_if<Drawing::Line>(&item); line && line->points.size() == 1)
       xs.push_back(line->points[0].x());
   REQUIRE(xs.size() == 3);
@@ -150,8 +149,7 @@ TEST_CASE(
     plot.y.range = {low, high};
     plot.x.range = {1, 2};
     std::vector<std::string> out;
-    const Font font;
-    for (const Drawing::Item& item : draw_plot(plot, font).items)
+    for (const Drawing::Item& item : draw_plot(plot, letters()).items)
       if (const auto* text = std::get_if<Drawing::Text>(&item)) out.push_back(text->text);
     return out;
   };
@@ -169,19 +167,18 @@ TEST_CASE(
 }
 
 TEST_CASE("a logarithmic axis refuses what it cannot show") {
-  const Font font;
   Plot plot;
   plot.series = {{.x = {1, 2}, .y = {1, 2}}};
   plot.y = {.range = {{0, 1}}, .logarithmic = true};
-  CHECK_THROWS_WITH_AS(draw_plot(plot, font),
+  CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
                        "plot: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1",
                        Error);
   plot.y.range.reset();
   plot.series = {{.kind = PlotKind::bars, .x = {0, 1}, .y = {2}}};
-  CHECK_THROWS_WITH_AS(draw_plot(plot, font),
+  CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
                        "plot: y_scale: bars stand on 0, which a logarithmic axis has not", Error);
   plot.y.logarithmic = false, plot.x.logarithmic = true;
-  CHECK_THROWS_WITH_AS(draw_plot(plot, font),
+  CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
                        "plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got 0",
                        Error);
 }
@@ -192,7 +189,7 @@ TEST_CASE("any finite numbers make a figure") {
                              {{0, 0}, {0, 0}},
                              {{-1e300, 1e300}, {1e-300, 2e-300}},
                              {{1, 1 + 1e-15}, {-1e-9, 1e-9}}}) {
-    const Drawing drawing = draw_plot(of({.x = x, .y = y}), letters);
+    const Drawing drawing = draw_plot(of({.x = x, .y = y}), letters());
     CHECK(drawing.items.size() < 200);
     for (const auto& line : items_of<Drawing::Line>(drawing))
       for (const Vector2f& p : line.points) {
@@ -205,7 +202,7 @@ TEST_CASE("any finite numbers make a figure") {
 TEST_CASE("a figure in SVG has the same parts, and its texts cannot end it") {
   Plot plot = of({.name = "<&> \x01", .x = {0, 1}, .y = {0, 1}});
   plot.title = "</svg>";
-  const std::string svg = svg_text(draw_plot(plot, letters));
+  const std::string svg = svg_text(draw_plot(plot, letters()));
   CHECK(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"720\" height=\"480\""));
   CHECK(svg.find("&lt;/svg&gt;") != std::string::npos);
   CHECK(svg.find("&lt;&amp;&gt;  <") != std::string::npos);
@@ -215,7 +212,7 @@ TEST_CASE("a figure in SVG has the same parts, and its texts cannot end it") {
 
 TEST_CASE("a plot that cannot be drawn is refused") {
   const auto refused = [](Plot plot, const char* message) {
-    CHECK_THROWS_WITH_AS(draw_plot(plot, letters), message, Error);
+    CHECK_THROWS_WITH_AS(draw_plot(plot, letters()), message, Error);
   };
   refused({}, "plot: expected at least one series, got none");
   refused(of({.x = {1}, .y = {}}), "plot: series 1: expected at least one value, got none");
@@ -245,19 +242,19 @@ TEST_CASE("a sheet holds its pictures whole, each in its cell") {
   }
   std::vector<const Picture*> list;
   for (const Picture& p : pictures) list.push_back(&p);
-  const Picture sheet = contact_sheet(list, {.columns = 2, .gap = 4}, letters);
+  const Picture sheet = contact_sheet(list, {.columns = 2, .gap = 4}, letters());
   CHECK(sheet.width == 4 + 2 * (24 + 4));
   CHECK(sheet.height == 4 + 3 * (10 + 4));
   for (int i = 0; i < 5; ++i) {
     const int found = static_cast<int>(std::ranges::count(sheet.pixels, 40 * i));
     CHECK(found == 3 * (20 + i) * 10);
   }
-  const Picture told = contact_sheet(list, {.captions = {"a", "b", "c", "d", "e"}}, letters);
+  const Picture told = contact_sheet(list, {.captions = {"a", "b", "c", "d", "e"}}, letters());
   CHECK(told.height > told.width / 4);
-  CHECK_THROWS_WITH_AS(contact_sheet({}, {}, letters),
+  CHECK_THROWS_WITH_AS(contact_sheet({}, {}, letters()),
                        "sheet: expected at least one picture, got none", Error);
-  CHECK_THROWS_WITH_AS(contact_sheet(list, {.captions = {"a"}}, letters),
+  CHECK_THROWS_WITH_AS(contact_sheet(list, {.captions = {"a"}}, letters()),
                        "sheet: expected 5 captions, one per picture, got 1", Error);
-  CHECK_THROWS_WITH_AS(contact_sheet(list, {.gap = -1}, letters),
+  CHECK_THROWS_WITH_AS(contact_sheet(list, {.gap = -1}, letters()),
                        "sheet: expected a gap of 0 to 1000 pixels, got -1", Error);
 }

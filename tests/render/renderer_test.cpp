@@ -3,14 +3,13 @@
 #include <thread>
 
 #include "clench/render/view/frame.h"
+#include "letters.h"
 #include "pictures.h"
 
 using namespace clench;
 using namespace clench::test;
 
 namespace {
-
-const Font own_font;
 
 RenderOptions of(Quality quality, Backdrop backdrop = Backdrop::studio, double outline = 0) {
   return {.width = 160,
@@ -59,45 +58,45 @@ TEST_CASE(
     for (const Backdrop backdrop : {Backdrop::studio, Backdrop::white, Backdrop::transparent})
       for (const double outline : {0.0, 1.5}) {
         const RenderOptions options = of(quality, backdrop, outline);
-        const Picture expected = Renderer().draw(some_things(), options, own_font);
+        const Picture expected = Renderer().draw(some_things(), options, letters());
         Renderer used;
-        used.draw(some_things(0.3), of(Quality::paper), own_font);
-        used.draw(some_things(0.1), of(Quality::draft, Backdrop::white, 2), own_font);
-        CHECK(used.draw(some_things(), options, own_font) == expected);
+        used.draw(some_things(0.3), of(Quality::paper), letters());
+        used.draw(some_things(0.1), of(Quality::draft, Backdrop::white, 2), letters());
+        CHECK(used.draw(some_things(), options, letters()) == expected);
         Scene turned = some_things();
         turned.eye = Eye{.eye = {3, 2, 1}};
-        used.draw(turned, options, own_font);
-        CHECK(used.draw(some_things(), options, own_font) == expected);
-        CHECK(used.draw(some_things(), options, own_font) == expected);
+        used.draw(turned, options, letters());
+        CHECK(used.draw(some_things(), options, letters()) == expected);
+        CHECK(used.draw(some_things(), options, letters()) == expected);
       }
 }
 
 TEST_CASE("a renderer that was stopped half way draws what a fresh one does") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
-    const Picture expected = Renderer().draw(some_things(), of(quality), own_font);
+    const Picture expected = Renderer().draw(some_things(), of(quality), letters());
     Renderer renderer;
     int stopped = 0;
     for (int after = 0; after < 30; ++after) {
       RenderOptions options = of(quality);
       options.progress = Progress(std::make_shared<Stopping>(after));
       try {
-        renderer.draw(some_things(0.01 * after), options, own_font);
+        renderer.draw(some_things(0.01 * after), options, letters());
       } catch (const Stopped&) {
         ++stopped;
       }
     }
     CHECK(stopped >= 2);
-    CHECK(renderer.draw(some_things(), of(quality), own_font) == expected);
+    CHECK(renderer.draw(some_things(), of(quality), letters()) == expected);
   }
 }
 
 TEST_CASE("a renderer may draw in any thread, one at a time") {
   REQUIRE_PICTURES();
   Renderer renderer;
-  const Picture here = renderer.draw(some_things(), of(Quality::draft), own_font);
+  const Picture here = renderer.draw(some_things(), of(Quality::draft), letters());
   Picture there;
-  std::thread([&] { there = renderer.draw(some_things(), of(Quality::draft), own_font); }).join();
+  std::thread([&] { there = renderer.draw(some_things(), of(Quality::draft), letters()); }).join();
   CHECK(here == there);
 }
 
@@ -106,11 +105,11 @@ TEST_CASE("what a renderer keeps does not grow with the pictures of one scene, a
   Renderer renderer;
   CHECK(renderer.bytes() == 0);
   const Scene scene = some_things();
-  for (const Quality quality : qualities) renderer.draw(scene, of(quality), own_font);
+  for (const Quality quality : qualities) renderer.draw(scene, of(quality), letters());
   const size_t once = renderer.bytes();
   CHECK(once > 0);
   for (int i = 0; i < 5; ++i)
-    for (const Quality quality : qualities) renderer.draw(scene, of(quality), own_font);
+    for (const Quality quality : qualities) renderer.draw(scene, of(quality), letters());
   CHECK(renderer.bytes() == once);
   renderer.clear();
   CHECK(renderer.bytes() == 0);

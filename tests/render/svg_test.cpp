@@ -7,19 +7,19 @@
 #include "clench/render/figure/canvas.h"
 #include "clench/render/figure/chart.h"
 #include "clench/render/figure/plot.h"
+#include "letters.h"
 
 using namespace clench;
+using clench::test::letters;
 using Eigen::Vector2f;
 
 namespace {
-
-const Font svg_letters;
 
 Drawing a_chart() {
   return draw_chart({.title = "Zwei <Hände> & eine",
                      .labels = {"Barrett", "Shadow"},
                      .series = {{"epsilon", {0.25, NAN}}, {"effort [N]", {-3, 1}, false}}},
-                    {.width = 400, .height = 300}, svg_letters);
+                    {.width = 400, .height = 300}, letters());
 }
 
 Drawing a_plot() {
@@ -30,7 +30,7 @@ Drawing a_plot() {
   plot.series = {{.name = "random", .kind = PlotKind::bars, .y = {1, 2, 3, 4, 5, -1, 2, 3}},
                  {.name = "antipodal", .kind = PlotKind::bars, .y = {2, 2, 2, 2, 2, 2, 2, 2}},
                  {.name = "mean", .y = {1, 2, 1, 2, 1, 2, 1, 2}}};
-  return draw_plot(plot, svg_letters);
+  return draw_plot(plot, letters());
 }
 
 Vector2f place(const tinyxml2::XMLElement* e, const char* x = "x", const char* y = "y") {
@@ -106,7 +106,7 @@ TEST_CASE("a chart and a plot in SVG have every part where the picture has it") 
 
 TEST_CASE("what a picture shows at an area of the drawing is the area's colour") {
   for (const Drawing& drawing : {a_chart(), a_plot()}) {
-    const Picture picture = paint(drawing, svg_letters);
+    const Picture picture = paint(drawing, letters());
     int compared = 0;
     for (const Drawing::Area& area : bars_of(drawing)) {
       if ((area.high - area.low).minCoeff() < 8) continue;
@@ -126,7 +126,7 @@ TEST_CASE("bars of a category stand beside one another around its name, as high 
   plot.series = {{.kind = PlotKind::bars, .y = {1, 2, 4}},
                  {.kind = PlotKind::bars, .y = {2, NAN, -1}}};
   plot.y.range = {-2, 5};
-  const Drawing drawing = draw_plot(plot, svg_letters);
+  const Drawing drawing = draw_plot(plot, letters());
   const auto bars = bars_of(drawing);
   REQUIRE(bars.size() == 5);
   const float zero = bars[0].high.y(), unit = zero - bars[0].low.y();
@@ -141,7 +141,7 @@ TEST_CASE("bars of a category stand beside one another around its name, as high 
   const float middle = (bars[0].high.x() + bars[3].low.x()) / 2;
   CHECK(bars[3].low.x() - bars[0].high.x() == doctest::Approx(1).epsilon(1e-2));
   const auto& name = text_in(drawing, "one");
-  CHECK(name.at.x() + svg_letters.width("one", name.height) / 2 ==
+  CHECK(name.at.x() + letters().width("one", name.height) / 2 ==
         doctest::Approx(middle).epsilon(1e-3));
   CHECK(!name.upright);
   // categories are evenly spaced
@@ -155,7 +155,7 @@ TEST_CASE("names of narrow categories are upright and stay within the figure") {
   CHECK(name.upright);
   for (const auto& item : drawing.items)
     if (const auto* text = std::get_if<Drawing::Text>(&item)) {
-      const float width = svg_letters.width(text->text, text->height);
+      const float width = letters().width(text->text, text->height);
       const Vector2f end = text->at + (text->upright ? Vector2f(0, -width) : Vector2f(width, 0));
       for (const Vector2f& p : {text->at, end})
         CHECK((p.x() >= 0 && p.y() >= 0 && p.x() <= 720 && p.y() <= 480));
@@ -168,7 +168,7 @@ TEST_CASE("what does not fit to categories is refused in a sentence") {
     plot.categories = {"a", "b"};
     plot.series = {series};
     plot.x = x;
-    CHECK_THROWS_WITH(draw_plot(plot, svg_letters), sentence);
+    CHECK_THROWS_WITH(draw_plot(plot, letters()), sentence);
   };
   refused({.name = "n", .y = {1}}, "plot: series 'n': expected 2 values, one per category, got 1");
   refused({.x = {1, 2}, .y = {1, 2}},

@@ -141,11 +141,10 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
   }
   factored_ = states_, factored_damping_ = damping;
   if (!symmetric_) {
-    lu_.compute(m);
+    lu_.factor(m);
     return true;
   }
-  cholesky_.compute(m);
-  if (cholesky_.info() == Eigen::Success) return true;
+  if (cholesky_.factor(m)) return true;
   factored_.clear();
   return false;
 }
@@ -175,9 +174,9 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
   const bool kept = keep && factored_damping_ == damping && factored_ == states_;
   if (!kept && !factor(problem, damping)) return false;
   if (symmetric_)
-    along_ = cholesky_.solve(right_);
+    cholesky_.solve(right_, along_);
   else
-    along_ = lu_.solve(right_);
+    lu_.solve(right_, along_);
   for (int k = 0; k < n; ++k) {
     const Direction& by = directions_[k];
     if (!std::isfinite(along_[k])) return factored_.clear(), false;

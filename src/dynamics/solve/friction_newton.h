@@ -1,11 +1,11 @@
 // Newton's method for contacts with friction: which open, stick, slide, and what follows.
 #pragma once
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <vector>
 
 #include "clench/base/progress.h"
 #include "clench/dynamics/solve/scaled_friction.h"
+#include "clench/math/decompositions.h"
 
 namespace clench {
 
@@ -86,8 +86,8 @@ class FrictionNewton {
   Eigen::MatrixXd columns_;
   Eigen::MatrixXd matrix_;
   bool symmetric_ = true;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;  // of a symmetric matrix
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  DenseCholesky cholesky_;  // of a symmetric matrix
+  DenseLu lu_;
   Progress progress_;
   double factored_damping_ = -1, rho_ = 1;
 };

@@ -1,6 +1,5 @@
 #include "clench/dynamics/solve/friction_pyramid.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -111,7 +110,7 @@ void take_damping_away(const MatrixXd& damped, const Velocities& velocities, Vec
   for (int i = 0; i < z.size(); ++i)
     if (z[i] > 0) above.push_back(i);
   if (above.empty()) return;
-  const Eigen::PartialPivLU<MatrixXd> factors(damped(above, above));
+  const DenseLu factors(damped(above, above));
   for (int round = 0; round < 3; ++round) {
     const VectorXd next = z(above) - factors.solve(velocities(z)(above));
     if (!(next.minCoeff() >= 0)) return;
