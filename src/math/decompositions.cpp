@@ -80,10 +80,8 @@ IndependentRows independent_rows(const MatrixXd& m, double tolerance) {
     rank = qr.rank();
   }
   std::vector<Eigen::Index> place(count);  // of a row among the pivots
-  for (int k = 0; k < count; ++k)
-    place[m.cols() > 0 ? qr.colsPermutation().indices()[k] : k] = k;
-  for (int row = 0; row < count; ++row)
-    (place[row] < rank ? out.rows : out.others).push_back(row);
+  for (int k = 0; k < count; ++k) place[m.cols() > 0 ? qr.colsPermutation().indices()[k] : k] = k;
+  for (int row = 0; row < count; ++row) (place[row] < rank ? out.rows : out.others).push_back(row);
   const Eigen::Index others = count - rank;
   out.weights = MatrixXd::Zero(others, rank);
   if (rank == 0 || others == 0) return out;
