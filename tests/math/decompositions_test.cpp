@@ -101,6 +101,8 @@ TEST_CASE("rows that depend on others are told with their weights") {
 
 TEST_CASE("sparse and dense factors solve what they were made of") {
   Random random(6);
+  DenseLu lu;  // each factors one matrix after another, of other sizes
+  DenseCholesky cholesky;
   for (int i = 0; i < 30; ++i) {
     // positive definite, negative definite, and what lies between them
     const int n = 3 + i % 5, k = 1 + i % 3;
@@ -117,6 +119,14 @@ TEST_CASE("sparse and dense factors solve what they were made of") {
     REQUIRE(ldl.factor(lower));
     CHECK((m * ldl.solve(right) - right).norm() < 1e-11);  // of conditions up to 100
     CHECK((m * DenseLu(m).solve(right) - right).norm() < 1e-11);
+    Eigen::VectorXd x;
+    lu.factor(m);
+    lu.solve(right, x);
+    CHECK((m * x - right).norm() < 1e-11);
+    CHECK_FALSE(cholesky.factor(m));
+    REQUIRE(cholesky.factor(m.topLeftCorner(n, n)));
+    cholesky.solve(right.head(n), x);
+    CHECK((m.topLeftCorner(n, n) * x - right.head(n)).norm() < 1e-11);
   }
   SparseLdl::Matrix zero(2, 2);
   zero.insert(0, 0) = 0;
