@@ -36,7 +36,7 @@ Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd&
 /// fall.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& m, const Eigen::VectorXd& right);
 
-/// x of m x = right, for many right sides. Factors of another matrix take the memory of those before.
+/// x of m x = right, for many right sides. Factoring again reuses the memory.
 class DenseLu {
  public:
   DenseLu();
@@ -44,6 +44,7 @@ class DenseLu {
   ~DenseLu();
   /// m  square; where it is singular, solutions are not finite or far off
   void factor(const Eigen::MatrixXd& m);
+  /// x  resized; only after factors were found
   void solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
@@ -52,7 +53,7 @@ class DenseLu {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The same for symmetric matrices.
+/// The same for symmetric positive definite matrices.
 class DenseCholesky {
  public:
   DenseCholesky();
@@ -60,6 +61,7 @@ class DenseCholesky {
   /// m        its lower triangle counts
   /// returns  false: it is not positive definite
   bool factor(const Eigen::MatrixXd& m);
+  /// x  resized; only after factors were found
   void solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 
  private:

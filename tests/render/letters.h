@@ -1,3 +1,4 @@
+// The font that tests of pictures share.
 #pragma once
 #include "clench/render/figure/lettering.h"
 
