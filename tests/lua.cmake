@@ -72,7 +72,7 @@ if(NOT CLENCH_SANITIZE)
   lua_test("stock Lua loads the module" ${CMAKE_COMMAND} -E env "LUA_CPATH=$<TARGET_FILE_DIR:clench_module>/?.so"
            ${LUA54} tests/embed/stock_lua.lua)
 
-  # projects of their own find the package, installed or in its build folder, and run
+  # separate projects find the package, installed or in its build folder, and run
   set(host "C++ hosts build and run with the package, those of docs/guide/embedding.md among them")
   lua_test("${host}" tests/embed/hosts.sh ${PROJECT_BINARY_DIR} ${CMAKE_COMMAND} ${CMAKE_GENERATOR})
   set_tests_properties("${host}" PROPERTIES COST 10)

@@ -44,10 +44,6 @@ DenseLu::DenseLu() : parts_(std::make_unique<Parts>()) {}
 DenseLu::~DenseLu() = default;
 void DenseLu::factor(const MatrixXd& m) { parts_->lu.compute(m); }
 
-void DenseLu::solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
-  x = parts_->lu.solve(right);
-}
-
 Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& right) const {
   return parts_->lu.solve(right);
 }
@@ -64,8 +60,8 @@ bool DenseCholesky::factor(const MatrixXd& m) {
   return parts_->llt.info() == Eigen::Success;
 }
 
-void DenseCholesky::solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
-  x = parts_->llt.solve(right);
+Eigen::VectorXd DenseCholesky::solve(const Eigen::VectorXd& right) const {
+  return parts_->llt.solve(right);
 }
 
 IndependentRows independent_rows(const MatrixXd& m, double tolerance) {

@@ -44,8 +44,7 @@ class DenseLu {
   ~DenseLu();
   /// m  square; where it is singular, solutions are not finite or far off
   void factor(const Eigen::MatrixXd& m);
-  /// x  resized; only after factors were found
-  void solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  /// after factor
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
@@ -61,8 +60,8 @@ class DenseCholesky {
   /// m        its lower triangle counts
   /// returns  false: it is not positive definite
   bool factor(const Eigen::MatrixXd& m);
-  /// x  resized; only after factors were found
-  void solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  /// after a factor that returned true
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
   struct Parts;

@@ -21,12 +21,13 @@ grep -q "$folder/clench" "$folder/installed/CMakeCache.txt"
 # the page's blocks of C++, in their order
 awk -v folder="$folder" '/^```cpp$/ { file = folder "/" (++count == 1 ? "engine" : "scripts") ".cpp"; next }
   /^```$/ { file = "" }
-  file { print > file }' docs/guide/embedding.md
+  file { print > file }
+  END { if (count != 2) { print "docs/guide/embedding.md: expected 2 blocks of C++, got " count + 0; exit 1 } }' docs/guide/embedding.md
 build_hosts beside "$folder/engine.cpp;$folder/scripts.cpp" -DCMAKE_BUILD_TYPE=Debug -Dclench_DIR="$build"
 "$folder/beside/engine"
 "$folder/beside/scripts"
 
-# what no public header includes is nobody's affair
+# headers that no public one includes are not installed
 if test -e "$folder/clench/include/clench/io/text/xml.h"; then
   echo "io/text/xml.h is installed, which no public header includes"
   exit 1

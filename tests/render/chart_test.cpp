@@ -7,14 +7,16 @@
 
 #include "clench/base/error.h"
 #include "clench/render/figure/canvas.h"
+#include "letters.h"
 
 using namespace clench;
+using clench::test::letters;
 using Eigen::Vector2f;
 
 namespace {
 
 Picture painted(const Chart& chart, const ChartOptions& options = {}) {
-  return paint(draw_chart(chart, options), Font());
+  return paint(draw_chart(chart, options), letters());
 }
 
 const Canvas::Color black(0, 0, 0);
@@ -30,7 +32,7 @@ int ink_of(const Picture& picture) {
 TEST_CASE("a line's ink is its area, wherever and in which direction it runs") {
   for (const Vector2f& along : {Vector2f(40, 0), Vector2f(0, 40), Vector2f(24, 32)}) {
     Picture picture = blank_picture(100, 100);
-    Canvas(picture, Font()).line({20.3f, 25.7f}, Vector2f(20.3f, 25.7f) + along, 3, black);
+    Canvas(picture, letters()).line({20.3f, 25.7f}, Vector2f(20.3f, 25.7f) + along, 3, black);
     // 40 x 3 and two half discs; 3 % for edges that are blended by distance
     CHECK(ink_of(picture) / 255.0 == doctest::Approx(40 * 3 + M_PI * 1.5 * 1.5).epsilon(0.03));
   }
@@ -38,8 +40,7 @@ TEST_CASE("a line's ink is its area, wherever and in which direction it runs") {
 
 TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at the edges") {
   Picture picture = blank_picture(50, 40);
-  const Font font;
-  Canvas canvas(picture, font);
+  Canvas canvas(picture, letters());
   canvas.rectangle({10.25f, 5.5f}, {20.5f, 15.75f}, black);
   CHECK(ink_of(picture) / 255.0 == doctest::Approx(10.25 * 10.25).epsilon(0.002));
   canvas.rectangle({-1e9f, -1e9f}, {1e9f, 1e9f}, black);
@@ -49,11 +50,10 @@ TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at th
 }
 
 TEST_CASE("text runs along its direction and takes the width that it tells") {
-  const Font font;
-  const float height = 12, width = font.width("epsilon", height);
+  const float height = 12, width = letters().width("epsilon", height);
   Picture level = blank_picture(200, 200), upright = blank_picture(200, 200);
-  Canvas(level, font).text({"epsilon", {50, 100}, height}, black);
-  Canvas(upright, font).text({"epsilon", {100, 150}, height, -Vector2f::UnitY()}, black);
+  Canvas(level, letters()).text({"epsilon", {50, 100}, height}, black);
+  Canvas(upright, letters()).text({"epsilon", {100, 150}, height, -Vector2f::UnitY()}, black);
   // the second is the first turned by a quarter
   CHECK(ink_of(level) == doctest::Approx(ink_of(upright)).epsilon(0.01));
   const auto inside = [&](const Picture& p, int x0, int y0, int x1, int y1) {

@@ -6,6 +6,7 @@
 #include "clench/render/render.h"
 #include "clench/scene/force_arrows.h"
 #include "clench/scene/wrench_scene.h"
+#include "letters.h"
 #include "support/shapes.h"
 
 using namespace clench;
@@ -83,7 +84,7 @@ TEST_CASE("the words of a wrench space lie apart, from wherever one looks") {
       const Vector3d away(random.normal(), random.normal(), random.normal());
       eye.eye = eye.target + 5 * away.normalized();
     }
-    const auto texts = place_texts(scene, eye, picture, Font());
+    const auto texts = place_texts(scene, eye, picture, letters());
     check_apart(texts, picture);
     CHECK(is_written(texts, "a wrench space"));
     for (const char* word : {"fx", "fy", "fz", "weakest", "radius 0.1"}) {
@@ -101,7 +102,7 @@ TEST_CASE("labels keep clear of arrows, and lie beside the places that they tell
   scene.labels = force_labels(forces, 1);
   Eye eye;
   eye.eye = {0, -6, 0};
-  const auto texts = place_texts(scene, eye, picture, Font());
+  const auto texts = place_texts(scene, eye, picture, letters());
   REQUIRE(texts.size() == 2);
   check_apart(texts, picture);
   // seen along y at 6 m: 400 pixels are 2 * 6 * tan(0.3) = 3.71 m, so the tails, 1 m to the left,
@@ -120,7 +121,7 @@ TEST_CASE("what is behind the eye or beside the picture is not written") {
   scene.labels = {{{0, 0, 0}, "before"}, {{0, -20, 0}, "behind"}, {{50, 0, 0}, "beside"}};
   Eye eye;
   eye.eye = {0, -6, 0};
-  const auto texts = place_texts(scene, eye, {200, 200}, Font());
+  const auto texts = place_texts(scene, eye, {200, 200}, letters());
   REQUIRE(texts.size() == 1);
   CHECK(texts[0].text == "before");
 }
@@ -129,15 +130,15 @@ TEST_CASE("a picture that is too small for words has none") {
   Scene scene;
   scene.labels = {{{0, 0, 0}, "a label"}};
   scene.caption = {"a caption"};
-  CHECK(place_texts(scene, {}, {120, 120}, Font()).size() == 2);
-  CHECK(place_texts(scene, {}, {400, 119}, Font()).empty());
+  CHECK(place_texts(scene, {}, {120, 120}, letters()).size() == 2);
+  CHECK(place_texts(scene, {}, {400, 119}, letters()).empty());
 }
 
 TEST_CASE("a line of a caption that is too wide goes on in the next") {
   Scene scene;
   scene.caption = {"some words that are too many for one line", "last"};
   const Vector2f picture(200, 200);
-  const auto texts = place_texts(scene, {}, picture, Font());
+  const auto texts = place_texts(scene, {}, picture, letters());
   check_apart(texts, picture);
   REQUIRE(texts.size() > 2);
   CHECK(texts[0].text == "last");
@@ -150,7 +151,7 @@ TEST_CASE("a caption stands in the lower left corner, its lines from the top, no
   Scene scene;
   scene.caption = {"first", std::string(200, 'x')};
   const Vector2f picture(300, 200);
-  const auto texts = place_texts(scene, {}, picture, Font());
+  const auto texts = place_texts(scene, {}, picture, letters());
   REQUIRE(texts.size() == 2);
   check_apart(texts, picture);
   CHECK(texts[1].text == "first");

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
+
 #include "clench/spec/chains.h"
 
 using namespace clench;
@@ -50,8 +52,7 @@ Eigen::VectorXd turns_by_links(const std::vector<double>& pulls,
     a(i, i) = springs[i];
     if (i + 1 < n) a(i, i + 1) = -springs[i + 1];
   }
-  return a.triangularView<Eigen::Upper>().solve(
-      Eigen::Map<const Eigen::VectorXd>(pulls.data(), n));
+  return a.triangularView<Eigen::Upper>().solve(Eigen::Map<const Eigen::VectorXd>(pulls.data(), n));
 }
 
 }  // namespace

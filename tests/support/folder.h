@@ -1,10 +1,10 @@
 // A folder for files that a test writes; gone afterwards. It lies alone in another, since readers
 // look for similar names there, too.
 #pragma once
-#include <unistd.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 namespace clench::test {
@@ -12,10 +12,10 @@ namespace clench::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("clench_test_" + std::to_string(getpid()) + "_" + std::to_string(count++)) / "in";
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "clench_test_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot create the folder " + name);
+    path_ = std::filesystem::path(name) / "in";
+    std::filesystem::create_directory(path_);
   }
   ~TemporaryFolder() {
     std::error_code code;

@@ -173,10 +173,7 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
   }
   const bool kept = keep && factored_damping_ == damping && factored_ == states_;
   if (!kept && !factor(problem, damping)) return false;
-  if (symmetric_)
-    cholesky_.solve(right_, along_);
-  else
-    lu_.solve(right_, along_);
+  along_ = symmetric_ ? cholesky_.solve(right_) : lu_.solve(right_);
   for (int k = 0; k < n; ++k) {
     const Direction& by = directions_[k];
     if (!std::isfinite(along_[k])) return factored_.clear(), false;

@@ -37,7 +37,7 @@ class OffsetList {
       if (groups_[g].least < least) least = groups_[g].least, in = g;
     }
     if (in < 0) return -1;
-    // what a stale block says is larger than this, or its group would be stale, too
+    // a stale block says more than this: were it equal, its group would be stale, and refreshed above
     int b = in * (group / block);
     while (blocks_[b].least != least) ++b;
     int index = b * block;

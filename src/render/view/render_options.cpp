@@ -13,8 +13,9 @@ static constexpr int64_t max_drawn = int64_t{1} << 30;
 void check(const RenderOptions& options) {
   for (const auto& [name, value] :
        {std::pair("width", options.width), std::pair("height", options.height)})
-    if (value < 16 || value > 8192)
-      fail("picture: {} must be between 16 and 8192 pixels, got {}", name, value);
+    if (value < options.min_size || value > options.max_size)
+      fail("picture: {} must be between {} and {} pixels, got {}", name, options.min_size,
+           options.max_size, value);
   if (options.samples < 1 || options.samples > 256)
     fail("picture: samples must be between 1 and 256, got {}", options.samples);
   const int64_t drawn = int64_t{options.width} * options.height * options.samples;

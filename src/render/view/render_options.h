@@ -12,7 +12,8 @@ enum class Quality { paper, draft };
 enum class Backdrop { studio, white, transparent };
 
 struct RenderOptions {
-  int width = 1280, height = 960;  ///< pixels, 16..8192
+  static constexpr int min_size = 16, max_size = 8192;
+  int width = 1280, height = 960;  ///< pixels, min_size..max_size
   /// a pixel: smoothness of edges and shadows against time, 1..256; drafts have one, with edges
   /// smoothed
   int samples = 8;

@@ -77,8 +77,9 @@ static RenderOptions read_rendering(Table& options) {
   const auto size =
       options.has("size") ? options.numbers("size", 2) : std::vector<double>{1280, 960};
   for (const double n : size)
-    if (n != std::floor(n) || !(n >= 1 && n <= 1e6))
-      fail("{}: size: expected whole numbers of pixels, at least 1, got {}", options.subject(), n);
+    if (n != std::floor(n) || !(n >= rendering.min_size && n <= rendering.max_size))
+      fail("{}: size: expected whole numbers of pixels, {} to {}, got {}", options.subject(),
+           rendering.min_size, rendering.max_size, n);
   rendering.width = floor_int(size[0]);
   rendering.height = floor_int(size[1]);
   rendering.quality = options.choice(
