@@ -101,6 +101,34 @@ local function explain(message)
   return debug.traceback(error_text(message), 2)
 end
 
+-- of temporary files; with Lua's state it goes
+local folder, paths = nil, 0
+
+--- A path of which there is no file yet, with this ending. A text is written there. At the end of the run it is removed.
+---@param ending? string  such as ".urdf"
+---@param text? string
+---@return string
+function test.path(ending, text)
+  if not folder then
+    local name = os.tmpname()
+    os.remove(name)
+    assert(os.execute("mkdir " .. name))
+    folder = setmetatable({name = name}, {__gc = function() os.execute("rm -r " .. name) end})
+  end
+  paths = paths + 1
+  local path = ("%s/%d%s"):format(folder.name, paths, ending or "")
+  if text then clench.files.save_text(path, text) end
+  return path
+end
+
+--- A new empty folder, which is removed with all in it at the end of the run.
+---@return string
+function test.folder()
+  local path = test.path()
+  assert(os.execute("mkdir " .. path))
+  return path
+end
+
 ---@param claim string  what holds
 ---@param fn fun(t: table)
 local function run(_, claim, fn)

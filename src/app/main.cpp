@@ -184,28 +184,36 @@ static const std::string trust =
     "have regular files read that they name, with --confine only those below FOLDER. See "
     "docs/guide/trust.md.";
 
+// the program or the verb that was read
+static const CLI::App& verb_of(const CLI::App& app) {
+  const auto verbs = app.get_subcommands();
+  return verbs.empty() ? app : *verbs.front();
+}
+
+// Says what is wrong with the words, and where more is said.
+static int refuse(const CLI::App& app, const std::string& why) {
+  const CLI::App& verb = verb_of(app);
+  const std::string name = &verb == &app ? "clench" : "clench " + verb.get_name();
+  std::fprintf(stderr, "%s: %s\nRun %s --help for more information.\n", name.c_str(), why.c_str(),
+               name.c_str());
+  return 2;
+}
+
 // What neither the program nor the verb that was read takes: the first of it, and the option that
 // it may have meant.
 static int refuse_extra(const CLI::App& app) {
-  const auto verbs = app.get_subcommands();
-  const CLI::App& verb = verbs.empty() ? app : *verbs.front();
   const auto extras = app.remaining(true);
   // an option rather than what would have been its value
   const auto option =
       std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with('-'); });
   const std::string word = option != extras.end() ? *option : extras.front();
   std::vector<std::string> known;
-  for (const CLI::App* of : {&app, &verb})
+  for (const CLI::App* of : {&app, &verb_of(app)})
     for (const CLI::Option* one : of->get_options())
       for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
-  const std::string name = verbs.empty() ? "clench" : "clench " + verb.get_name();
-  if (option != extras.end())
-    std::fprintf(stderr, "%s: there is no option '%s'%s\n", name.c_str(), word.c_str(),
-                 did_you_mean(word.substr(0, word.find('=')), known).c_str());
-  else
-    std::fprintf(stderr, "%s: one argument too many: '%s'\n", name.c_str(), word.c_str());
-  std::fprintf(stderr, "Run %s --help for more information.\n", name.c_str());
-  return 2;
+  if (option == extras.end()) return refuse(app, fmt::format("one argument too many: '{}'", word));
+  return refuse(app, fmt::format("there is no option '{}'{}", word,
+                                 did_you_mean(word.substr(0, word.find('=')), known)));
 }
 
 // what the options of all verbs say
@@ -308,9 +316,9 @@ static bool refuse_verb(const CLI::App& app, const std::string& first) {
   for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
   if (first.front() == '-' || std::ranges::find(verbs, first) != verbs.end()) return false;
   const bool script = first.ends_with(".lua") || std::filesystem::exists(first);
-  std::fprintf(stderr, "clench: there is no verb '%s'%s\n", first.c_str(),
-               script ? fmt::format("; to run a script: clench run {}", first).c_str()
-                      : did_you_mean(first, verbs).c_str());
+  refuse(app, fmt::format(
+                  "there is no verb '{}'{}", first,
+                  script ? "; to run a script: clench run " + first : did_you_mean(first, verbs)));
   return true;
 }
 
@@ -365,7 +373,8 @@ static int main_of(int argc, char** argv) {
   } catch (const CLI::ExtrasError&) {
     return refuse_extra(app);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    // help and the version are no mistakes
+    return e.get_exit_code() == 0 ? app.exit(e) : refuse(app, e.what());
   }
   said.run.arguments = line.script;
   return run_verb(app, said);

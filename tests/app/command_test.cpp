@@ -60,9 +60,10 @@ TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(has(run("examples/01_first_grasp.lua").out,
             "to run a script: clench run examples/01_first_grasp.lua"));
   CHECK(run("run").code == 2);
-  CHECK(run("test").code == 2);
+  CHECK(run("test").out ==
+        "clench test: DIR is required\nRun clench test --help for more information.\n");
   CHECK(run("--frob").code == 2);
-  CHECK(run("-e").code == 2);
+  CHECK(has(run("-e").out, "clench: -e: "));
   CHECK(run("doc --chekc").code == 2);
   for (const std::string verb : {"", "run ", "repl ", "test ", "doc "}) {
     const auto help = run(verb + "--help");
@@ -128,6 +129,25 @@ TEST_CASE("test runs every file, sorted, each for itself, and counts") {
   const auto empty = run("test " + (folder / "empty"));
   CHECK(empty.code == 1);
   CHECK(has(empty.out, "no *_test.lua in"));
+}
+
+TEST_CASE("temporary files of tests in Lua are gone after the run, whatever its end") {
+  const Folder folder;
+  const std::string file = folder.file("a_test.lua",
+                                       "local test = require 'test'\n"
+                                       "print('<' .. test.path('', 'text') .. '>')\n"
+                                       "print('<' .. test.folder() .. '>')\n"
+                                       "error 'ends'");
+  const auto result = run("test " + file);
+  CHECK(result.code == 1);
+  int paths = 0;
+  for (size_t from = 0; (from = result.out.find("</", from)) != std::string::npos; ++paths) {
+    const size_t end = result.out.find('>', from);
+    const std::filesystem::path path = result.out.substr(from + 1, end - from - 1);
+    CHECK(!std::filesystem::exists(path.parent_path()));
+    from = end;
+  }
+  CHECK(paths == 2);
 }
 
 TEST_CASE("a file of tests that would end the run, or holds none, has failed") {

@@ -94,10 +94,9 @@ test("a list has no names: braces that were forgotten are told", function(t)
   t.fails(function() hand.virtual_contacts = {link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}} end,
           "hand.virtual_contacts: virtual_contacts: expected a list of virtual contacts, got a table with the key 'link'")
   t.equal(#hand.virtual_contacts, count)
-  local path = os.tmpname()
+  local path = test.path()
   t.fails(function() clench.files.save_pregrasps(path, {point = {0, 0, 0}}) end,
           "expected a list of tables, got a table with the key 'point'")
-  os.remove(path)
 end)
 
 test("masses and friction have an upper end", function(t)

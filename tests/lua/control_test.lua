@@ -333,17 +333,13 @@ end)
 -- a rod of 0.2 m on a hinge, horizontal at first; actuators: elements of MuJoCo
 -- returns its world, it, and what is read of it as URDF
 local function rod(actuators)
-  local path = os.tmpname() .. ".xml"
-  local file = assert(io.open(path, "w"))
-  file:write([[<mujoco model="rod"><compiler angle="radian"/><worldbody><body name="base" pos="0 0 1"><geom size="0.02" mass="1"/>
+  local path = test.path(".xml", [[<mujoco model="rod"><compiler angle="radian"/><worldbody><body name="base" pos="0 0 1"><geom size="0.02" mass="1"/>
     <body name="rod"><joint name="hinge" axis="0 1 0" range="-3 3" limited="true"/>
-    <geom type="box" size="0.1 0.005 0.005" pos="0.1 0 0" mass="0.1"/></body></body></worldbody>]], actuators or "", "</mujoco>")
-  file:close()
+    <geom type="box" size="0.1 0.005 0.005" pos="0.1 0 0" mass="0.1"/></body></body></worldbody>]] .. (actuators or "") .. "</mujoco>")
   local world = clench.world()
-  local robot, written = world:add_robot(path), os.tmpname() .. ".urdf"
+  local robot, written = world:add_robot(path), test.path ".urdf"
   clench.convert(path, written)
   local again = clench.world():add_robot(written)
-  os.execute(("rm -r %s %s %s"):format(path, written, written:gsub("%.urdf$", "_files")))
   return world, robot, again
 end
 

@@ -4,12 +4,9 @@ local test = require "test"
 
 -- runs with the path of a file that `command` makes
 local function with(command, run)
-  local path = os.tmpname()
-  os.remove(path)
+  local path = test.path()
   assert(os.execute(command:format(path)))
-  local ok, message = pcall(run, path)
-  os.remove(path)
-  if not ok then error(message, 0) end
+  run(path)
 end
 
 test("pipes and devices are never opened", function(t)
@@ -27,7 +24,7 @@ test("pipes and devices are never opened", function(t)
 end)
 
 test("a file is read whole, byte by byte", function(t)
-  local path, text = os.tmpname(), "a\0b\r\n\xFF"
+  local path, text = test.path(), "a\0b\r\n\xFF"
   clench.files.save_text(path, text)
   t.equal(clench.files.read_text(path), text)
   os.remove(path)

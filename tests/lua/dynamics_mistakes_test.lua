@@ -172,22 +172,13 @@ end)
 
 -- two links beside each other on a base, each turned by a position servo
 local function tongs(world, kp)
-  local name = os.tmpname()
-  local path = name .. ".xml"
-  local file = assert(io.open(path, "w"))
   local link = [[<body name="%s" pos="%g 0 0.1"><joint name="%s_joint" axis="0 1 0" range="-1 1" limited="true"/>
     <geom type="box" size="0.01 0.02 0.05" pos="0 0 0.06" mass="0.1"/></body>]]
-  file:write([[<mujoco model="tongs"><compiler angle="radian"/><worldbody><body name="base"><geom type="box" size="0.05 0.05 0.05" mass="1"/>]],
-             link:format("left", -0.03, "left"), link:format("right", 0.03, "right"), "</body></worldbody><actuator>")
-  for _, side in ipairs {"left", "right"} do
-    file:write(([[<position name="%s" joint="%s_joint" kp="%g" ctrlrange="-1 1"/>]]):format(side, side, kp))
-  end
-  file:write("</actuator></mujoco>")
-  file:close()
-  local robot = world:add_robot(path)
-  os.remove(path)
-  os.remove(name)
-  return robot
+  local servo = [[<position name="%s" joint="%s_joint" kp="%g" ctrlrange="-1 1"/>]]
+  return world:add_robot(test.path(".xml",
+    [[<mujoco model="tongs"><compiler angle="radian"/><worldbody><body name="base"><geom type="box" size="0.05 0.05 0.05" mass="1"/>]]
+    .. link:format("left", -0.03, "left") .. link:format("right", 0.03, "right") .. "</body></worldbody><actuator>"
+    .. servo:format("left", "left", kp) .. servo:format("right", "right", kp) .. "</actuator></mujoco>"))
 end
 
 test("gains of 1e12 and of 1e-12 move joints or leave them, and give numbers", function(t)

@@ -33,15 +33,10 @@ test("an error tells its kind", function(t)
 end)
 
 test("a faulty file is an error of the file, wherever it is noticed", function(t)
-  local path = os.tmpname()
   for _, text in ipairs {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 x\n3 0 1 2\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "OFF\n0 0 0\n"} do
-    local file = assert(io.open(path .. ".off", "w"))
-    file:write(text)
-    file:close()
-    t.equal(error_of(function() clench.world():add_object(path .. ".off") end).kind, "file")
+    local path = test.path(".off", text)
+    t.equal(error_of(function() clench.world():add_object(path) end).kind, "file")
   end
-  os.remove(path .. ".off")
-  os.remove(path)
 end)
 
 test("an error prints, joins and is searched as its text", function(t)

@@ -1,6 +1,8 @@
 -- Every binding is documented, and every example on its page runs and prints what the page says.
 local test, doc, show = require "test", require "clench.host.doc", require "clench.show"
 
+os.tmpname = test.path  -- what examples write goes at the end
+
 -- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each entry that asks
 local stage
 local parts = {

@@ -1,8 +1,6 @@
 local test = require "test"
 local clench = require "clench"
 
-local function path(ending) return os.tmpname() .. ending end
-
 -- a closed hand of ours, and its grasp in a list
 local function closed()
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
@@ -18,7 +16,7 @@ end
 
 test("a table of grasps has the types that it was written with", function(t)
   local _, grasp, list = closed()
-  local file = path ".csv"
+  local file = test.path ".csv"
   list:save(file)
   local row = clench.csv.read(file)[1]
   t.equal(row.seed, 7)
@@ -28,13 +26,12 @@ test("a table of grasps has the types that it was written with", function(t)
   t.equal(row.energy, -0.5)
   t.equal(row["x [m]"], grasp.pose.position.x)
   t.equal(clench.grasps(file)[1].labels.planner, "007")
-  os.remove(file)
 end)
 
 test("a grasp goes through every format that holds DOFs into a world where the object has another name", function(t)
   local _, grasp, list = closed()
   for _, one in ipairs {{".csv"}, {".npz"}, {".yaml"}, {".json", "multigripper"}} do
-    local file = path(one[1])
+    local file = test.path(one[1])
     list:save(file, {format = one[2]})
     local other = clench.load("worlds/dlr_flask.wld", {root = "."})
     local hand, flask = other.robots[1], other.objects[1]
@@ -44,24 +41,22 @@ test("a grasp goes through every format that holds DOFs into a world where the o
     local again = back:apply(other, {hand = hand, object = flask})
     t.equal(#again.contacts, #grasp.contacts)
     t.close(again:quality "epsilon", grasp.epsilon, 1e-6)
-    os.remove(file)
   end
 end)
 
 test("DOFs go by their names, and a name that no DOF has is refused", function(t)
   local world, _, list = closed()
-  local file = path ".yaml"
+  local file = test.path ".yaml"
   list:save(file)
   local text = clench.files.read_text(file)
   local name = text:match "cspace_position:\n%s+\"([^\"]+)\""
   clench.files.save_text(file, (text:gsub('"' .. name .. '"', '"nothing"')))
   t.fails(function() clench.grasps(file)[1]:apply(world) end, "the hand has no DOF 'nothing'")
-  os.remove(file)
 end)
 
 test("a grasp of no hand needs one, and one of that world", function(t)
   local world, _, list = closed()
-  local file = path ".json"
+  local file = test.path ".json"
   list:save(file, {format = "graspgen"})
   local back = clench.grasps(file)[1]
   t.fails(function() back:apply(world, {object = world.objects[1]}) end, "it does not name its hand; one has to be given")
@@ -70,12 +65,11 @@ test("a grasp of no hand needs one, and one of that world", function(t)
   local before = world.robots[1].dofs
   back:apply(world, {hand = world.robots[1], object = world.objects[1]})
   t.equal(world.robots[1].dofs[1], before[1])
-  os.remove(file)
 end)
 
 test("numpy reads what we write, where there is one", function(t)
   local _, grasp, list = closed()
-  local file = path ".npz"
+  local file = test.path ".npz"
   list:save(file)
   local pipe = io.popen("python3 -c 'import numpy,sys; a=numpy.load(sys.argv[1]); print(a[\"poses\"].shape[1], a[\"dofs\"].shape[1], repr(float(a[\"epsilon\"][0])), a[\"hands\"][0])' "
     .. file .. " 2>/dev/null")
@@ -83,12 +77,11 @@ test("numpy reads what we write, where there is one", function(t)
   pipe:close()
   if said ~= "" then t.equal(said, ("7 %d %.17g %s\n"):format(#grasp.dofs, grasp.epsilon, grasp.hand_name)) end
   t.equal(clench.grasps(file)[1].hand_name, grasp.hand_name)
-  os.remove(file)
 end)
 
 test("DOFs that were edited and joints that were not contradict each other", function(t)
   local world, _, list = closed()
-  local file = path ".jsonl"
+  local file = test.path ".jsonl"
   list:save(file)
   local text = clench.files.read_text(file)
   local function with(edit)
@@ -105,5 +98,4 @@ test("DOFs that were edited and joints that were not contradict each other", fun
   t.equal(hand.dofs[1], 0.123)
   local metres = with(function(s) return s:gsub('"dof_units":%["rad"', '"dof_units":["m"') end)
   t.fails(function() metres:apply(world) end, "expected a value in rad, got one in m")
-  os.remove(file)
 end)

@@ -6,10 +6,9 @@ local function human() return clench.world():add_robot "models/hands/human/human
 test("a set written as text and as XML is read back the same", function(t)
   local hand = human()
   for _, ending in ipairs {".egr", ".xml"} do
-    local path = os.tmpname() .. ending
+    local path = test.path(ending)
     hand.eigengrasps:save(path)
     local set = clench.files.eigengrasps(path)
-    os.remove(path)
     t.ok(#set == #hand.eigengrasps)
     -- the file keeps the vectors as they were given, to the bit, and both make them unit alike
     for i, vector in ipairs(set.vectors) do t.close(vector, hand.eigengrasps.vectors[i], 0) end
@@ -77,10 +76,9 @@ test("virtual contacts come back from files, on other hands of the kind too", fu
   local hand, other = human(), human()
   hand.virtual_contacts = hand:find_virtual_contacts {count_per_link = 2}
   for _, ending in ipairs {".vgr", ".xml"} do
-    local path = os.tmpname() .. ending
+    local path = test.path(ending)
     hand:save_virtual_contacts(path)
     other.virtual_contacts = clench.files.virtual_contacts(path)
-    os.remove(path)
     t.ok(#other.virtual_contacts == #hand.virtual_contacts)
     for i, c in ipairs(other.virtual_contacts) do
       local own = hand.virtual_contacts[i]
@@ -172,10 +170,9 @@ test("virtual contacts that were made for another hand are taken with a warning"
     clench.log.sink()
     if not ok then error(message, 0) end
   end
-  local path = os.tmpname() .. ".vgr"
+  local path = test.path ".vgr"
   other:save_virtual_contacts(path)
   local list = clench.files.virtual_contacts(path)
-  os.remove(path)
   local ok = pcall(give, list)
   t.equal(said, ok and {"suspicious hand.virtual_contacts: virtual contacts made for 'human16' are used for 'human20'"} or {})
   give {hand.virtual_contacts[1]}

@@ -122,13 +122,9 @@ local gripper = [[<robot name="slides">
 </robot>]]
 
 test("a gripper of URDF, two boxes that slide, holds what fits between them", function(t)
-  local path = os.tmpname() .. ".urdf"
-  local file = io.open(path, "w")
-  file:write(gripper)
-  file:close()
+  local path = test.path(".urdf", gripper)
   local world = clench.world()
   local hand = world:add_robot(path)
-  os.remove(path)
   local box = world:add_object(clench.shapes.box {0.05, 0.06, 0.12}, {mass = 0.2, material = "wood", pose = {xyz = {0, 0, 1}}})
   local run = clench.plan.sample {hand = hand, object = box, candidates = 128, refine = 2}
   t.ok(#run.grasps >= 5, tostring(run.report))

@@ -1,22 +1,10 @@
 local test, clench = require "test", require "clench"
 
-local function written(name, text)
-  local path = os.tmpname() .. name
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  return path
-end
-
 -- a tetrahedron with edges of 120 units along the axes
 local points, faces = "v 0 0 0\nv 120 0 0\nv 0 120 0\nv 0 0 120\n", "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 local function add(text, options)
-  local path = written(".obj", text)
-  local ok, result = pcall(clench.world().add_object, clench.world(), path, options)
-  os.remove(path)
-  if not ok then error(result, 0) end
-  return result
+  return clench.world():add_object(test.path(".obj", text), options)
 end
 
 test("the unit of a mesh is guessed, or given by name or by length", function(t)

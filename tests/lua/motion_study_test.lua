@@ -172,10 +172,9 @@ test("where nothing is lost there is nothing to compare, in text, chart and tabl
   t.ok(p.survived == 1 and row.auc == nil and row.low == nil and row.high == nil)
   t.ok(tostring(p):find "epsilon +nothing to compare")
   t.ok(p:chart {width = 300}.width == 300 and p:plot {width = 300}.picture.width == 300)
-  local path = os.tmpname()
+  local path = test.path()
   clench.csv.write(path, {{measure = row.measure, auc = row.auc}}, {columns = {"measure", "auc"}})
   t.equal(clench.csv.read(path)[1].auc, nil)
-  os.remove(path)
 end)
 
 test("a study begins at rest, whatever moved before, and the base stands still when it has been lifted", function(t)

@@ -115,14 +115,12 @@ local function in_browser(html)
   local chromium = found:read "l"
   found:close()
   if not chromium then return nil end
-  local folder = os.tmpname()
-  os.remove(folder)
+  local folder = test.path()
   clench.files.save_text(folder .. ".html", html)
   local dom = io.popen(("timeout 60 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader "
     .. "--enable-unsafe-swiftshader --user-data-dir=%s --virtual-time-budget=10000 --dump-dom file://%s.html 2>/dev/null"):format(folder, folder))
   local text = dom:read "a"
   dom:close()
-  os.execute(("rm -rf %s %s.html"):format(folder, folder))
   return text
 end
 

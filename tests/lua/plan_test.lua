@@ -158,13 +158,11 @@ test("why nothing was found is said by name", function(t)
 end)
 
 test("a robot that cannot close is told first", function(t)
-  local path = os.tmpname() .. ".urdf"
-  clench.files.save_text(path, [[<robot name="stick"><link name="palm"/><link name="tip"><collision><geometry><box size="0.02 0.02 0.1"/></geometry></collision></link>
+  local path = test.path(".urdf", [[<robot name="stick"><link name="palm"/><link name="tip"><collision><geometry><box size="0.02 0.02 0.1"/></geometry></collision></link>
     <joint name="j" type="revolute"><parent link="palm"/><child link="tip"/><axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint>
     <clench><dof joint="j" velocity="0"/></clench></robot>]])
   local world = clench.world()
   local stick = world:add_robot(path)
-  os.remove(path)
   local cube = world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {pose = {xyz = {2, 0, 0}}})
   local run = clench.plan.sample {hand = stick, object = cube, candidates = 8}
   t.ok(run.report.causes[1]:find "^no DOF of stick closes", run.report.causes[1])

@@ -31,14 +31,10 @@ test("a world is told with what it holds", function(t)
 end)
 
 test("of a crowded world some bodies that overlap are named", function(t)
-  local path = os.tmpname() .. ".lua"
-  local file = assert(io.open(path, "w"))
-  file:write([[local world = clench.world()
+  local path = test.path(".lua", [[local world = clench.world()
 for i = 1, 40 do world:add_obstacle("models/objects/cube.iv", {name = "c" .. i}) end
 return world]])
-  file:close()
   local r = report.of(path)
-  os.remove(path)
   t.equal(r.error, nil)
   t.equal(#r.parsed.overlaps, 100)
   t.ok(r.parsed.more_overlaps)
@@ -57,27 +53,19 @@ test("what is wrong is one sentence, and the log is as it was", function(t)
 end)
 
 test("what looks wrong and is used as it stands is suspicious", function(t)
-  local path = os.tmpname() .. ".wld"
-  local file = assert(io.open(path, "w"))
-  file:write("Camera\n0 0 0 0 0 0 1\n")
-  file:close()
-  local r = report.of(path)
-  os.remove(path)
+  local r = report.of(test.path(".wld", "Camera\n0 0 0 0 0 0 1\n"))
   t.equal(r.error, nil)
   t.equal(#r.suspicious, 1)
   t.ok(r.suspicious[1]:find "first line")
 end)
 
 test("eigengrasps and virtual contacts are told with their counts", function(t)
-  local folder = os.tmpname()
-  os.remove(folder)
+  local folder = test.path()
   local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
   local egr, vgr = folder .. ".egr", folder .. ".vgr"
   hand.eigengrasps:save(egr)
   hand:save_virtual_contacts(vgr)
   local grasps, contacts = report.of(egr), report.of(vgr)
-  os.remove(egr)
-  os.remove(vgr)
   t.equal(grasps.error, nil)
   t.equal(grasps.parsed, {dofs = 4, count = #hand.eigengrasps.vectors})
   t.equal(contacts.error, nil)
@@ -86,24 +74,17 @@ end)
 
 -- what is said of a file with that text
 local function report_of(ending, text)
-  local path = os.tmpname() .. ending
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  local r = report.of(path)
-  os.remove(path)
-  return r
+  return report.of(test.path(ending, text))
 end
 
 test("files of numbers are told with their counts", function(t)
-  local path = os.tmpname()
+  local path = test.path()
   clench.files.save_pregrasps(path, {{point = {0, 0, 0}, direction = {0, 0, 1}, thumb = {1, 0, 0}}})
   t.equal(report.of(path).parsed, {count = 1})
   clench.files.save_text(path, "0 0 0 1 0 0 0 0 0.25\n0 0 0 0 0 0 0 0 -2\n0 0 0 1 0 0 0 0 0.5\n")
   t.equal(report.of(path).parsed, {count = 2, runs = 2, best = 0.5})
   clench.files.save_object_contacts(path, {{frame = {}, normal = {0, 0, 1}}})
   t.equal(report.of(path).parsed, {count = 1, placed = true})
-  os.remove(path)
   local glove = report_of(".txt", "2 3\n1 2 3\n4 5 6\n7 8\n")
   t.equal(glove.kind, "glove calibration")
   t.equal(glove.parsed, {dofs = 2, sensors = 3})
@@ -132,14 +113,6 @@ end)
 -- all sentences of a kind
 local function told(r, kind) return table.concat(r[kind], "\n") end
 
-local function write(extension, text)
-  local path = os.tmpname() .. extension
-  local file = assert(io.open(path, "w"))
-  file:write(text)
-  file:close()
-  return path
-end
-
 local function has(t, text, part) t.ok(text:find(part, 1, true), text) end
 
 test("sets for grasping that no file gives are told of", function(t)
@@ -147,7 +120,7 @@ test("sets for grasping that no file gives are told of", function(t)
 <collision><origin xyz="0 0 0.05"/><geometry><box size="0.02 0.02 0.1"/></geometry></collision></link>]]
   local joint = [[<joint name="%s" type="revolute"><parent link="palm"/><child link="%s"/><origin xyz="%g 0 0.06"/><axis xyz="0 %d 0"/>
 <limit lower="-0.2" upper="1.5" effort="1" velocity="1"/></joint>]]
-  local path = write(".urdf", ([[<robot name="hand"><link name="palm"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>]]
+  local path = test.path(".urdf", ([[<robot name="hand"><link name="palm"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>]]
     .. finger .. finger .. joint .. joint .. "</robot>"):format("left", "right", "j1", "left", -0.05, 1, "j2", "right", 0.05, -1))
   local r = report.of(path)
   has(t, told(r, "inferred"), ".urdf: no eigengrasps are given; each of its 2 DOFs counts as one")
@@ -157,7 +130,6 @@ test("sets for grasping that no file gives are told of", function(t)
   t.equal(hand.has_own_virtual_contacts, false)
   hand.virtual_contacts = {}
   t.equal(hand.has_own_virtual_contacts, true)
-  os.remove(path)
   -- what files give is no guess
   t.ok(not told(report.of "models/hands/barrett/barrett.cfg", "inferred"):find "are given", "barrett")
 end)
@@ -169,11 +141,10 @@ test("masses of obstacles are MuJoCo's, or told", function(t)
   t.close(r.parsed.obstacles[1].mass, 64, 1e-9)
   t.close(r.parsed.obstacles[2].mass, 7, 0)
   has(t, told(r, "suspicious"), "'cube': its mass of 4000 kg makes 6.25e+07 kg/m^3: is its unit right?")
-  local box = write(".off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+  local box = test.path(".off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
   local world = report_of(".xml", "<world><obstacle><filename>" .. box .. "</filename></obstacle></world>")
   has(t, told(world, "inferred"), "no mass and no material is given; 0.3 kg of wood is assumed")
   t.ok(not told(world, "inferred"):find "inertia", told(world, "inferred"))
-  os.remove(box)
 end)
 
 test("five files whose values are exchanged or contradict one another", function(t)
@@ -200,14 +171,9 @@ test("primitives of an object are counted", function(t)
 end)
 
 test("what a robot has and nothing acts on is kept, and told", function(t)
-  local folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir -p " .. folder .. "/iv"))
-  local function write(name, text)
-    local file = assert(io.open(folder .. "/" .. name, "wb"))
-    file:write(text)
-    file:close()
-  end
+  local folder = test.folder()
+  assert(os.execute("mkdir " .. folder .. "/iv"))
+  local function write(name, text) clench.files.save_text(folder .. "/" .. name, text) end
   write("iv/part.iv", "#Inventor V2.1 ascii\n#useFlockOfBirds 4\nCube { }")
   write("glove.txt", "1 2\n0.1 0.2\n0.3\n")
   write("hand.xml", [[<robot type="Hand">
@@ -230,7 +196,6 @@ test("what a robot has and nothing acts on is kept, and told", function(t)
   local path = folder .. "/hand.xml"
   local r, hand = report.of(path), clench.world():add_robot(path)
   local json = clench.json.encode(r)
-  os.execute("rm -r " .. folder)
   t.equal(r.error, nil)
   t.equal(r.parsed.kept, {tendons = {"flexor"}, tendon_wrappers = 1, tactile_sensors = 1, glove = {dofs = 1, sensors = 2}, tracker = 2})
   t.ok(json:find('"tendons":["flexor"]', 1, true), json)

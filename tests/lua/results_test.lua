@@ -4,15 +4,7 @@ local test = require "test"
 local csv, stats = clench.csv, clench.stats
 
 local function with_file(text, run)
-  local path = os.tmpname()
-  if text then
-    local file = assert(io.open(path, "wb"))
-    file:write(text)
-    file:close()
-  end
-  local ok, message = pcall(run, path)
-  os.remove(path)
-  if not ok then error(message, 0) end
+  run(test.path("", text))
 end
 
 test("values come back from a table of results as they were, with their types", function(t)
@@ -140,13 +132,11 @@ test("figures of numbers are drawn and saved, and sheets hold them", function(t)
   t.ok(line.picture == line.picture and line.picture.width == 300)
   local bars = clench.plot {series = {clench.stats.histogram({1, 2, 2, 5}, {low = 1, high = 4})}, width = 200, height = 200}
   for _, ending in ipairs {".svg", ".png"} do
-    local path = os.tmpname() .. ending
+    local path = test.path(ending)
     line:save(path)
     local file = assert(io.open(path, "rb"))
     local head = file:read(5)
     file:close()
-    os.remove(path)
-    os.remove((path:gsub("%.%l+$", "")))
     t.equal(head, ending == ".svg" and "<svg " or "\x89PNG\r")
   end
   local sheet = clench.sheet {pictures = {line.picture, bars.picture}, captions = {"line", "bars"}, columns = 1, gap = 10}
@@ -165,7 +155,7 @@ test("bars over names, and charts, are saved as PNG and as SVG", function(t)
                             title = "Grasps found", y_label = "grasps", width = 300, height = 200}
   local chart = clench.chart {series = {{name = "epsilon", values = {0.1, 0.3}}}, labels = {"Barrett", "Shadow"}, width = 300, height = 200}
   for _, figure in ipairs {bars, chart} do
-    local path = os.tmpname()
+    local path = test.path()
     figure:save(path .. ".svg")
     figure:save(path .. ".png")
     local svg = assert(io.open(path .. ".svg")):read "a"
@@ -174,7 +164,6 @@ test("bars over names, and charts, are saved as PNG and as SVG", function(t)
     t.equal(figure.picture.width, 300)
     t.equal(figure.width, 300)
     t.equal(figure.height, 200)
-    for _, ending in ipairs {"", ".svg", ".png"} do os.remove(path .. ending) end
   end
   t.ok(bars ~= chart)
   t.fails(function() clench.plot {categories = {"a", "b"}, series = {{y = {1}}}} end, "series 1: expected 2 values, one per category, got 1")

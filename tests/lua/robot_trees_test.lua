@@ -33,10 +33,9 @@ test("a Lua world keeps what a robot's reading was given, and how it closes and 
     approach = {point = {0, 0, 0.1}, direction = {1, 2, 3}},
   }
   hand:set_dofs {0.02}
-  local path = os.tmpname() .. ".lua"
+  local path = test.path ".lua"
   world:save(path)
   local again = clench.load(path)
-  os.remove(path)
   t.equal(again:hash(), world:hash())
   t.equal(again.robots[1].dof_info[1].default_velocity, 0)
   t.ok(again.robots[1].approach.frame == hand.approach.frame)
@@ -73,11 +72,10 @@ end)
 
 test("a text world that holds no folders of packages says so, and which format does", function(t)
   local _, world = gripper()
-  local path, said = os.tmpname() .. ".wld", {}
+  local path, said = test.path ".wld", {}
   clench.log.sink(function(_, text) said[#said + 1] = text end)
   local ok, message = pcall(world.save, world, path)
   clench.log.sink()
-  os.remove(path)
   local all = table.concat(said, "\n") .. tostring(message)
   t.ok(all:find("does not hold the option 'package' that robot 'gripper' was read with; .lua does", 1, true), all)
 end)
@@ -97,13 +95,11 @@ test("a robot is fixed to any link by its name, and to the last of a chain by nu
   arm.dofs = dofs
   t.ok(hand.pose ~= before)
   t.ok(((carrier.pose:inverse() * hand.pose).position - clench.vec3(0.1, 0, 0)):norm() < 1e-12)
-  local file = os.tmpname()
+  local file = test.path()
   world:save(file .. ".lua", {root = "."})
   t.equal(clench.load(file .. ".lua", {root = "."}):hash(), world:hash())
   -- the formats of the original know the last links of chains alone
   t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which ends no chain")
-  os.remove(file .. ".lua")
-  os.remove(file)
 end)
 
 test("a snapshot restores into clones, and into no other world", function(t)
@@ -124,13 +120,9 @@ test("a snapshot restores into clones, and into no other world", function(t)
 end)
 
 local function turntable(joint_type, limit)
-  local path = os.tmpname() .. ".urdf"
-  local file = assert(io.open(path, "w"))
-  file:write([[<robot name="turntable"><link name="base"/><link name="plate"><inertial><mass value="1"/>
-    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="]], joint_type,
-    [["><parent link="base"/><child link="plate"/><axis xyz="0 0 1"/>]], limit or "", [[</joint><clench><dof joint="turn" velocity="1"/></clench></robot>]])
-  file:close()
-  return path
+  return test.path(".urdf", [[<robot name="turntable"><link name="base"/><link name="plate"><inertial><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="]] .. joint_type
+    .. [["><parent link="base"/><child link="plate"/><axis xyz="0 0 1"/>]] .. (limit or "") .. [[</joint><clench><dof joint="turn" velocity="1"/></clench></robot>]])
 end
 
 test("a joint without limits goes on and on, and still does after its robot was written and read", function(t)
@@ -164,30 +156,23 @@ test("a joint without limits goes on and on, and still does after its robot was 
       t.close(robot.dofs[1], far, 0.05)
       local now, reach = robot.dofs[1], far - 20
       for seed = 1, 20 do t.close(robot:random_posture(clench.random(seed))[1], now, reach + 1e-9) end
-      local written = os.tmpname() .. ".urdf"
+      local written = test.path ".urdf"
       clench.convert(path, written)
-      os.remove(path)
       path = written
     end
-    os.execute(("rm -rf %s %s"):format(path, path:gsub("%.urdf$", "_files")))
   end
   local path = turntable("revolute", [[<limit lower="-1" upper="1" effort="0" velocity="0"/>]])
   local limited = clench.world():add_robot(path)
-  os.remove(path)
   t.equal(limited.dof_info[1].endless, false)
   t.fails(function() limited:set_dofs {2} end, "must lie in [-1, 1] rad")
 end)
 
 test("a joint without limits is where a keyframe puts it, and searches look about where it is", function(t)
-  local path = os.tmpname() .. ".xml"
-  local file = assert(io.open(path, "w"))
-  file:write [[<mujoco model="arm"><compiler angle="radian"/><worldbody><body name="base"><geom size="0.1" mass="1"/>
+  local path = test.path(".xml", [[<mujoco model="arm"><compiler angle="radian"/><worldbody><body name="base"><geom size="0.1" mass="1"/>
     <body name="upper" pos="0 0 0.2"><joint name="a" axis="0 0 1"/><geom size="0.02" pos="0.2 0 0" mass="0.1"/>
     <body name="lower" pos="0.3 0 0"><joint name="b" axis="0 0 1" range="-2 2" limited="true"/><geom size="0.02" pos="0.2 0 0" mass="0.1"/>
-    </body></body></body></worldbody><keyframe><key name="far" qpos="100 1"/></keyframe></mujoco>]]
-  file:close()
+    </body></body></body></worldbody><keyframe><key name="far" qpos="100 1"/></keyframe></mujoco>]])
   local world = clench.load(path)
-  os.remove(path)
   local arm = world.robots[1]
   world:set_keyframe "far"
   t.equal(arm.dofs, {100.0, 1.0})
@@ -201,8 +186,6 @@ end)
 
 -- two fingers on slides, on a wrist that turns without end; the box between them turns along
 local function wrist_gripper(turn)
-  local path = os.tmpname() .. ".urdf"
-  local file = assert(io.open(path, "w"))
   local function link(name, z, size)
     return ([[<link name="%s"><collision><origin xyz="0 0 %g"/><geometry><box size="%s"/></geometry></collision></link>]]):format(name, z, size)
   end
@@ -210,13 +193,11 @@ local function wrist_gripper(turn)
     return ([[<joint name="%s_slide" type="prismatic"><parent link="palm"/><child link="%s"/><origin xyz="%g 0 0.03"/><axis xyz="%g 0 0"/>
       <limit lower="0" upper="0.045" effort="10" velocity="1"/></joint>]]):format(name, name, x, x < 0 and 1 or -1)
   end
-  file:write([[<robot name="gripper">]], link("arm", 0, "0.1 0.1 0.02"), link("palm", 0.02, "0.12 0.05 0.01"), link("left", 0.05, "0.01 0.02 0.08"),
-    link("right", 0.05, "0.01 0.02 0.08"), [[<joint name="wrist" type="continuous"><parent link="arm"/><child link="palm"/><axis xyz="0 0 1"/></joint>]],
-    finger("left", -0.05), finger("right", 0.05), "</robot>")
-  file:close()
+  local path = test.path(".urdf", [[<robot name="gripper">]] .. link("arm", 0, "0.1 0.1 0.02") .. link("palm", 0.02, "0.12 0.05 0.01")
+    .. link("left", 0.05, "0.01 0.02 0.08") .. link("right", 0.05, "0.01 0.02 0.08") .. [[<joint name="wrist" type="continuous"><parent link="arm"/><child link="palm"/><axis xyz="0 0 1"/></joint>]]
+    .. finger("left", -0.05) .. finger("right", 0.05) .. "</robot>")
   local world = clench.world()
   local hand = world:add_robot(path, {close = {left_slide = 1, right_slide = 1}, approach = {point = {0, 0, 0.1}, direction = {0, 0, 1}}})
-  os.remove(path)
   local box = world:add_object(clench.shapes.box {0.03, 0.03, 0.03}, {mass = 0.1, pose = clench.pose {xyz = {0, 0, 0.1}, rpy = {0, 0, 0.3}}})
   hand:set_dofs {wrist = turn}
   hand:autograsp()
@@ -253,7 +234,6 @@ test("worlds differ by whether a limit stops a joint", function(t)
     local path = turntable(joint_type, limit)
     local out = clench.world()
     out:add_robot(path)
-    os.remove(path)
     return out
   end
   local limit = ([[<limit lower="%.17g" upper="%.17g" effort="0" velocity="0"/>]]):format(-2 * math.pi, 2 * math.pi)
@@ -262,15 +242,11 @@ test("worlds differ by whether a limit stops a joint", function(t)
 end)
 
 test("a tendon that nothing stops pulls on, and its joint may be told where to stand", function(t)
-  local path = os.tmpname() .. ".urdf"
-  local file = assert(io.open(path, "w"))
-  file:write [[<robot name="spool"><link name="base"/><link name="drum"><inertial><mass value="1"/>
+  local path = test.path(".urdf", [[<robot name="spool"><link name="base"/><link name="drum"><inertial><mass value="1"/>
     <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="continuous"><parent link="base"/>
-    <child link="drum"/><axis xyz="0 0 1"/></joint><clench><dof joint="turn" kind="compliant" velocity="1"/><joint name="turn" spring="1"/></clench></robot>]]
-  file:close()
+    <child link="drum"/><axis xyz="0 0 1"/></joint><clench><dof joint="turn" kind="compliant" velocity="1"/><joint name="turn" spring="1"/></clench></robot>]])
   local world = clench.world()
   local robot = world:add_robot(path)
-  os.remove(path)
   robot:set_dofs {20}
   robot:set_target_velocities {1}
   world:run(0.5)

@@ -1,8 +1,6 @@
 local test, clench = require "test", require "clench"
 
-local folder = os.tmpname()
-os.remove(folder)
-assert(os.execute("mkdir " .. folder))
+local folder = test.folder()
 
 local function read(path)
   local file = assert(io.open(path, "rb"))
@@ -12,10 +10,9 @@ local function read(path)
 end
 
 local function write(name, text)
-  local file = assert(io.open(folder .. "/" .. name, "wb"))
-  file:write(text)
-  file:close()
-  return folder .. "/" .. name
+  local path = folder .. "/" .. name
+  clench.files.save_text(path, text)
+  return path
 end
 
 -- a world in which everything is set that can be set
@@ -299,4 +296,3 @@ test("worlds of the original come back from every format, and are the same in bo
   for i, body in ipairs(loaded[2].bodies) do t.equal(body.pose, loaded[3].bodies[i].pose) end
 end)
 
-os.execute("rm -r " .. folder)

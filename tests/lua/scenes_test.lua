@@ -1,14 +1,11 @@
 local test, clench = require "test", require "clench"
 
-local folder = os.tmpname()
-os.remove(folder)
-assert(os.execute("mkdir " .. folder))
+local folder = test.folder()
 
 local function write(name, text)
-  local file = assert(io.open(folder .. "/" .. name, "wb"))
-  file:write(text)
-  file:close()
-  return folder .. "/" .. name
+  local path = folder .. "/" .. name
+  clench.files.save_text(path, text)
+  return path
 end
 
 -- a table, an arm with its own friction, a door, a mug
@@ -141,10 +138,8 @@ test("clench check tells of a scene what stands in its world, and of a lone robo
   t.ok(report.of(meshed).error:find("no such file", 1, true), report.of(meshed).error)
   t.equal(report.of(meshed, {folder = folder .. "/meshes"}).error, nil)
 
-  local broken = os.tmpname() .. ".xml"
-  clench.files.save_text(broken, '<mujoco><worldbody><geom type="bxo"/></worldbody></mujoco>')
+  local broken = test.path(".xml", '<mujoco><worldbody><geom type="bxo"/></worldbody></mujoco>')
   t.ok(report.of(broken).error:find("did you mean 'box'?", 1, true), report.of(broken).error)
-  os.remove(broken)
 end)
 
 test("a world of one body tells itself in the singular", function(t)

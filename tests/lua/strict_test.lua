@@ -1,19 +1,16 @@
 local test = require "test"
-local folder = os.tmpname()
-os.remove(folder)
+local folder = test.folder()
 
 local function write(name, text)
-  local path = folder .. name
-  local file = assert(io.open(path, "w"))
-  file:write(text)
-  file:close()
+  local path = folder .. "/" .. name
+  clench.files.save_text(path, text)
   return path
 end
 
 test("with `strict` every way to read refuses what it else warns of", function(t)
-  local body = write(".xml", "<root>\n<mass>-300</mass></root>")
-  local world = write("_world.xml", "<world><graspableBody><filename>" .. body .. "</filename></graspableBody></world>")
-  local grasps = write(".egr", "DIMENSIONS 1\nEG\n1\n1 2\n")
+  local body = write("body.xml", "<root>\n<mass>-300</mass></root>")
+  local world = write("world.xml", "<world><graspableBody><filename>" .. body .. "</filename></graspableBody></world>")
+  local grasps = write("set.egr", "DIMENSIONS 1\nEG\n1\n1 2\n")
   local fault = ":2: mass: -300 is negative; 300 is used"
   local options, w = {strict = true}, clench.world()
   local level = clench.log.level "quiet"
@@ -21,7 +18,7 @@ test("with `strict` every way to read refuses what it else warns of", function(t
     function(o) w:add_object(body, o) end,
     function(o) w:add_obstacle(body, o) end,
     function(o) clench.load(world, o) end,
-    function(o) clench.convert(body, folder .. "_out.xml", o) end,
+    function(o) clench.convert(body, folder .. "/out.xml", o) end,
   } do
     t.fails(function() read(options) end, fault)
     read {strict = false}
@@ -31,19 +28,13 @@ test("with `strict` every way to read refuses what it else warns of", function(t
   t.equal(#clench.files.eigengrasps(grasps).vectors[1], 2)
   clench.log.level(level)
   t.fails(function() w:add_object(body, {strict = 1}) end, "strict")
-  for _, path in ipairs {body, world, grasps, folder .. "_out.xml"} do os.remove(path) end
 end)
 
 test("a Lua world that loads itself is told by the line that does, by whatever name", function(t)
-  local path = write("_itself.lua", "local clench = require 'clench'\nreturn clench.load(...)")
-  local by_link = write("_by_link.lua", "")
-  os.remove(by_link)
+  local path = write("itself.lua", "local clench = require 'clench'\nreturn clench.load(...)")
+  local by_link = folder .. "/by_link.lua"
   assert(os.execute(("ln -s %s %s"):format(path, by_link)))
-  local file = assert(io.open(path, "w"))
-  file:write(("local clench = require 'clench'\nreturn clench.load %q"):format(by_link))
-  file:close()
-  t.fails(function() clench.load(path) end, "_itself.lua:2: ")
+  clench.files.save_text(path, ("local clench = require 'clench'\nreturn clench.load %q"):format(by_link))
+  t.fails(function() clench.load(path) end, "itself.lua:2: ")
   t.fails(function() clench.load(path) end, "it loads itself")
-  os.remove(path)
-  os.remove(by_link)
 end)

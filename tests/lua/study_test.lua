@@ -163,11 +163,9 @@ test("a grasp that stands in no world is studied as far as that goes, and else t
   local grasp = closed_on_flask()
   local list = clench.grasps()
   list:add(grasp)
-  local path = os.tmpname()
+  local path = test.path()
   list:save(path .. ".jsonl")
   local loose = clench.grasps(path .. ".jsonl")[1]
-  os.remove(path)
-  os.remove(path .. ".jsonl")
   local sentence = "the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does"
   t.fails(function() clench.study.robustness(loose, {samples = 2, position = 0.001}) end, "study_test.lua", "study.robustness: " .. sentence)
   t.fails(function() clench.study.compare {grasp, loose} end, "study.compare: grasps[2]: " .. sentence)
@@ -291,10 +289,9 @@ test("of grasps that are compared only those that stand in no world are applied"
   local grasp = closed_on_flask()
   local list = clench.grasps()
   list:add(grasp)
-  local path = os.tmpname() .. ".jsonl"
+  local path = test.path ".jsonl"
   list:save(path)
   local read = clench.grasps(path)
-  os.remove(path)
   t.equal(clench.study.compare({grasp}, {world = clench.world()}).values.epsilon[1], grasp:quality "epsilon")
   t.close(clench.study.compare(read, {world = grasp.hand.world}).values.epsilon[1], grasp:quality "epsilon", 1e-9)
   t.fails(function() clench.study.compare(read) end, "study.compare: grasps[1]: the grasp stands in no world")

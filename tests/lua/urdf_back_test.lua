@@ -1,9 +1,7 @@
 -- A hand written as URDF and read again is the same hand: it closes the same way, and its grasps have the same measures.
 local test, clench = require "test", require "clench"
 
-local folder = os.tmpname()
-os.remove(folder)
-assert(os.execute("mkdir " .. folder))
+local folder = test.folder()
 clench.log.level "error"
 
 local shared = (os.getenv "CLENCH_SHARED" or "../shared") .. "/data/"

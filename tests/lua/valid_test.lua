@@ -13,16 +13,7 @@ Separator {
 
 -- the path of a file of that ending with the text, for one use
 local function with_file(ending, text, use)
-  local path = os.tmpname()
-  os.remove(path)
-  path = path .. ending
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  local ok, result = pcall(use, path)
-  os.remove(path)
-  if not ok then error(result, 0) end
-  return result
+  return use(test.path(ending, text))
 end
 
 -- what a file writes of a number: "nan" and "inf" are none there
@@ -103,16 +94,11 @@ test("what a file says of DOFs is held against the same rules", function(t)
     for key, value in pairs(numbers_of) do n[key] = written(value) end
     local text = ("Robot\npalm.iv\n1\nr %s %s 1 1 20\n1\n1\n1\nt 0 0 0\nd0 %s %s %s %s %s 0 0 %s\nRevolute\nlink.iv 0\n"):format(
       n.velocity, n.effort, n.d, n.a, n.alpha, n.min, n.max, n.spring)
-    local folder = os.tmpname()
-    os.remove(folder)
-    assert(os.execute("mkdir -p " .. folder .. "/iv"))
-    for _, name in ipairs {"iv/palm.iv", "iv/link.iv", "arm.cfg"} do
-      local file = assert(io.open(folder .. "/" .. name, "wb"))
-      file:write(name == "arm.cfg" and text or "#Inventor V2.1 ascii\n" .. box)
-      file:close()
-    end
+    local folder = test.folder()
+    assert(os.execute("mkdir " .. folder .. "/iv"))
+    for _, name in ipairs {"iv/palm.iv", "iv/link.iv"} do clench.files.save_text(folder .. "/" .. name, "#Inventor V2.1 ascii\n" .. box) end
+    clench.files.save_text(folder .. "/arm.cfg", text)
     local ok, message = pcall(function() return clench.world():add_robot(folder .. "/arm.cfg") end)
-    os.execute("rm -r " .. folder)
     return ok, tostring(message)
   end
   local ok, message = arm {}

@@ -132,12 +132,10 @@ end)
 
 -- a rod that hangs from an axis along y, with a servo
 local function servo(t, force_range)
-  local path = os.tmpname() .. ".xml"
-  clench.files.save_text(path, ([[<mujoco><worldbody><body name="base"><geom type="box" size=".01 .01 .01"/><body name="rod" pos="0 0 1">
+  local path = test.path(".xml", ([[<mujoco><worldbody><body name="base"><geom type="box" size=".01 .01 .01"/><body name="rod" pos="0 0 1">
 <joint name="j" axis="0 1 0" range="-170 170"/><geom type="box" size="0.02 0.02 0.2" pos="0 0 -0.25" mass="1.5"/></body></body></worldbody>
 <actuator><position joint="j" kp="40" kv="2" %s/></actuator></mujoco>]]):format(force_range))
   local world = clench.load(path)
-  os.remove(path)
   return world, world.robots[1]
 end
 

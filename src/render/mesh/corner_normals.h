@@ -2,6 +2,7 @@
 // triangle.
 #pragma once
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include "clench/geometry/mesh/mesh.h"
@@ -15,6 +16,6 @@ namespace clench {
 /// source  Thuermer & Wuethrich (1998), Computing vertex normals from polygonal facets: the weights
 std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
     const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles,
-    double crease);
+    double crease = 35 * std::numbers::pi / 180);
 
 }  // namespace clench

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "clench/render/mesh/corner_normals.h"
@@ -12,8 +11,6 @@
 namespace clench {
 namespace {
 
-constexpr double crease = 35 * std::numbers::pi / 180;
-constexpr float solid_from = 0.999f;  // opacity above which nothing shines through
 // across which light is interpolated [scene units]: of what is solid, and of what is seen through
 constexpr float longest_edge = 0.07f, longest_clear_edge = 0.2f;
 // of one piece, by splitting; what comes with more keeps them
@@ -29,7 +26,7 @@ Extent extent_of_pieces(std::span<const Piece> pieces) {
 
 Batch append(Piece& piece, DrawList& list) {
   for (auto& p : piece.p_W) p = (p - list.centre) / list.scale;
-  const auto normals = corner_normals(piece.p_W, piece.triangles, crease);
+  const auto normals = corner_normals(piece.p_W, piece.triangles);
   std::vector<Paint> paints;
   for (const auto& color : piece.colors) paints.push_back(make_paint(color, piece.opacity));
   std::vector<Corner> corners;

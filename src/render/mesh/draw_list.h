@@ -36,6 +36,8 @@ struct DrawList : Extent {
 
 inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]
 inline constexpr int floor_lines = 113;
+/// opacity above which nothing shines through
+inline constexpr float solid_from = 0.999f;
 
 /// throws  Error naming the mesh or cone and what is out of range: numbers not finite, opacity
 ///         outside [0, 1], a wrong count of triangle colours, a cone's axis that is not unit, its

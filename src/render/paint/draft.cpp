@@ -19,9 +19,8 @@
 namespace clench {
 namespace {
 
-constexpr int max_draft_map = 2048;    // [pixels]
-constexpr double draft_reach = 1.03;   // of the map: the scene's ball and a margin
-constexpr float draft_solid = 0.999f;  // opacity above which nothing shines through
+constexpr int max_draft_map = 2048;   // [pixels]
+constexpr double draft_reach = 1.03;  // of the map: the scene's ball and a margin
 
 // one mesh of the scene, where it stands
 struct Placed {
@@ -114,7 +113,7 @@ void DraftPainter::load(MeshStore& store, const Scene& scene) {
     placed.distance = (placed.to_scene.topRightCorner<3, 1>() - eye_.eye).norm();
     placed.one_side = stored.closed && hides_inside(placed.to_scene.topRightCorner<3, 1>(),
                                                     stored.scale / extent_.scale, eye_);
-    (mesh.opacity >= draft_solid || mesh.background ? solid_ : clear_).push_back(placed);
+    (mesh.opacity >= solid_from || mesh.background ? solid_ : clear_).push_back(placed);
   }
   // near bodies first, so that light is found once for what is seen; those seen through last
   std::ranges::stable_sort(solid_, std::ranges::less{}, &Placed::distance);

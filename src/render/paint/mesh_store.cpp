@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numbers>
 
 #include "clench/render/mesh/corner_normals.h"
 #include "clench/render/mesh/outward.h"
 
 namespace clench {
 
-namespace {
-
-constexpr double draft_crease = 35 * std::numbers::pi / 180;
-
-}  // namespace
-
 void share_corners(const std::vector<Eigen::Vector3d>& vertices,
                    const std::vector<Triangle>& triangles,
                    const std::vector<Eigen::Vector3f>& colors, std::vector<Corner>& corners,
                    std::vector<uint32_t>& indices) {
-  const auto normals = corner_normals(vertices, triangles, draft_crease);
+  const auto normals = corner_normals(vertices, triangles);
   // corners of a vertex so far, as a chain; none: -1
   std::vector<int> first(vertices.size(), -1), next;
   const size_t base = corners.size();
