@@ -9,6 +9,9 @@ local failure = {__tostring = function(self) return self.message end}
 
 local function fail(format, ...) error(setmetatable({message = format:format(...)}, failure), 0) end
 
+-- a text in quotes, anything else as the console shows it
+local function shown(x) return type(x) == "string" and "'" .. x .. "'" or show(x) end
+
 local function equal(a, b)
   if a == b then return true end
   if type(a) ~= "table" or type(b) ~= "table" then return false end
@@ -21,16 +24,24 @@ local function equal(a, b)
   return true
 end
 
+-- of a list or a vector; of anything else nil
+local function length(x)
+  if type(x) == "table" then return #x end
+  if type(x) ~= "userdata" then return nil end
+  local ok, count = pcall(function() return #x end)
+  return ok and count or nil
+end
+
 -- the largest difference of two numbers or of two lists of them, vectors too
 local function difference(a, b)
   if type(a) == "number" and type(b) == "number" then
     if a == b then return 0 end
     return math.abs(a - b)
   end
-  local lists = (type(a) == "table" or type(a) == "userdata") and (type(b) == "table" or type(b) == "userdata")
-  if not lists or #a ~= #b then fail("expected numbers or lists of one length, got %s and %s", show(a), show(b)) end
+  local count = length(a)
+  if not count or count ~= length(b) then fail("expected numbers or lists of one length, got %s and %s", shown(a), shown(b)) end
   local worst = 0
-  for i = 1, #a do
+  for i = 1, count do
     local d = difference(a[i], b[i])
     if d ~= d or d > worst then worst = d end
     if d ~= d then return d end
@@ -50,12 +61,14 @@ end
 
 --- the same value; tables with the same contents
 function t.equal(got, want)
-  if not equal(got, want) then fail("expected %s, got %s", show(want), show(got)) end
+  if not equal(got, want) then fail("expected %s, got %s", shown(want), shown(got)) end
 end
 
 --- numbers, vectors or lists of numbers, nowhere further apart than tolerance
 function t.close(got, want, tolerance)
-  if type(tolerance) ~= "number" then fail("close: expected a tolerance, got %s", show(tolerance)) end
+  if math.type(tolerance) == nil or not (tolerance >= 0 and tolerance < math.huge) then
+    fail("close: expected a tolerance of at least 0, got %s", shown(tolerance))
+  end
   local off = difference(got, want)
   if not (off <= tolerance) then
     fail("expected %s within %.3g, got %s, off by %.3g", show(want), tolerance, show(got), off)
@@ -64,6 +77,11 @@ end
 
 --- fn must raise an error whose message contains each of the texts; returns the message
 function t.fails(fn, ...)
+  if type(fn) ~= "function" then fail("fails: expected a function, got %s", shown(fn)) end
+  for i = 1, select("#", ...) do
+    local text = select(i, ...)
+    if type(text) ~= "string" then fail("fails: expected texts after the function, got %s", shown(text)) end
+  end
   local ok, message = pcall(fn)
   if ok then fail("expected an error, got none") end
   message = tostring(message)
@@ -86,7 +104,11 @@ end
 --- ends the test without a verdict
 function t.skip(reason) error({mark = skip, reason = reason or "no reason given"}, 0) end
 
+-- by Ctrl-C: no test comes after it
+local interrupted = setmetatable({}, {__tostring = function() return "interrupted" end})
+
 local function explain(message)
+  if message == interrupted or type(message) == "table" and rawget(message, "kind") == "stopped" then return interrupted end
   if type(message) == "table" and rawequal(rawget(message, "mark"), skip) then return message end
   if getmetatable(message) == failure then
     -- the line of the test that failed is what is looked for
@@ -101,19 +123,30 @@ local function explain(message)
   return debug.traceback(error_text(message), 2)
 end
 
--- of temporary files; with Lua's state it goes
-local folder, paths = nil, 0
+-- t:ok(x) would take t itself for x
+for name, claim in pairs(t) do
+  t[name] = function(first, ...)
+    if rawequal(first, t) then fail("expected t.%s(...), got t:%s(...)", name, name) end
+    return claim(first, ...)
+  end
+end
 
---- A path of which there is no file yet, with this ending. A text is written there. At the end of the run it is removed.
+-- the folder of temporary files, which is removed when Lua's state closes, and how many there are
+local folder, paths = nil, 0
+local tmpname = os.tmpname
+
+local function make_folder(path) assert(os.execute("mkdir " .. path), "the folder " .. path .. " could not be made") end
+
+--- A new temporary path with this ending; with a text, that of a file that holds it. It is removed at the end of `clench test`.
 ---@param ending? string  such as ".urdf"
 ---@param text? string
 ---@return string
 function test.path(ending, text)
   if not folder then
-    local name = os.tmpname()
+    local name = tmpname()
     os.remove(name)
-    assert(os.execute("mkdir " .. name))
-    folder = setmetatable({name = name}, {__gc = function() os.execute("rm -r " .. name) end})
+    make_folder(name)
+    folder = setmetatable({name = name}, {__gc = function() os.execute("rm -rf " .. name) end})
   end
   paths = paths + 1
   local path = ("%s/%d%s"):format(folder.name, paths, ending or "")
@@ -121,11 +154,11 @@ function test.path(ending, text)
   return path
 end
 
---- A new empty folder, which is removed with all in it at the end of the run.
+--- A new empty folder, which is removed with all in it at the end of `clench test`.
 ---@return string
 function test.folder()
   local path = test.path()
-  assert(os.execute("mkdir " .. path))
+  make_folder(path)
   return path
 end
 
@@ -136,12 +169,13 @@ local function run(_, claim, fn)
   local ok, message = xpcall(fn, explain, t)
   if ok then
     test.passed = test.passed + 1
-  elseif type(message) == "table" then
+  elseif type(message) == "table" and message ~= interrupted then
     test.skipped = test.skipped + 1
     print(("  skipped  %s: %s"):format(claim, message.reason))
   else
     test.failed = test.failed + 1
     print(("  FAILED   %s\n           %s"):format(claim, (tostring(message):gsub("\n", "\n           "))))
+    if message == interrupted then error(interrupted, 0) end
   end
 end
 
@@ -154,7 +188,7 @@ function test.run_file(path)
   local ok = chunk ~= nil
   if chunk then ok, message = xpcall(chunk, explain) end
   if ok and test.passed + test.failed + test.skipped == 0 then ok, message = false, "expected a test in it, got none" end
-  if not ok then
+  if not ok and message ~= interrupted then
     test.failed = test.failed + 1
     print(("  FAILED   %s: the file itself\n           %s"):format(path, (tostring(message):gsub("\n", "\n           "))))
   end

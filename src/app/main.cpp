@@ -54,6 +54,12 @@ static void add_confine(CLI::App& verb, std::string& folder) {
       ->check(CLI::ExistingDirectory);
 }
 
+static const CLI::Validator named(
+    [](std::string& file) -> std::string {
+      return file.empty() ? "expected the name of a file, got nothing" : "";
+    },
+    "");
+
 static const CLI::Validator unit(
     [](std::string& text) -> std::string {
       static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
@@ -141,8 +147,8 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
     verb.add_flag_callback(
         name, [note = noted_as(name, words)] { note("yes"); }, text);
   };
-  add("HAND", "a robot's file")->required();
-  add("OBJECT", "a body's file, or a mesh")->required();
+  add("HAND", "a robot's file")->required()->check(named);
+  add("OBJECT", "a body's file, or a mesh")->required()->check(named);
   several("--obstacle", "a body that stands in the way; may be repeated")->type_name("FILE");
   add("--pose", "where the object stands [m, degrees]; default: at 0,0,0")
       ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
@@ -190,7 +196,7 @@ static const CLI::App& verb_of(const CLI::App& app) {
   return verbs.empty() ? app : *verbs.front();
 }
 
-// Says what is wrong with the words, and where more is said.
+// Says what is wrong with the command line, and where to read more.
 static int refuse(const CLI::App& app, const std::string& why) {
   const CLI::App& verb = verb_of(app);
   const std::string name = &verb == &app ? "clench" : "clench " + verb.get_name();
@@ -230,7 +236,8 @@ static void add_script_verbs(CLI::App& app, Said& said) {
   auto* run = app.add_subcommand("run", "run a script");
   run->add_option("FILE", said.run.file,
                   "a Lua script, or - for stdin; what follows are its arguments")
-      ->required();
+      ->required()
+      ->check(named);
   run->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10" +
               trust);
   auto* repl = app.add_subcommand("repl", "open a console");
@@ -239,10 +246,11 @@ static void add_script_verbs(CLI::App& app, Said& said) {
       "prints, help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves." +
       trust);
   auto* test = app.add_subcommand("test", "run every *_test.lua of a folder");
-  test->add_option("DIR", said.test_path, "a folder, or one file")->required();
+  test->add_option("DIR", said.test_path, "a folder, or one file")->required()->check(named);
   test->footer("Example:\n  clench test tests/lua" + trust);
   auto* doc = app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
-  doc->add_option("DIR", said.doc_folder, "where to; default: docs/api, where there is one");
+  doc->add_option("DIR", said.doc_folder, "where to; default: docs/api, where there is one")
+      ->check(named);
   doc->add_flag("--check", said.check_docs,
                 "write nothing; fail when a page is not what it should be");
   doc->footer("Examples:\n  clench doc\n  clench doc --check");
@@ -298,7 +306,9 @@ static void add_all(CLI::App& app, Said& said) {
   app.require_subcommand(0, 1);
   app.add_flag("-q,--quiet", said.run.quiet, "show errors only");
   app.add_option("-e", said.run.code, "run this code")->type_name("CODE")->allow_extra_args(false);
-  app.add_option("-i", said.interactive, "run a script, then open a console")->type_name("FILE");
+  app.add_option("-i", said.interactive, "run a script, then open a console")
+      ->type_name("FILE")
+      ->check(named);
   add_confine(app, said.confine);
   add_script_verbs(app, said);
   add_check(app, said.check);
@@ -370,11 +380,16 @@ static int main_of(int argc, char** argv) {
     // it takes the words from the back
     std::vector<std::string> words(line.ours.rbegin(), line.ours.rend());
     app.parse(words);
-  } catch (const CLI::ExtrasError&) {
-    return refuse_extra(app);
   } catch (const CLI::ParseError& e) {
     // help and the version are no mistakes
-    return e.get_exit_code() == 0 ? app.exit(e) : refuse(app, e.what());
+    if (e.get_exit_code() == 0) return app.exit(e);
+    // a word that nobody takes explains what else is missing
+    if (!app.remaining(true).empty()) return refuse_extra(app);
+    std::string why = e.what();
+    // of CLI11: "--count: 1 required N:INTEGER missing"
+    if (why.ends_with(" missing"))
+      why = why.substr(0, why.find(':')) + ": expected a value, got none";
+    return refuse(app, why);
   }
   said.run.arguments = line.script;
   return run_verb(app, said);

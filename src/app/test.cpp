@@ -27,6 +27,7 @@ static std::vector<fs::path> test_files(const fs::path& path) {
 
 struct Count {
   int passed = 0, failed = 0, skipped = 0;
+  bool interrupted = false;
 };
 
 static Count run_test_file(const fs::path& file, const std::string& confine, bool quiet) {
@@ -39,9 +40,9 @@ static Count run_test_file(const fs::path& file, const std::string& confine, boo
   std::fflush(stdout);
   if (result.ok && result.values.size() == 3)
     return {std::atoi(result.values[0].c_str()), std::atoi(result.values[1].c_str()),
-            std::atoi(result.values[2].c_str())};
+            std::atoi(result.values[2].c_str()), running.pressed()};
   fmt::print("  FAILED   {}\n", result.error);
-  return {0, 1, 0};
+  return {0, 1, 0, running.pressed()};
 }
 
 int run_tests(const std::string& path, const std::string& confine, bool quiet) {
@@ -61,8 +62,12 @@ int run_tests(const std::string& path, const std::string& confine, bool quiet) {
     if (!quiet) std::printf("%s\n", file.c_str());
     const Count one = run_test_file(file, confine, quiet);
     all.passed += one.passed, all.failed += one.failed, all.skipped += one.skipped;
+    all.interrupted = one.interrupted;
+    if (all.interrupted) break;
   }
-  std::printf("%d passed, %d failed, %d skipped\n", all.passed, all.failed, all.skipped);
+  std::printf("%d passed, %d failed, %d skipped%s\n", all.passed, all.failed, all.skipped,
+              all.interrupted ? "; interrupted" : "");
+  if (all.interrupted) return 130;
   return all.failed ? 1 : 0;
 }
 

@@ -18,7 +18,7 @@ end
 local function check_folder(option, path)
   if not path then return end
   local file, why = io.open(path, "ab")
-  if not file then fail("%s: %s", option, why) end
+  if not file then error(("%s: %s"):format(option, why), 0) end
   local empty = file:seek "end" == 0
   file:close()
   if empty then os.remove(path) end
@@ -48,7 +48,7 @@ function Files.open(given)
   if not self.out then return self end
   begin_list(self.out, self.format)
   local file, why = io.open(self.out, "a+b")
-  if not file then fail("-o: %s", why) end
+  if not file then error(("-o: %s"):format(why), 0) end
   if (file:read "l" or ""):find '^{"format":"clench grasps"' then self.lines = file else file:close() end
   return self
 end

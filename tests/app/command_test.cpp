@@ -60,10 +60,18 @@ TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(has(run("examples/01_first_grasp.lua").out,
             "to run a script: clench run examples/01_first_grasp.lua"));
   CHECK(run("run").code == 2);
+  CHECK(run("test").code == 2);
   CHECK(run("test").out ==
         "clench test: DIR is required\nRun clench test --help for more information.\n");
   CHECK(run("--frob").code == 2);
-  CHECK(has(run("-e").out, "clench: -e: "));
+  CHECK(run("-e").code == 2);
+  CHECK(has(run("-e").out, "clench: -e: expected a value, got none\n"));
+  CHECK(has(run("test --hepl").out,
+            "clench test: there is no option '--hepl'; did you mean '--help'?"));
+  for (const std::string words : {"run ''", "-i ''", "test ''", "doc ''", "plan '' b.iv"}) {
+    CHECK(run(words).code == 2);
+    CHECK(has(run(words).out, ": expected the name of a file, got nothing\n"));
+  }
   CHECK(run("doc --chekc").code == 2);
   for (const std::string verb : {"", "run ", "repl ", "test ", "doc "}) {
     const auto help = run(verb + "--help");
@@ -131,7 +139,7 @@ TEST_CASE("test runs every file, sorted, each for itself, and counts") {
   CHECK(has(empty.out, "no *_test.lua in"));
 }
 
-TEST_CASE("temporary files of tests in Lua are gone after the run, whatever its end") {
+TEST_CASE("temporary files of tests in Lua are gone after the run, also when it fails") {
   const Folder folder;
   const std::string file = folder.file("a_test.lua",
                                        "local test = require 'test'\n"
@@ -148,6 +156,21 @@ TEST_CASE("temporary files of tests in Lua are gone after the run, whatever its 
     from = end;
   }
   CHECK(paths == 2);
+}
+
+TEST_CASE("Ctrl-C ends a run of tests, with what is known so far and the code 130") {
+  const Folder folder;
+  folder.file("a_test.lua",
+              "local test = require 'test'\n"
+              "test('done', function(t) t.ok(true) end)\n"
+              "test('endless', function() while true do end end)\n"
+              "test('not begun', function() print 'begun' end)");
+  folder.file("b_test.lua", "print 'begun'");
+  const auto result = run("test " + (folder / "."), "", "timeout --preserve-status -s INT 1");
+  CHECK(result.code == 130);
+  CHECK(has(result.out, "FAILED   endless\n           interrupted\n"));
+  CHECK(result.out.ends_with("1 passed, 1 failed, 0 skipped; interrupted\n"));
+  CHECK(result.out.find("begun\n") == std::string::npos);
 }
 
 TEST_CASE("a file of tests that would end the run, or holds none, has failed") {

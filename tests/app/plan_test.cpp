@@ -97,7 +97,7 @@ TEST_CASE("what plan is given badly is told in one sentence, before the search")
   said("-o " + (folder / "no/a.jsonl"), "no such folder", 1);
   said("--sheet a.jpg", "--sheet: expected a file .png, got 'a.jpg'");
   said("--report a.htm", "--report: expected a file .html, got 'a.htm'");
-  said("--sheet " + (folder / "no/a.png"), "--sheet: " + (folder / "no/a.png"));
+  said("--sheet " + (folder / "no/a.png"), "--sheet: " + (folder / "no/a.png"), 1);
   said("--obstacle no.iv", "no such file: no.iv", 1);
   said("--confine models/hands", "lies outside of ", 1);
   CHECK(run("plan models/hands/barrett/barrett.cfg").code == 2);

@@ -1,8 +1,7 @@
 -- Every binding is documented, and every example on its page runs and prints what the page says.
 local test, doc, show = require "test", require "clench.host.doc", require "clench.show"
 
--- what examples write goes at the end; its folder has a name of Lua's own
-test.path()
+-- what examples write is removed with the temporary files of tests
 os.tmpname = test.path
 
 -- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each entry that asks

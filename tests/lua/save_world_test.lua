@@ -295,4 +295,3 @@ test("worlds of the original come back from every format, and are the same in bo
   end
   for i, body in ipairs(loaded[2].bodies) do t.equal(body.pose, loaded[3].bodies[i].pose) end
 end)
-

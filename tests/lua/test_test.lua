@@ -42,7 +42,20 @@ test("a test without a claim or a function is refused", function(t)
   t.fails(function() test "alone" end, "expected a claim and a function")
 end)
 
-test("paths are new ones, with texts or without", function(t)
+test("claims that would hold of anything do not", function(t)
+  t.fails(function() t:ok(false) end, "expected t.ok(...), got t:ok(...)")
+  t.fails(function() t:close(1, 1, 0) end, "expected t.close(...), got t:close(...)")
+  t.fails(function() t.fails(3) end, "fails: expected a function, got 3")
+  t.fails(function() t.fails(tostring(3), "attempt") end, "fails: expected a function, got '3'")
+  t.fails(function() t.fails(function() error "a" end, nil, "b") end, "fails: expected texts after the function, got nil")
+  for _, tolerance in ipairs {-1, 0 / 0, math.huge, "1"} do
+    t.fails(function() t.close(1, 1, tolerance) end, "close: expected a tolerance of at least 0, got ")
+  end
+  t.fails(function() t.close(clench.pose(), clench.pose(), 1) end, "expected numbers or lists of one length, got pose")
+  t.fails(function() t.close("1", 1, 1) end, "got '1' and 1")
+end)
+
+test("paths are new ones, with a text or without", function(t)
   local path = test.path(".txt", "a")
   t.ok(path:find "%.txt$")
   t.equal(clench.files.read_text(path), "a")

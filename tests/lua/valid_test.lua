@@ -11,7 +11,7 @@ Separator {
 }
 ]]
 
--- the path of a file of that ending with the text, for one use
+-- with the path of a file of that ending with the text
 local function with_file(ending, text, use)
   return use(test.path(ending, text))
 end

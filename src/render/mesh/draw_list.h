@@ -36,7 +36,7 @@ struct DrawList : Extent {
 
 inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]
 inline constexpr int floor_lines = 113;
-/// opacity above which nothing shines through
+/// the least opacity through which nothing shines
 inline constexpr float solid_from = 0.999f;
 
 /// throws  Error naming the mesh or cone and what is out of range: numbers not finite, opacity
