@@ -54,6 +54,7 @@ static void add_confine(CLI::App& verb, std::string& folder) {
       ->check(CLI::ExistingDirectory);
 }
 
+// a path, which is not empty
 static const CLI::Validator named(
     [](std::string& file) -> std::string {
       return file.empty() ? "expected the name of a file, got nothing" : "";
@@ -149,7 +150,9 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
   };
   add("HAND", "a robot's file")->required()->check(named);
   add("OBJECT", "a body's file, or a mesh")->required()->check(named);
-  several("--obstacle", "a body that stands in the way; may be repeated")->type_name("FILE");
+  several("--obstacle", "a body that stands in the way; may be repeated")
+      ->type_name("FILE")
+      ->check(named);
   add("--pose", "where the object stands [m, degrees]; default: at 0,0,0")
       ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
   several("--obstacle-pose", "the same of each obstacle, in their order")->type_name("POSE");
@@ -172,12 +175,16 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       "times the object's weight that all fingers together press with at most; default: 10")
       ->type_name("N")
       ->check(positive);
-  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")->type_name("FILE");
+  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
+      ->type_name("FILE")
+      ->check(named);
   add("--format", "of -o, where the ending does not say: graspgen ...")
       ->type_name("NAME")
       ->check(list_format);
-  add("--report", "a page with a table, pictures and each grasp in 3-D")->type_name("FILE.html");
-  add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png");
+  add("--report", "a page with a table, pictures and each grasp in 3-D")
+      ->type_name("FILE.html")
+      ->check(named);
+  add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png")->check(named);
   flag("--verify",
        "shake each grasp in simulation, too, by the object's weight along six directions");
   flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");

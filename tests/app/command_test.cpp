@@ -68,7 +68,8 @@ TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(has(run("-e").out, "clench: -e: expected a value, got none\n"));
   CHECK(has(run("test --hepl").out,
             "clench test: there is no option '--hepl'; did you mean '--help'?"));
-  for (const std::string words : {"run ''", "-i ''", "test ''", "doc ''", "plan '' b.iv"}) {
+  for (const std::string words : {"run ''", "-i ''", "test ''", "doc ''", "plan '' b.iv",
+                                  "plan a.cfg b.iv -o ''", "plan a.cfg b.iv --obstacle ''"}) {
     CHECK(run(words).code == 2);
     CHECK(has(run(words).out, ": expected the name of a file, got nothing\n"));
   }

@@ -1,6 +1,7 @@
 -- Runs the Lua blocks of a Markdown page as one script, in order: a page tells one story. Everything else on the page becomes empty
 -- lines, so an error names the page's own line.
 --   clench run tests/docs/run_page.lua PAGE
+os.tmpname = require "clench.test".path  -- what a page writes there is removed at the end
 local page = assert(arg[1], "usage: run_page.lua PAGE")
 local lines, inside, blocks = {}, false, 0
 for text in io.lines(page) do
