@@ -1,5 +1,7 @@
 #include "clench/math/cone_kkt.h"
 
+#include "clench/math/cone_program.h"
+
 namespace clench {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
