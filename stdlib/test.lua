@@ -181,8 +181,10 @@ end
 
 --- runs a file of tests, for `clench test`; returns how many passed, failed, were skipped
 function test.run_file(path)
+  if type(path) ~= "string" then error(("test.run_file: expected the path of a file of tests, got %s"):format(type(path)), 2) end
   package.loaded.test = test
-  -- one that ends the program would hide all that comes after it
+  -- a file that ends the program would hide the tests after it
+  local exit <close> = setmetatable({exit = os.exit}, {__close = function(saved) os.exit = saved.exit end})
   os.exit = function() error("os.exit: a file of tests cannot end the run", 2) end
   local chunk, message = loadfile(path, "t")
   local ok = chunk ~= nil

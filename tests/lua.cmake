@@ -55,17 +55,14 @@ foreach(path ${lua_files})
 endforeach()
 
 if(NOT CLENCH_SANITIZE)
-  # some calls and files of the fuzzers, which find nothing, in a folder where they may write
+  # some calls and files of the fuzzers, which find nothing, in a scratch folder of copies that they may spoil
   set(fuzz ${CMAKE_CURRENT_BINARY_DIR}/fuzz_root)
-  file(MAKE_DIRECTORY ${fuzz})
-  foreach(name models worlds)
-    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${name} ${fuzz}/${name} SYMBOLIC)
-  endforeach()
-  file(COPY ${PROJECT_SOURCE_DIR}/models/hands/parallel_jaw DESTINATION ${fuzz})
-  file(WRITE ${fuzz}/list "parallel_jaw/parallel_jaw.cfg\n")
+  set(copies "rm -rf ${fuzz} && mkdir -p ${fuzz}/build && cp -r models worlds tests/data/seeds ${fuzz}")
+  lua_test("fuzz: scratch folder" bash -c "${copies} && cd ${fuzz} && ls models/hands/parallel_jaw/*.cfg seeds/grasps.* >list")
   lua_test("fuzz: calls" clench_app -q run ${PROJECT_SOURCE_DIR}/tests/fuzz/api.lua 1 100)
   lua_test("fuzz: files" clench_app -q run ${PROJECT_SOURCE_DIR}/tests/fuzz/files.lua 1 50 list)
-  set_tests_properties("fuzz: calls" "fuzz: files" PROPERTIES WORKING_DIRECTORY ${fuzz})
+  set_tests_properties("fuzz: scratch folder" PROPERTIES FIXTURES_SETUP fuzz_root)
+  set_tests_properties("fuzz: calls" "fuzz: files" PROPERTIES WORKING_DIRECTORY ${fuzz} FIXTURES_REQUIRED fuzz_root)
 
   lua_test("docs/api is what the bindings say" clench_app doc docs/api --check)
 

@@ -16,7 +16,7 @@ local function one_of(list) return list[random(#list)] end
 
 -- --- what there is to begin with ---
 
-api.names_of_things, api.materials, api.measures, api.files = {}, {"wood", "rubber", "plastic"}, {}, {}
+api.names_of_things, api.members, api.materials, api.measures, api.files = {}, {}, {"wood", "rubber", "plastic"}, {}, {}
 api.endings = {".wld", ".xml", ".lua", ".obj", ".stl", ".ply", ".cfg", ".urdf", ".egr", ".vgr", ".png", ".iv", ""}
 for _, measure in ipairs(clench.measures()) do table.insert(api.measures, measure.name) end
 for _, list in pairs(clench.catalog()) do
@@ -46,6 +46,21 @@ end
 -- classes of the API alone, as their metatables say
 local is_class = {}
 for _, class in ipairs(api.classes) do is_class[class] = true end
+-- an object that is a table: its metatable names its methods
+local function note_members(value, source)
+  local class = getmetatable(value)
+  local methods = type(class) == "table" and rawget(class, "__index")
+  if type(methods) ~= "table" then return end
+  local names = {}
+  for name, method in next, methods do
+    if type(name) == "string" and name:find "^%l[%w_]*$" and type(method) == "function" then names[#names + 1] = name end
+  end
+  if #names == 0 then return end
+  table.sort(names)
+  table.insert(api.members, {source = source, names = names, name = "a method of a table: " .. table.concat(names, " ")})
+  if #api.members > 12 then table.remove(api.members, 1) end
+end
+
 local function note(value, source, depth)
   local class = type(value) == "userdata" and getmetatable(value)
   if is_class[class] then
@@ -56,6 +71,7 @@ local function note(value, source, depth)
       if #api.names_of_things > 40 then table.remove(api.names_of_things, 1) end
     end
   elseif type(value) == "table" and depth > 0 then
+    note_members(value, source)
     local taken = 0
     for i, item in pairs(value) do
       if taken >= 3 then break end
@@ -102,7 +118,7 @@ end
 -- a world with a hand that holds something; what went before is out of reach, but lives on in v
 local function begin()
   for class in pairs(pool) do pool[class] = nil end
-  api.names_of_things = {}
+  api.names_of_things, api.members = {}, {}
   local n = count
   local function at(k) return ("v[%d]"):format(n + k) end
   local beginning = {

@@ -3,6 +3,7 @@
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local parse_type = dofile(here .. "types.lua")
 local known = dofile(here .. "known.lua")
+local examples = dofile(here .. "examples.lua")
 local doc = require "clench.host.doc"
 
 -- a type's own text, for fields that hold the same
@@ -51,8 +52,13 @@ local function parameters(step, text)
 end
 
 local function read(all)
-  local api = {functions = {}, methods = {}, fields = {}, setters = {}, operators = {}, classes = {}, parents = {},
+  local api = {functions = {}, methods = {}, fields = {}, setters = {}, operators = {}, examples = {}, classes = {}, parents = {},
                words = {}, types = {}, fields_by_type = {}, key = key_of}
+
+  local function add_examples(step, text)
+    local steps = examples.steps(step, text)
+    table.move(steps, 1, #steps, #api.examples + 1, api.examples)
+  end
 
   -- `entry` is the name under which it is counted
   local function step(name, entry, class, text)
@@ -60,6 +66,7 @@ local function read(all)
     made.params = parameters(made, text)
     table.move(made.words, 1, #made.words, #api.words + 1, api.words)
     for _, param in ipairs(made.params) do table.insert(api.types, param.type) end
+    add_examples(made, text)
     return made
   end
 
@@ -68,6 +75,7 @@ local function read(all)
     local field = {name = entry.name, entry = class.name .. "." .. entry.name, class = class.name, type = kind, keys = {},
                    words = words_of(entry.doc)}
     table.insert(api.fields, field)
+    add_examples(field, entry.doc)
     local same = api.fields_by_type[key_of(kind)] or {}
     api.fields_by_type[key_of(kind)] = same
     table.insert(same, field)

@@ -197,4 +197,10 @@ known.heavy = {
 --- and so does all that needs one of these
 known.heavy_classes = {picture = 80, projection = 10, virtual_contact = 3}
 
+--- One over the frequency of a step among its kind; nil for 1.
+function known.rarity(step)
+  local searches = step.lines and (step.entry:find "^clench%.plan%." or step.entry:find "^clench%.study%." or step.class == "picture")
+  return searches and 12 or known.heavy[step.entry] or known.heavy_classes[step.class]
+end
+
 return known

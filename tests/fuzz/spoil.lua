@@ -26,16 +26,20 @@ local function parts(text)
   return list
 end
 
---- Other text that Lua still reads as arguments, or the same when it has no parts.
----@param text string  arguments, as between the brackets of a call
----@param hostile fun(part: string): string  what stands in the place of a part
+local function reads_as_arguments(text) return load("f(" .. text .. ")") end
+
+--- The text with one part replaced, such that it still compiles; the same text when it has no parts.
+---@param text string  arguments, as between the brackets of a call, or what `compiles` accepts
+---@param hostile fun(part: string): string  replacement of a part
+---@param compiles? fun(text: string): any  true for text that may be returned; without it: of lists of arguments
 ---@return string
-return function(text, hostile)
+return function(text, hostile, compiles)
+  compiles = compiles or reads_as_arguments
   local list = parts(text)
   for _ = 1, #list > 0 and 6 or 0 do
     local part = list[random(#list)]
     local spoilt = text:sub(1, part[1] - 1) .. hostile(text:sub(part[1], part[2])) .. text:sub(part[2] + 1)
-    if load("f(" .. spoilt .. ")") then return spoilt end
+    if compiles(spoilt) then return spoilt end
   end
   return text
 end

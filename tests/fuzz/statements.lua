@@ -2,6 +2,7 @@
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local known = dofile(here .. "known.lua")
 local spoil = dofile(here .. "spoil.lua")
+local examples = dofile(here .. "examples.lua")
 local random = math.random
 local function one_of(list) return list[random(#list)] end
 
@@ -20,8 +21,8 @@ local function pick(self, list)
   self.decks[list] = deck
   if #deck == 0 then
     for i, step in ipairs(list) do
-      local heavy = not self.even and (known.heavy[step.entry] or known.heavy_classes[step.class])
-      if not heavy or random(heavy) == 1 then table.insert(deck, random(#deck + 1), step) end
+      local rarity = not self.even and known.rarity(step)
+      if not rarity or random(rarity) == 1 then table.insert(deck, random(#deck + 1), step) end
     end
   end
   return table.remove(deck)
@@ -139,7 +140,24 @@ function makers.odd(self, n)
   return text, odd, text:find "^v%[" and n or nil
 end
 
-local kinds = {{30, "functions"}, {68, "methods"}, {78, "fields"}, {90, "setters"}, {95, "operators"}, {100, "odd"}}
+function makers.examples(self, n, one)
+  local step = pick(self, self.api.examples)
+  local hostile = one and function(part) return self.maker:hostile_value(nil, part) end
+  return ("v[%d] = %s"):format(n, examples.source(step, hostile)), step, n
+end
+
+-- methods of tables that the standard library returned, which no table of entries lists: recordings, logs, searches
+function makers.members(self, n)
+  local members = self.api.members
+  if #members == 0 then return end
+  local member = one_of(members)
+  local list = {}
+  for i = 1, random(0, 2) do list[i] = self.maker:make(one_of(self.api.types)) end
+  return ("v[%d] = (%s):%s(%s)"):format(n, member.source, one_of(member.names), table.concat(list, ", ")), {entry = member.name, keys = {}}, n
+end
+
+local kinds = {{24, "functions"}, {52, "methods"}, {60, "fields"}, {70, "setters"}, {74, "operators"}, {78, "odd"}, {84, "members"},
+               {100, "examples"}}
 
 --- A statement, the step that it reaches, and the number of v that it sets, `n` or nil.
 ---@param n integer

@@ -1,6 +1,7 @@
 -- Values of a type as Lua source: mostly such as a script would give, some of them hostile. `v` is the script's table of
 -- the objects that were made so far.
 local known = dofile((debug.getinfo(1, "S").source:match "^@(.*/)" or "") .. "known.lua")
+local examples = dofile((debug.getinfo(1, "S").source:match "^@(.*/)" or "") .. "examples.lua")
 local values = {}
 
 local random = math.random
@@ -33,12 +34,27 @@ function values.environment()
   local many, texts = {}, {}
   for i = 1, 20000 do many[i], texts[i] = i % 7, "x" .. i end
   local function raise() error "never asked" end
-  return {
+  local env = {
     v = {}, clench = clench, math = math, print = function() end, io = {stdout = io.stdout}, error = error, tostring = tostring,
-    coroutine = {create = coroutine.create}, collectgarbage = collectgarbage, cyclic = cyclic, deep = deep,
+    coroutine = coroutine, collectgarbage = collectgarbage, cyclic = cyclic, deep = deep,
     many = many, texts = texts, angry = setmetatable({}, {__index = raise, __len = raise, __pairs = raise, __tostring = raise}),
     lying = setmetatable({}, {__len = function() return 1 << 40 end, __index = function() return 1 end}),
   }
+
+  -- what examples use besides; their files lie in the current folder
+  local named = 0
+  local function temporary()
+    named = named % 9 + 1
+    return "t" .. named
+  end
+  local function open(path, mode) return io.open(type(path) == "string" and path:match "^t%d[%w.]*$" or "t0", mode == "r" and "r" or "w") end
+  local os_names = {tmpname = temporary, remove = function() return true end, clock = os.clock, time = os.time}
+  env.example = examples.runner(setmetatable({
+    io = {open = open, stdout = io.stdout}, os = os_names, require = function() return clench end, string = string, table = table,
+    ipairs = ipairs, pairs = pairs, next = next, select = select, type = type, tonumber = tonumber, pcall = pcall, assert = assert,
+    setmetatable = setmetatable, getmetatable = getmetatable,
+  }, {__index = env}))
+  return env
 end
 
 local function number()

@@ -4,33 +4,7 @@ local test, doc, show = require "test", require "clench.host.doc", require "clen
 -- what examples write is removed with the temporary files of tests
 os.tmpname = test.path
 
--- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each entry that asks
-local stage
-local parts = {
-  world = function()
-    if not stage then
-      stage = clench.load "worlds/dlr_flask.wld"
-      stage.robots[1]:autograsp()
-    end
-    return stage:clone()
-  end,
-  hand = function(env) return env.world.robots[1] end,
-  flask = function(env) return env.world.objects[1] end,
-  grasp = function(env) return clench.grasp(env.hand, env.flask) end,
-  patch = function(env)
-    env.flask.elastic_modulus = 1.5e6
-    return env.world:contacts(env.hand, env.flask)[4].patch
-  end,
-}
-
--- what an entry's examples see: the globals, and the parts of the stage that they ask for
-local function environment()
-  return setmetatable({}, {__index = function(env, name)
-    if not parts[name] then return _G[name] end
-    rawset(env, name, parts[name](env))
-    return rawget(env, name)
-  end})
-end
+local stage = dofile "tests/fuzz/stage.lua"
 
 -- results as the console shows them, or "error: message"
 local function result_of(code, env)
@@ -49,7 +23,7 @@ local function check(subject, entry)
     t.ok(parsed.text ~= "", "expected a sentence of doc, got none")
     t.ok(#parsed.examples > 0, "expected a running example, got none")
     t.ok(parsed.unused == 0, "expected a result after the last line of code, got none")
-    local env = environment()
+    local env = stage(_G)
     for _, example in ipairs(parsed.examples) do
       for _, code in ipairs(example.prepare) do assert(load(code, "=example", "t", env))() end
       local got, want = result_of(example.code, env), example.result

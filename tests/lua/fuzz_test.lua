@@ -11,6 +11,7 @@ local spoil = dofile "tests/fuzz/spoil.lua"
 -- what api.lua lists before it begins, with one object of each class
 local function prepared_api()
   local api = dofile "tests/fuzz/entries.lua" ()
+  api.members = {}
   api.names_of_things, api.materials, api.measures, api.files, api.endings = {"cube"}, {"wood"}, {"epsilon"}, {"cube.iv"}, {".obj"}
   local pool = {}
   for _, class in ipairs(api.classes) do pool[class] = {"v[1]"} end
@@ -62,6 +63,30 @@ test("statements reach every entry and every key, and Lua reads them", function(
     if n % 1000 == 0 and not next(left) then break end
   end
   for name in pairs(left) do t.ok(false, name .. " is never reached") end
+end)
+
+test("the examples of the pages are statements that run as they stand", function(t)
+  local examples, made = dofile "tests/fuzz/examples.lua", 0
+  local env = {example = examples.runner(_G)}
+  for _, step in ipairs(prepared_api().examples) do
+    if step.entry:find "^clench%.vec3" or step.entry:find "^vec3[:.]" or step.entry == "robot.dofs" then
+      local chunk = assert(load("return " .. examples.source(step), "=fuzz", "t", env))
+      local ok, message = pcall(chunk)
+      -- an example may show an error
+      t.ok(ok or not tostring(message):find "attempt to", step.entry .. ": " .. tostring(message))
+      made = made + 1
+    end
+  end
+  t.ok(made > 10, made .. " examples")
+end)
+
+test("every class of the dynamics, of planning and of studies has statements from examples", function(t)
+  local from = {}
+  for _, step in ipairs(prepared_api().examples) do from[step.class or step.entry:match "^clench%.%l+"] = true end
+  for _, name in ipairs {"world_dynamics", "world_control", "robot_dynamics", "joint_dynamics", "motion", "energy", "annealing", "clench.plan",
+                         "clench.study"} do
+    t.ok(from[name], name)
+  end
 end)
 
 test("a spoilt list of arguments has one part exchanged, and no key's name", function(t)
