@@ -3,7 +3,10 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
+#include <cstring>
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 namespace clench::test {
 
@@ -82,22 +85,55 @@ BodyFacts body_facts(const mjModel& m, const mjData& d, int b) {
   return out;
 }
 
+/// Loads a file with the defaults of MuJoCo 3 for `autolimits` and, where `exact`, the volumes of
+/// meshes.   returns  null, with the error, when MuJoCo refuses it
+std::unique_ptr<mjModel, Deleter> load(const std::filesystem::path& path, bool exact,
+                                       std::string& error) {
+  std::ifstream file(path);
+  std::stringstream stream;
+  stream << file.rdbuf();
+  std::string text = stream.str();
+  const size_t root = text.find("<mujoco"), end = text.find('>', root);
+  if (root == std::string::npos || end == std::string::npos || text[end - 1] == '/') {
+    error = "no element <mujoco> with content";
+    return nullptr;
+  }
+  text.insert(end + 1, exact ? "<compiler autolimits='true' exactmeshinertia='true'/>"
+                             : "<compiler autolimits='true'/>");
+  // a file of that name in memory; all others are on disk
+  const auto vfs = std::make_unique<mjVFS>();
+  mj_defaultVFS(vfs.get());
+  const std::string name = path.filename().string();
+  mj_makeEmptyFileVFS(vfs.get(), name.c_str(), static_cast<int>(text.size()));
+  const int slot = mj_findFileVFS(vfs.get(), name.c_str());
+  std::memcpy(vfs->filedata[slot], text.data(), text.size());
+  char sentence[1000] = "";
+  std::unique_ptr<mjModel, Deleter> out(
+      mj_loadXML(path.c_str(), vfs.get(), sentence, sizeof sentence));
+  mj_deleteVFS(vfs.get());
+  if (!out) error = *sentence ? sentence : "unknown error";
+  return out;
+}
+
 }  // namespace
 
 ModelFacts read_by_mujoco(const std::filesystem::path& path) {
   mju_user_warning = [](const char*) {};
   ModelFacts out;
-  char error[1000] = "";
-  const std::unique_ptr<mjModel, Deleter> m(mj_loadXML(path.c_str(), nullptr, error, sizeof error));
-  if (!m) {
-    out.error = *error ? error : "unknown error";
-    return out;
-  }
+  bool exact = true;
+  auto m = load(path, exact, out.error);
+  if (!m) m = load(path, exact = false, out.error);
+  if (!m) return out;
+  out.error.clear();
   const std::unique_ptr<mjData, Deleter> d(mj_makeData(m.get()));
   mj_resetData(m.get(), d.get());
   apply_equalities(*m, *d);
   mj_kinematics(m.get(), d.get());
   for (int b = 1; b < m->nbody; ++b) out.bodies.push_back(body_facts(*m, *d, b));
+  // without the setting the volume of a mesh is that of a box of the same inertia
+  for (int g = 0; g < m->ngeom && !exact; ++g)
+    if (m->geom_type[g] == mjGEOM_MESH && m->geom_bodyid[g] > 0)
+      out.bodies[m->geom_bodyid[g] - 1].weighed = false;
   for (int j = 0; j < m->njnt; ++j) out.joints.push_back(joint_facts(*m, *d, j));
   return out;
 }
