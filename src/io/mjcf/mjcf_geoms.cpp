@@ -151,7 +151,8 @@ void MjcfGeoms::read_mass(const XmlValues& values, MjcfGeom& geom) {
                   : values.not_negative("density", 1000, document_.repairs()) * geom.solid.volume;
   const int group = values.integer("group", 0);
   const auto& groups = document_.settings(values.element()).inertia_groups;
-  if (group < groups[0] || group > groups[1]) geom.mass = 0;
+  geom.weighed = group >= groups[0] && group <= groups[1];
+  if (!geom.weighed) geom.mass = 0;
 }
 
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,

@@ -27,6 +27,7 @@ struct MjcfGeom {
   /// Mass, centre of mass and inertia in the frame of the piece. Geoms of groups that the compiler
   /// leaves out have none.
   double mass = 0;       ///< [kg]
+  bool weighed = true;   ///< is it of the compiler's groups?
   MassProperties solid;  ///< for unit density, of a shell per area
 
   MjcfFriction friction;

@@ -46,7 +46,9 @@ void MjcfTreeReader::weigh(const XmlElement& element, int link) {
   using FromGeoms = MjcfSettings::FromGeoms;
   const FromGeoms rule = document_.settings(element).inertia_from_geoms;
   const bool given = tree_.pieces[link].has_inertial;
-  if (rule == FromGeoms::always || (!given && rule == FromGeoms::missing)) {
+  const auto& geoms = tree_.geoms[link];
+  const bool any = std::ranges::any_of(geoms, &MjcfGeom::weighed);
+  if ((rule == FromGeoms::always && (any || !given)) || (!given && rule == FromGeoms::missing)) {
     if (!weigh_geoms(link) && !given) return;  // its shape is weighed later
   } else if (!given) {
     set_massless(link);

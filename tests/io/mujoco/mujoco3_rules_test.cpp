@@ -126,10 +126,10 @@ TEST_CASE("an attached body keeps its own pose, units and classes, and gets a pr
   const auto with = [&](const std::string& attach) {
     return Scene(folder.write(
         "scene.xml", R"(<mujoco><compiler angle="degree"/><default><joint damping="1"/></default>
-<asset><model name="kid" file="kid.xml"/></asset><worldbody><frame pos="0 2 0">)" +
+<asset><model name="finger" file="kid.xml"/></asset><worldbody><frame pos="0 2 0">)" +
                          attach + "</frame></worldbody></mujoco>"));
   };
-  const Scene body = with("<attach model='kid' body='arm' prefix='p_'/>");
+  const Scene body = with("<attach model='finger' body='arm' prefix='p_'/>");
   REQUIRE(body.error == "");
   const LinkSpec& arm = body.link("p_arm");
   CHECK(arm.joints.at(0).name == "p_j");
@@ -141,14 +141,14 @@ TEST_CASE("an attached body keeps its own pose, units and classes, and gets a pr
   CHECK(link_in_parent(arm, {0}).angle() == Approx(0.5));
   REQUIRE(body.world.robots[0].robot.actuators.size() == 1);
   CHECK(body.world.robots[0].robot.actuators[0].joint == "p_j");
-  const Scene frame = with("<attach model='kid' frame='fr' prefix='p_'/>");
+  const Scene frame = with("<attach model='finger' frame='fr' prefix='p_'/>");
   CHECK((link_in_parent(frame.link("p_arm"), {0}).position - Eigen::Vector3d(1, 2, 5)).norm() <
         1e-12);
-  const Scene all = with("<attach model='kid' prefix='p_'/>");
+  const Scene all = with("<attach model='finger' prefix='p_'/>");
   CHECK(all.world.robots.size() == 2);
-  CHECK(with("<attach model='kd' body='arm' prefix='p_'/>")
-            .error.ends_with("scene.xml:2: attach: model: no model 'kd'; did you mean 'kid'?"));
-  CHECK(with("<attach model='kid' body='arn' prefix='p_'/>").error ==
+  CHECK(with("<attach model='fingr' body='arm' prefix='p_'/>").error ==
+        "scene.xml:2: attach: model: no model 'fingr'; did you mean 'finger'?");
+  CHECK(with("<attach model='finger' body='arn' prefix='p_'/>").error ==
         "scene.xml:2: attach: body: no body 'arn'; did you mean 'arm'?");
 }
 

@@ -130,10 +130,10 @@ ModelFacts read_by_mujoco(const std::filesystem::path& path) {
   apply_equalities(*m, *d);
   mj_kinematics(m.get(), d.get());
   for (int b = 1; b < m->nbody; ++b) out.bodies.push_back(body_facts(*m, *d, b));
-  // without the setting the volume of a mesh is that of a box of the same inertia
+  // else the volume of a mesh is that of a box of the same inertia; a total mass spreads the error
   for (int g = 0; g < m->ngeom && !exact; ++g)
-    if (m->geom_type[g] == mjGEOM_MESH && m->geom_bodyid[g] > 0)
-      out.bodies[m->geom_bodyid[g] - 1].weighed = false;
+    if (m->geom_type[g] == mjGEOM_MESH)
+      for (BodyFacts& body : out.bodies) body.weighed = false;
   for (int j = 0; j < m->njnt; ++j) out.joints.push_back(joint_facts(*m, *d, j));
   return out;
 }
