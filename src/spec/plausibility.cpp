@@ -80,7 +80,9 @@ std::string doubt_gravity(const Eigen::Vector3d& gravity) {
 
 // of a file that gives a mass
 static std::string doubt_given_mass(const BodySpec& body) {
-  return body.mass_given ? doubt_mass(body.mass, body.shape.get()) : "";
+  // the least mass stands for none
+  return body.mass_given && body.mass > mass_rule.min ? doubt_mass(body.mass, body.shape.get())
+                                                      : "";
 }
 
 void check_plausible_object(const BodySpec& body, const std::string& place,

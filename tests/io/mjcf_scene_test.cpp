@@ -349,11 +349,9 @@ TEST_CASE("keyframes that do not fit are refused, or told where bodies are missi
         "scene.xml:1: key: qpos: expected 1 numbers, got 2");
   CHECK(failure(mug, "<keyframe><key qpos='0 0 0 0 0 0 0'/></keyframe>") ==
         "scene.xml:1: key: qpos: expected a quaternion, got zeros");
-  const ToldWorld lossy(
-      arm + "<replicate count='2'><body><freejoint/><geom size='1'/></body></replicate>",
-      "<keyframe><key name='k' qpos='1 2'/></keyframe>");
+  const ToldWorld lossy(arm + "<composite/>", "<keyframe><key name='k' qpos='1 2'/></keyframe>");
   CHECK(lossy.world.keyframes.empty());
-  CHECK(lossy.warned("<replicate> is not used: the world lacks all that it repeats"));
+  CHECK(lossy.warned("<composite> is not used: the world lacks the bodies that it generates"));
   CHECK(
       lossy.warned("key: qpos: keyframe 'k' has 2 numbers, and the bodies that are read take 1; it "
                    "is not used"));

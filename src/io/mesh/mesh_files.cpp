@@ -3,6 +3,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/base/units.h"
+#include "clench/geometry/mesh/hull.h"
 #include "clench/io/mesh/mesh_readers.h"
 
 namespace clench {
@@ -71,6 +72,22 @@ static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
   fail("{}: expected a mesh from {}, got {}", input.file(), one_of(expected), in_quotes(ending));
 }
 
+/// Adds the faces of the convex hull of all vertices, which must span a solid.
+static void add_hull(const std::string& file, GeometryBuilder& builder) {
+  constexpr size_t max_points = 1'000'000;  // the hull's cost may grow with their square
+  if (builder.vertex_count() > max_points)
+    fail("{}: expected triangles, or at most {} points, got {} points", file, max_points,
+         builder.vertex_count());
+  Eigen::MatrixXd points(3, builder.vertex_count());
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) = builder.vertex(static_cast<int>(i));
+  const Hull hull = convex_hull(points);
+  if (!hull.full()) fail("{}: expected triangles, or points that span a solid", file);
+  const Appearance plain;
+  for (const Triangle& triangle : hull_triangles(hull, points))
+    builder.add_face(triangle, plain.color, plain.transparency);
+}
+
 Geometry read_mesh(const MeshInput& input) {
   const ReadOptions& options = input.options;
   const std::string file = input.file();
@@ -78,6 +95,9 @@ Geometry read_mesh(const MeshInput& input) {
   builder.progress = options.progress;
   builder.report.unit_source = UnitSource::guess;  // until the file says it
   const bool colors_given = read_triangles(input, builder);
+  if (builder.triangle_count() == 0 && input.bare_points == BarePoints::hull &&
+      builder.vertex_count() > 3)
+    add_hull(file, builder);
   if (builder.triangle_count() == 0) fail("{}: expected triangles, got none", file);
   set_unit(builder, file, options);
   MeshReport& report = builder.report;
@@ -89,9 +109,9 @@ Geometry read_mesh(const MeshInput& input) {
 }
 
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options,
-                        GeometryFormat format) {
+                        GeometryFormat format, BarePoints bare_points) {
   const std::string bytes = read_bytes(path);
-  return read_mesh({path, bytes, options, format});
+  return read_mesh({path, bytes, options, format, bare_points});
 }
 
 }  // namespace clench

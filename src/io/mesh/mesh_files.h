@@ -12,7 +12,8 @@ namespace clench {
 /// format  none: the one of the ending
 /// throws Error  "part.stl: ..." when malformed, empty or cut short
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options,
-                        GeometryFormat format = GeometryFormat::none);
+                        GeometryFormat format = GeometryFormat::none,
+                        BarePoints bare_points = BarePoints::refused);
 
 /// The same of a file that has been read.
 Geometry read_mesh(const MeshInput& input);

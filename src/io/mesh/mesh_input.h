@@ -9,11 +9,15 @@
 
 namespace clench {
 
+/// What a file of points without triangles means.
+enum class BarePoints { refused, hull };
+
 struct MeshInput {
   const std::filesystem::path& path;  ///< its name is shown in errors; files it names lie beside it
   const std::string& bytes;           ///< what the file holds
   const ReadOptions& options;
   GeometryFormat format = GeometryFormat::none;  ///< none: the one of the ending
+  BarePoints bare_points = BarePoints::refused;
 
   std::string file() const { return path.filename().string(); }
   void warn(const std::string& sentence) const {

@@ -53,7 +53,9 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
     reader.add_world();
     for (const TopBody& body : bodies) reader.read_body(body, false);
   }
-  return reader.take();
+  MjcfTree tree = reader.take();
+  model.scale_masses(tree);
+  return tree;
 }
 
 }  // namespace

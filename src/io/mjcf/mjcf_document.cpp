@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clench/base/suggest.h"
-#include "clench/base/units.h"
+#include "clench/io/mjcf/mjcf_expand.h"
 #include "clench/io/text/find_file.h"
 #include "clench/math/decompositions.h"
 
@@ -19,23 +19,35 @@ MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
     : path_(path),
       file_(path.filename().string()),
       cache_(cache),
-      repairs_(cache.options().listeners()) {
-  angle_unit_ = units::degree;
-  files_.push_back(std::make_unique<XmlFile>(path));
-  open_.push_back(fs::weakly_canonical(path));
-  const XmlElement root = files_.back()->root();
-  if (root.name() != "mujoco")
-    root.fail("expected an element <mujoco>, got <{}>", excerpt(root.name()));
-  root_ = load(root, 0);
-  for (const auto& node : root_.children)
-    if (node.name() == "compiler") read_compiler(node);
-  classes_.emplace_back();
-  class_numbers_["main"] = 0;
-  for (const auto& node : root_.children)
-    if (node.name() == "default") read_defaults(node, -1);
+      repairs_(cache.options().listeners()),
+      losses_(Listeners{.warn = cache.options().warn}) {
+  root_ = load_file(path);
+  add_classes(root_, "");
+  expand_mjcf(*this, cache, root_);
 }
 
 // --- elements ---
+
+const XmlFile& MjcfDocument::open(const fs::path& path) {
+  files_.push_back(std::make_unique<XmlFile>(path));
+  settings_[&files_.back()->file()] = reading_.back();
+  open_.push_back(fs::weakly_canonical(path));
+  return *files_.back();
+}
+
+MjcfNode MjcfDocument::load_file(const fs::path& path) {
+  reading_.push_back(std::make_shared<MjcfSettings>());
+  reading_.back()->path = path;
+  const XmlElement root = open(path).root();
+  if (root.name() != "mujoco")
+    root.fail("expected an element <mujoco>, got <{}>", excerpt(root.name()));
+  MjcfNode out = load(root, 0);
+  for (const MjcfNode& node : out.children)
+    if (node.name() == "compiler") reading_.back()->read(node.element, unused_, repairs_);
+  open_.pop_back();
+  reading_.pop_back();
+  return out;
+}
 
 MjcfNode MjcfDocument::load(const XmlElement& element, int depth) {
   if (depth > deepest_element)
@@ -58,7 +70,7 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
     found = find_file(name, open_.back(), cache_.options());
   } catch (const Error& near) {
     try {
-      found = find_file(name, path_, cache_.options());
+      found = find_file(name, reading_.back()->path, cache_.options());
     } catch (const Error&) {
       element.fail("include: {}", near.what());
     }
@@ -67,10 +79,8 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
     element.fail("include: '{}' includes itself", excerpt(name));
   if (files_.size() >= max_files) element.fail("expected at most {} files", max_files);
-  files_.push_back(std::make_unique<XmlFile>(found));
-  open_.push_back(canonical);
   // its outermost element only holds the others
-  MjcfNode root = load(files_.back()->root(), depth + 1);
+  MjcfNode root = load(open(found).root(), depth + 1);
   for (auto& child : root.children) into.push_back(std::move(child));
   open_.pop_back();
 }
@@ -83,50 +93,40 @@ std::vector<const MjcfNode*> MjcfDocument::section(const std::string& name) cons
   return out;
 }
 
-// --- settings ---
+// --- classes ---
 
-void MjcfDocument::read_compiler(const MjcfNode& node) {
-  const XmlValues values(node.element);
-  if (values.has("angle"))
-    angle_unit_ =
-        values.word("angle", {"degree", "radian"}, "degree") == "degree" ? units::degree : 1;
-  if (values.word("coordinate", {"local", "global"}, "local") == "global")
-    values.fail("coordinate",
-                "expected local, got 'global'; save the model again with MuJoCo 2.3.3");
-  euler_ = values.text("eulerseq", euler_);
-  if (euler_.size() != 3 || euler_.find_first_not_of("xyzXYZ") != std::string::npos)
-    values.fail("eulerseq", "expected three of xyzXYZ, got {}", in_quotes(euler_));
-  autolimits_ = values.boolean("autolimits", autolimits_);
-  strip_path_ = values.boolean("strippath", strip_path_);
-  mesh_dir_ = values.text("assetdir", mesh_dir_);
-  mesh_dir_ = values.text("meshdir", mesh_dir_);
-  inertia_from_geoms_ = values.word("inertiafromgeom", {"true", "false", "auto"},
-                                    inertia_from_geoms_ ? "true" : "auto") == "true";
-  unused_.attributes(node.element, {"angle", "coordinate", "eulerseq", "autolimits", "strippath",
-                                    "assetdir", "meshdir", "inertiafromgeom"});
+void MjcfDocument::add_classes(const MjcfNode& root, const std::string& prefix) {
+  const int outermost = static_cast<int>(classes_.size());
+  classes_.emplace_back();
+  class_numbers_[prefix + "main"] = outermost;
+  for (const auto& node : root.children)
+    if (node.name() == "default") read_defaults(node, -1, prefix, outermost);
 }
 
-void MjcfDocument::read_defaults(const MjcfNode& node, int parent) {
+void MjcfDocument::read_defaults(const MjcfNode& node, int parent, const std::string& prefix,
+                                 int outermost) {
   const std::string name = node.element.attribute("class").value_or("");
-  int number = std::max(parent, 0);
+  int number = parent < 0 ? outermost : parent;
   if (parent < 0 && !name.empty() && name != "main") {
     // MuJoCo once called the global class so, and refuses it today
-    if (const auto [at, is_new] = class_numbers_.emplace(name, 0); !is_new && at->second != 0)
+    if (const auto [at, is_new] = class_numbers_.emplace(prefix + name, outermost);
+        !is_new && at->second != outermost)
       node.element.fail("default: there is another class '{}'", excerpt(name));
     cache_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
                             node.element.place(), in_quotes(name)));
   } else if (!name.empty() && name != "main") {
-    const auto [at, is_new] = class_numbers_.emplace(name, static_cast<int>(classes_.size()));
+    const auto [at, is_new] =
+        class_numbers_.emplace(prefix + name, static_cast<int>(classes_.size()));
     number = at->second;
     if (is_new)
-      classes_.push_back({parent, {}});
+      classes_.push_back({parent < 0 ? outermost : parent, {}});
     else
       repairs_.add("class", fmt::format("{}: default: there is another class {}; they count as one",
                                         node.element.place(), in_quotes(name)));
   }
   for (const auto& child : node.children) {
     if (child.name() == "default")
-      read_defaults(child, number);
+      read_defaults(child, number, prefix, outermost);
     else
       classes_[number].elements.push_back(child.element);
   }
@@ -159,12 +159,37 @@ static Eigen::Quaterniond about(char axis, double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(i)));
 }
 
-/// Turns z to a direction, about their common normal.
-static Eigen::Quaterniond z_to(const Eigen::Vector3d& direction) {
-  return shortest_rotation(Eigen::Vector3d::UnitZ(), direction).normalized();
+Eigen::Quaterniond euler_turn(const MjcfSettings& settings, const std::vector<double>& angles) {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  // lower-case letters turn about axes that turn along, capital ones about fixed axes
+  for (int i = 0; i < 3; ++i) {
+    const char axis = settings.euler[i];
+    const Eigen::Quaterniond turn = about(axis, angles[i] * settings.angle_unit);
+    q = std::islower(axis) ? q * turn : turn * q;
+  }
+  return q.normalized();
 }
 
-Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& values) const {
+Eigen::Quaterniond turn_z_to(const Eigen::Vector3d& direction) {
+  constexpr double nearly_opposite = 1e-6, opposite = 1e-10;  // sine of the angle between them
+  const double sine = std::hypot(direction.x(), direction.y());
+  if (direction.z() > 0 || sine > nearly_opposite)
+    return shortest_rotation(Eigen::Vector3d::UnitZ(), direction).normalized();
+  if (sine < opposite) return {0, 1, 0, 0};
+  const Eigen::Vector3d axis(-direction.y() / sine, direction.x() / sine, 0);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(sine, direction.z()), axis));
+}
+
+static constexpr const char* turns[] = {"axisangle", "euler", "xyaxes", "zaxis"};
+
+Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& all) const {
+  const XmlValues values = all.nearest(turns);
+  const MjcfSettings& own = settings(all.element());
+  if (const auto count =
+          std::ranges::count_if(turns, [&](const char* name) { return values.has(name); });
+      count > 1)
+    values.element().fail("{}: expected one of axisangle, euler, xyaxes and zaxis, got {}",
+                          excerpt(values.element().name()), count);
   const auto direction = [&](const char* name, const Eigen::Vector3d& v) {
     if (!(v.stableNorm() > 1e-9)) values.fail(name, "expected a direction, got none");
     return Eigen::Vector3d(v.stableNormalized());
@@ -172,18 +197,9 @@ Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& values) const {
   if (values.has("axisangle")) {
     const auto v = values.numbers("axisangle", 4, 4);
     return Eigen::Quaterniond(
-        Eigen::AngleAxisd(angle(v[3]), direction("axisangle", {v[0], v[1], v[2]})));
+        Eigen::AngleAxisd(v[3] * own.angle_unit, direction("axisangle", {v[0], v[1], v[2]})));
   }
-  if (values.has("euler")) {
-    const auto v = values.numbers("euler", 3, 3);
-    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    // small letters turn about axes that turn along, capital ones about fixed axes
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Quaterniond turn = about(euler_[i], angle(v[i]));
-      q = std::islower(euler_[i]) ? q * turn : turn * q;
-    }
-    return q.normalized();
-  }
+  if (values.has("euler")) return euler_turn(own, values.numbers("euler", 3, 3));
   if (values.has("xyaxes")) {
     const auto v = values.numbers("xyaxes", 6, 6);
     const Eigen::Vector3d x = direction("xyaxes", {v[0], v[1], v[2]}), y0(v[3], v[4], v[5]);
@@ -192,11 +208,11 @@ Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& values) const {
     axes << x, y, x.cross(y);
     return Eigen::Quaterniond(axes).normalized();
   }
-  if (values.has("zaxis")) return z_to(direction("zaxis", values.vec3("zaxis", {0, 0, 1})));
-  if (!values.has("quat")) return Eigen::Quaterniond::Identity();
-  const auto v = values.numbers("quat", 4, 4);
+  if (values.has("zaxis")) return turn_z_to(direction("zaxis", values.vec3("zaxis", {0, 0, 1})));
+  if (!all.has("quat")) return Eigen::Quaterniond::Identity();
+  const auto v = all.numbers("quat", 4, 4);
   const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-  if (!(q.coeffs().stableNorm() > 1e-9)) values.fail("quat", "expected a quaternion, got zeros");
+  if (!(q.coeffs().stableNorm() > 1e-9)) all.fail("quat", "expected a quaternion, got zeros");
   Eigen::Quaterniond out;
   out.coeffs() = q.coeffs().stableNormalized();
   return out;
@@ -206,11 +222,12 @@ Pose MjcfDocument::pose(const XmlValues& values) const {
   return {orientation(values), values.vec3("pos", {0, 0, 0})};
 }
 
-fs::path MjcfDocument::mesh_file(const std::string& name, const ReadOptions& options) const {
-  std::string slashed = name;
+fs::path MjcfDocument::mesh_file(const XmlValues& asset, const ReadOptions& options) const {
+  const MjcfSettings& own = settings(asset.element());
+  std::string slashed = asset.text("file");
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
-  const fs::path file = strip_path_ ? fs::path(slashed).filename() : fs::path(slashed);
-  return find_file((fs::path(mesh_dir_) / file).string(), path_, options);
+  const fs::path file = own.strip_path ? fs::path(slashed).filename() : fs::path(slashed);
+  return find_file((fs::path(own.mesh_dir) / file).string(), own.path, options);
 }
 
 }  // namespace clench

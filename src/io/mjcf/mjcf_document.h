@@ -1,5 +1,5 @@
-// An MJCF file with all that it includes: its elements, the defaults of their classes, and the
-// settings that tell how its numbers are meant.
+// An MJCF file with all that it includes and attaches: its elements, the defaults of their classes,
+// and the settings by which its numbers are read.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "clench/io/mjcf/mjcf_settings.h"
 #include "clench/io/text/file_cache.h"
-#include "clench/io/tree/tree_xml.h"
 #include "clench/math/pose.h"
 
 namespace clench {
 
-/// An element with its children, those of included files among them.
+/// An element with its children, those of included files and generated ones among them.
 struct MjcfNode {
   XmlElement element;
   std::vector<MjcfNode> children;
@@ -21,10 +21,16 @@ struct MjcfNode {
   std::string name() const { return std::string(element.name()); }
 };
 
+/// The rotation that three Euler angles mean, in the file's unit and sequence of axes.
+Eigen::Quaterniond euler_turn(const MjcfSettings& settings, const std::vector<double>& angles);
+
+/// Turns z to a unit vector along the shortest arc; to -z, half a turn about x, as MuJoCo does.
+Eigen::Quaterniond turn_z_to(const Eigen::Vector3d& direction);
+
 class MjcfDocument {
  public:
-  /// throws  Error for malformed XML, circles of includes, unknown classes, settings we cannot
-  ///         follow
+  /// throws  Error for malformed XML, circular includes, unknown classes, settings that cannot be
+  ///         followed
   MjcfDocument(const std::filesystem::path& path, FileCache& cache);
 
   const MjcfNode& root() const { return root_; }
@@ -39,42 +45,50 @@ class MjcfDocument {
                    const char* also = nullptr) const;
   void check_class(const XmlElement& element, const std::string& name) const;
 
-  double angle(double value) const { return value * angle_unit_; }  ///< to [rad]
-  double angle_unit() const { return angle_unit_; }
-  bool autolimits() const { return autolimits_; }
-  bool inertia_from_geoms() const { return inertia_from_geoms_; }
-  /// quat, axisangle, euler, xyaxes or zaxis
+  /// Settings of the file that an element comes from.
+  const MjcfSettings& settings(const XmlElement& element) const {
+    return *settings_.at(element.file());
+  }
+  /// An orientation of the nearest element or class that gives axisangle, euler, xyaxes or zaxis,
+  /// else quat.
   Eigen::Quaterniond orientation(const XmlValues& values) const;
   Pose pose(const XmlValues& values) const;  ///< pos and orientation
-  /// The file of a mesh as its element names it.   throws  Error of find_file
-  std::filesystem::path mesh_file(const std::string& name, const ReadOptions& options) const;
+  /// The mesh file that an element's attribute `file` names.   throws  Error of find_file
+  std::filesystem::path mesh_file(const XmlValues& asset, const ReadOptions& options) const;
 
   UnusedXml& unused() { return unused_; }
   Repairs& repairs() { return repairs_; }
+  /// What the file contains and we do not use, reported once per kind.
+  Repairs& losses() { return losses_; }
 
  private:
+  friend class MjcfExpander;
   struct DefaultClass {
     int parent = -1;
     std::vector<XmlElement> elements;
   };
+  /// The outermost element of a file with all that it includes.
+  MjcfNode load_file(const std::filesystem::path& path);
   MjcfNode load(const XmlElement& element, int depth);
   void include(const XmlElement& element, std::vector<MjcfNode>& into, int depth);
-  void read_defaults(const MjcfNode& node, int parent);
-  void read_compiler(const MjcfNode& node);
+  /// Classes of a file, whose names get a prefix; "main" is its outermost one.
+  void add_classes(const MjcfNode& root, const std::string& prefix);
+  void read_defaults(const MjcfNode& node, int parent, const std::string& prefix, int outermost);
+  const XmlFile& open(const std::filesystem::path& path);
 
   std::filesystem::path path_;
   std::string file_;
   FileCache& cache_;
   std::vector<std::unique_ptr<XmlFile>> files_;
   std::vector<std::filesystem::path> open_;  // the file and those that include one another
+  std::vector<std::shared_ptr<MjcfSettings>> reading_;  // of the models being loaded
+  std::map<const std::string*, std::shared_ptr<MjcfSettings>> settings_;  // by XmlElement::file
+  XmlCopies copies_;
   MjcfNode root_;
   std::vector<DefaultClass> classes_;  // [0] is "main"
   std::map<std::string, int> class_numbers_;
-  double angle_unit_ = 0;
-  bool autolimits_ = true, strip_path_ = false, inertia_from_geoms_ = false;
-  std::string euler_ = "xyz", mesh_dir_;
   UnusedXml unused_;
-  Repairs repairs_;
+  Repairs repairs_, losses_;
 };
 
 }  // namespace clench

@@ -2,16 +2,17 @@
 
 #include <cmath>
 
-#include "clench/base/convert.h"
 #include "clench/base/suggest.h"
-#include "clench/geometry/mesh/hull.h"
 #include "clench/io/tree/tree_shapes.h"
-#include "clench/math/decompositions.h"
 
 namespace clench {
 
 MjcfGeoms::MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene)
-    : document_(document), cache_(cache), geometry_(cache.options()), scene_(scene) {
+    : document_(document),
+      cache_(cache),
+      geometry_(cache.options(), BarePoints::hull),
+      meshes_(document, cache, geometry_),
+      scene_(scene) {
   read_assets();
 }
 
@@ -26,123 +27,61 @@ static PieceColor color_of(const XmlValues& values, Repairs& repairs) {
 void MjcfGeoms::read_assets() {
   for (const MjcfNode* node : document_.section("asset")) {
     const XmlElement& element = node->element;
-    const XmlValues values = document_.values(element);
     if (node->name() == "mesh") {
-      std::string name = values.text("name", "");
-      if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
-      if (!meshes_.emplace(name, Asset{element, values, nullptr}).second)
-        document_.repairs().add("mesh",
-                                fmt::format("{}: mesh: there is another one of the name '{}'; "
-                                            "the first one counts",
-                                            element.place(), excerpt(name)));
-      document_.unused().attributes(element, {"name", "class", "file", "scale", "refpos", "refquat",
-                                              "vertex", "face", "content_type"});
+      meshes_.add(element);
     } else if (node->name() == "material") {
+      const XmlValues values = document_.values(element);
       if (values.has("rgba"))
         materials_[values.text("name")] = color_of(values, document_.repairs());
       document_.unused().attributes(element, {"name", "class", "rgba"});
-    } else {
+    } else if (node->name() != "model") {  // models are read where they are attached
       document_.unused().element(element);
     }
   }
 }
 
-/// Points and faces that stand in the model itself; points alone mean their convex hull.
-std::shared_ptr<const Geometry> MjcfGeoms::inline_mesh(const Asset& asset) {
-  constexpr int most = 3'000'000;
-  const auto numbers = asset.values.numbers("vertex", 12, most);
-  Mesh mesh;
-  for (size_t i = 0; i + 2 < numbers.size(); i += 3)
-    mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-  const int count = static_cast<int>(mesh.vertices.size());
-  if (asset.values.has("face")) {
-    const auto faces = asset.values.numbers("face", 3, most);
-    for (size_t i = 0; i + 2 < faces.size(); i += 3) {
-      for (int k = 0; k < 3; ++k)
-        if (!(faces[i + k] >= 0 && faces[i + k] < count) ||
-            faces[i + k] != std::floor(faces[i + k]))
-          asset.values.fail("face", "expected vertices from 0 to {}, got {}", count - 1,
-                            faces[i + k]);
-      mesh.triangles.push_back(
-          {floor_int(faces[i]), floor_int(faces[i + 1]), floor_int(faces[i + 2])});
-    }
-  } else {
-    const Eigen::Map<const Eigen::MatrixXd> points(numbers.data(), 3, count);
-    const Hull hull = convex_hull(points);
-    if (!hull.full()) asset.values.fail("vertex", "expected points that span a solid");
-    mesh.triangles = hull_triangles(hull, points);
-  }
-  Geometry geometry;
-  geometry.mesh = std::move(mesh);
-  return std::make_shared<const Geometry>(std::move(geometry));
-}
-
-std::shared_ptr<const Geometry> MjcfGeoms::read_mesh(Asset& asset) {
-  if (asset.geometry) return asset.geometry;
-  const XmlValues& values = asset.values;
-  auto geometry = values.has("vertex")
-                      ? inline_mesh(asset)
-                      : geometry_.file(document_.mesh_file(values.text("file"), cache_.options()));
-  const Eigen::Vector3d scale = values.vec3("scale", {1, 1, 1}),
-                        origin = values.vec3("refpos", {0, 0, 0});
-  if (scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "expected factors other than 0");
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-  if (values.has("refquat")) {
-    const auto q = values.numbers("refquat", 4, 4);
-    turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-    if (!(turn.norm() > 1e-9)) values.fail("refquat", "expected a quaternion, got zeros");
-    turn.normalize();
-  }
-  if (!values.has("scale") && !values.has("refpos") && !values.has("refquat"))
-    return asset.geometry = geometry;
-  Geometry moved = *geometry;
-  for (auto& p : moved.mesh.vertices) p = turn.conjugate() * (p.cwiseProduct(scale) - origin);
-  if (scale.prod() < 0)
-    for (auto& t : moved.mesh.triangles) std::swap(t[1], t[2]);
-  return asset.geometry = std::make_shared<const Geometry>(std::move(moved));
-}
-
-/// null: it is not there, and nobody needs it but pictures
-std::shared_ptr<const Geometry> MjcfGeoms::mesh(const XmlValues& geom, bool collides) {
-  const std::string name = geom.text("mesh");
-  const auto found = meshes_.find(name);
-  if (found == meshes_.end())
-    geom.fail("mesh", "no mesh {}{}", in_quotes(name), did_you_mean(name, names_in(meshes_)));
-  Asset& asset = found->second;
-  try {
-    return read_mesh(asset);
-  } catch (const Error& error) {
-    const std::string what = error.what(), place = asset.element.place();
-    const std::string sentence = what.starts_with(place) ? what : place + ": mesh: " + what;
-    if (collides) throw Error(sentence);
-    cache_.warn(sentence + "; it is not drawn");
-    return nullptr;
-  }
-}
-
 // --- geoms ---
 
-std::optional<PieceColor> MjcfGeoms::color(const XmlValues& geom) const {
+std::optional<PieceColor> MjcfGeoms::color(const XmlValues& geom,
+                                           const std::string& fallback) const {
   if (geom.has("rgba")) return color_of(geom, document_.repairs());
-  const auto found = materials_.find(geom.text("material", ""));
+  const auto found = materials_.find(geom.text("material", fallback));
   if (found == materials_.end()) return {};
   return found->second;
+}
+
+/// Mass properties of the surface, by the sizes of TreeGeometry::primitive.
+static MassProperties shell_of(const std::string& type, const std::vector<double>& size) {
+  if (type == "box") return box_shell({size[0], size[1], size[2]});
+  if (type == "ellipsoid") return ellipsoid_shell({size[0], size[1], size[2]});
+  if (type == "cylinder") return cylinder_shell(size[0], size[1]);
+  return capsule_shell(size[0], type == "sphere" ? 0 : size[1]);
+}
+
+/// size  half lengths and radii as MJCF counts them
+void MjcfGeoms::set_solid(const std::string& type, std::vector<double> size,
+                          const XmlValues& values, MjcfGeom& geom) {
+  if (type == "capsule" || type == "cylinder") size[1] *= 2;
+  if (type == "box")
+    for (double& length : size) length *= 2;
+  geom.piece = geometry_.primitive(type, size);
+  geom.solid = values.boolean("shellinertia", false) ? shell_of(type, size) : solid_of(geom.piece);
+  geom.solid.volume = std::abs(geom.solid.volume);
 }
 
 /// A sphere, capsule, cylinder, ellipsoid or box of half sizes; X is its frame.
 void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, MjcfGeom& geom,
                               Pose& X) {
-  auto size = values.has("size") ? values.numbers("size", 1, 3) : std::vector<double>();
+  auto size = values.leading_numbers("size", 3);
   const bool round = type == "capsule" || type == "cylinder";
-  size_t expected = type == "sphere" ? 1 : round ? 2 : 3;
+  const size_t expected = type == "sphere" ? 1 : round ? 2 : 3;
   if (values.has("fromto") && type != "sphere") {
     const auto v = values.numbers("fromto", 6, 6);
     const Eigen::Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
     const double length = (to - from).stableNorm();
     if (!(length > 0)) values.fail("fromto", "expected two points, got the same twice");
     if (size.empty()) values.fail("size", "expected a radius, got none");
-    X = {shortest_rotation(Eigen::Vector3d::UnitZ(), (from - to).stableNormalized()).normalized(),
-         0.5 * (from + to)};
+    X = {turn_z_to((from - to).stableNormalized()), 0.5 * (from + to)};
     size = round ? std::vector{size[0], length / 2} : std::vector{size[0], size[0], length / 2};
   }
   if (size.size() < expected)
@@ -152,12 +91,29 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
     length = document_.repairs().magnitude(length, values.subject("size"));
   for (size_t i = 0; i < expected; ++i)
     if (!(size[i] > 0)) values.fail("size", "expected lengths > 0, got {}", size[i]);
-  // half sizes, but for radii
   size.resize(expected);
-  if (round) size[1] *= 2;
-  if (type == "box")
-    for (double& length : size) length *= 2;
-  geom.piece = geometry_.primitive(type, size);
+  set_solid(type, std::move(size), values, geom);
+}
+
+/// A primitive that takes the place of a mesh.
+void MjcfGeoms::set_fitted(const std::string& type, const XmlValues& values, const MjcfMesh& mesh,
+                           MjcfGeom& geom, Pose& X) {
+  constexpr double no_length = 1e-12;  // [m]
+  FittedPrimitive fitted = meshes_.fit(mesh, type, values);
+  const bool capsule = type == "capsule";
+  for (size_t i = 0; i < fitted.size.size(); ++i) {
+    if (fitted.size[i] > no_length && std::isfinite(fitted.size[i])) continue;
+    if (!capsule || i == 0)
+      values.fail("mesh", "expected a mesh with a volume, to which a {} can be fitted", type);
+    fitted.size[i] = 0;
+  }
+  X = X * fitted.X_MF;
+  if (capsule && fitted.size[1] == 0)
+    set_solid("sphere", {fitted.size[0]}, values, geom);
+  else
+    set_solid(type, fitted.size, values, geom);
+  cache_.note(fmt::format("{}: geom: a {} is fitted to mesh {}", values.element().place(), type,
+                          in_quotes(values.text("mesh"))));
 }
 
 // a plane has no end and no thickness
@@ -179,28 +135,51 @@ void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
                           values.element().place(), 2 * x, 2 * y, plane_thickness));
 }
 
+void MjcfGeoms::read_friction(const XmlValues& values, MjcfFriction& friction) {
+  if (values.has("friction"))
+    friction.mu = document_.repairs().magnitude(values.leading_numbers("friction", 3)[0],
+                                                values.subject("friction"));
+  if (const auto wrong = fault(friction_rule, friction.mu); !wrong.empty())
+    values.fail("friction", "{}", wrong);
+  friction.priority = values.integer("priority", 0);
+  friction.frictionless = values.integer("condim", 3) == 1;
+}
+
+void MjcfGeoms::read_mass(const XmlValues& values, MjcfGeom& geom) {
+  geom.mass = values.has("mass")
+                  ? values.not_negative("mass", 0, document_.repairs())
+                  : values.not_negative("density", 1000, document_.repairs()) * geom.solid.volume;
+  const int group = values.integer("group", 0);
+  const auto& groups = document_.settings(values.element()).inertia_groups;
+  geom.weighed = group >= groups[0] && group <= groups[1];
+  if (!geom.weighed) geom.mass = 0;
+}
+
 std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::string& child_class,
                                         const Pose& X_frame, bool of_world) {
   if (++count_ > max_pieces) element.fail("expected at most {} geoms", max_pieces);
   const XmlValues values = document_.values(element, child_class);
+  // a robot alone has no table of friction
+  UnusedXml& unused = document_.unused();
   if (scene_)
-    values.tell_unused(document_.unused(),
-                       {"name",      "class",    "type",    "size",        "pos",    "quat",
-                        "axisangle", "euler",    "xyaxes",  "zaxis",       "fromto", "mesh",
-                        "material",  "rgba",     "contype", "conaffinity", "group",  "mass",
-                        "density",   "friction", "condim",  "priority"});
+    values.tell_unused(
+        unused, {"name",      "class",    "type",     "size",    "pos",         "quat",
+                 "axisangle", "euler",    "xyaxes",   "zaxis",   "fromto",      "mesh",
+                 "fitscale",  "material", "rgba",     "contype", "conaffinity", "group",
+                 "mass",      "density",  "friction", "condim",  "priority",    "shellinertia"});
   else
-    values.tell_unused(document_.unused(),
-                       {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler",
-                        "xyaxes", "zaxis", "fromto", "mesh", "material", "rgba", "contype",
-                        "conaffinity", "group", "mass", "density"});
+    values.tell_unused(
+        unused, {"name",  "class",   "type",        "size",   "pos",  "quat",     "axisangle",
+                 "euler", "xyaxes",  "zaxis",       "fromto", "mesh", "fitscale", "material",
+                 "rgba",  "contype", "conaffinity", "group",  "mass", "density",  "shellinertia"});
   const std::string type = values.word(
       "type",
       {"plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"},
       "sphere");
   const auto skip = [&](const std::string& what) {
     unused_types_.insert(type);
-    cache_.warn(fmt::format("{}: geom: {}; it is not used", element.place(), what));
+    document_.losses().add("geom " + type,
+                           fmt::format("{}: geom: {}; it is not used", element.place(), what));
     return std::nullopt;
   };
   if ((type == "plane" && !of_world) || type == "hfield" || type == "sdf")
@@ -208,37 +187,31 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
                     ? fmt::format("no obstacle is made of a {} here", type)
                     : fmt::format("a {} is no part of a {} here", type, scene_ ? "body" : "robot"));
   MjcfGeom geom;
-  if (scene_) {
-    if (values.has("friction"))
-      geom.friction.mu = document_.repairs().magnitude(values.numbers("friction", 1, 3)[0],
-                                                       values.subject("friction"));
-    if (const auto wrong = fault(friction_rule, geom.friction.mu); !wrong.empty())
-      values.fail("friction", "{}", wrong);
-    geom.friction.priority = values.integer("priority", 0);
-    geom.friction.frictionless = values.integer("condim", 3) == 1;
-  }
+  read_friction(values, geom.friction);
   geom.type = static_cast<unsigned>(values.integer("contype", 1));
   geom.affinity = static_cast<unsigned>(values.integer("conaffinity", 1));
   const int group = values.integer("group", 0);
   geom.drawn = group >= 0 && group <= 2;
   Pose X = document_.pose(values);
-  if (type == "mesh" || (values.has("mesh") && !values.has("size") && !values.has("fromto"))) {
-    if (type != "mesh")
-      cache_.warn(fmt::format("{}: geom: a {} is to be fitted to a mesh; the mesh is used itself",
-                              element.place(), type));
-    geom.piece.geometry = mesh(values, geom.collides());
-    if (!geom.piece.geometry) return {};
+  std::string fallback_material;
+  if (type == "mesh" || (values.has("mesh") && type != "plane")) {
+    const MjcfMesh* mesh = meshes_.find(values, geom.collides());
+    if (!mesh) return {};
+    if (type == "mesh") {
+      geom.piece.geometry = mesh->geometry;
+      geom.solid = mesh->mass;
+      fallback_material = mesh->material;
+    } else {
+      set_fitted(type, values, *mesh, geom, X);
+    }
   } else if (type == "plane") {
     set_plane(values, geom);
   } else {
     set_primitive(type, values, geom, X);
   }
   geom.piece.X_LG = X_frame * X;
-  geom.piece.color = color(values);
-  const double volume = std::abs(solid_of(geom.piece).volume);
-  geom.mass = values.has("mass")
-                  ? values.not_negative("mass", 0, document_.repairs())
-                  : values.not_negative("density", 1000, document_.repairs()) * volume;
+  geom.piece.color = color(values, fallback_material);
+  read_mass(values, geom);
   return geom;
 }
 

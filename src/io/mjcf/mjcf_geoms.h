@@ -5,12 +5,12 @@
 #include <set>
 #include <string>
 
-#include "clench/io/mjcf/mjcf_document.h"
+#include "clench/io/mjcf/mjcf_meshes.h"
 #include "clench/io/tree/tree_links.h"
 
 namespace clench {
 
-/// What a geom says of friction. Of two that touch, the one of the higher priority counts; of the
+/// Friction of a geom. Of two that touch, the one of the higher priority counts; of the
 /// same priority the larger coefficient, and none where both are frictionless.
 struct MjcfFriction {
   double mu = 1;
@@ -24,16 +24,20 @@ struct MjcfGeom {
   GeometryPiece piece;
   bool drawn = false;               ///< of the groups 0 to 2, which viewers show
   unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
-  double mass = 0;                  ///< [kg]
+  /// Mass, centre of mass and inertia in the frame of the piece. Geoms of groups that the compiler
+  /// leaves out have none.
+  double mass = 0;       ///< [kg]
+  bool weighed = true;   ///< is it of the compiler's groups?
+  MassProperties solid;  ///< for unit density, of a shell per area
 
-  MjcfFriction friction;  ///< of a scene's geoms
+  MjcfFriction friction;
 
   bool collides() const { return type != 0 || affinity != 0; }
 };
 
 class MjcfGeoms {
  public:
-  /// scene  are planes and friction read?
+  /// scene  are planes read?
   MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene);
 
   /// A geom in the frame of its body; empty for what we do not use, which is told.
@@ -44,24 +48,22 @@ class MjcfGeoms {
   const std::set<std::string>& unused_types() const { return unused_types_; }
 
  private:
-  struct Asset {
-    XmlElement element;
-    XmlValues values;
-    std::shared_ptr<const Geometry> geometry;  // read when first used
-  };
   void read_assets();
-  std::shared_ptr<const Geometry> mesh(const XmlValues& geom, bool collides);
-  std::shared_ptr<const Geometry> read_mesh(Asset& asset);
-  std::shared_ptr<const Geometry> inline_mesh(const Asset& asset);
   void set_primitive(const std::string& type, const XmlValues& values, MjcfGeom& geom, Pose& X);
+  void set_fitted(const std::string& type, const XmlValues& values, const MjcfMesh& mesh,
+                  MjcfGeom& geom, Pose& X);
+  void set_solid(const std::string& type, std::vector<double> size, const XmlValues& values,
+                 MjcfGeom& geom);
   void set_plane(const XmlValues& values, MjcfGeom& geom);
-  std::optional<PieceColor> color(const XmlValues& geom) const;
+  void read_friction(const XmlValues& values, MjcfFriction& friction);
+  void read_mass(const XmlValues& values, MjcfGeom& geom);
+  std::optional<PieceColor> color(const XmlValues& geom, const std::string& fallback) const;
 
   MjcfDocument& document_;
   FileCache& cache_;
   TreeGeometry geometry_;
+  MjcfMeshes meshes_;
   bool scene_;
-  std::map<std::string, Asset> meshes_;
   std::map<std::string, PieceColor> materials_;
   std::set<std::string> unused_types_;
   size_t count_ = 0;

@@ -1,6 +1,7 @@
 #include "clench/io/mjcf/mjcf_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf_couplings.h"
@@ -20,7 +21,7 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
   if (whole == std::string_view("world")) known.insert(known.end(), {"option", "keyframe"});
   for (const auto& node : document_.root().children)
     if (std::find(known.begin(), known.end(), node.name()) == known.end()) leave_out(node);
-  worldbody_ = read_worldbody(document_, cache, whole);
+  worldbody_ = read_worldbody(document_, whole);
 }
 
 /// A section that is not read; keyframes are states of a world, and a robot alone has none.
@@ -43,8 +44,47 @@ MjcfTree MjcfModel::read_tree(const TopBody& body) {
   MjcfTreeReader reader(document_, geoms_, cache_, whole_);
   if (body.own_joints) reader.add_world();
   reader.read_body(body, !body.own_joints);
-  return reader.take();
+  MjcfTree tree = reader.take();
+  scale_masses(tree);
+  return tree;
 }
+
+// --- masses ---
+
+/// Of all bodies of a file but the world [kg].
+static double mass_of_all(const std::filesystem::path& path, const ReadOptions& options) {
+  ReadOptions quiet = options;
+  quiet.warn = quiet.note = quiet.repair = quiet.suspect = {};
+  const Loaders none = {};
+  FileCache cache(quiet, none);
+  MjcfDocument document(path, cache);
+  MjcfGeoms geoms(document, cache, true);
+  double mass = 0;
+  for (const TopBody& body : read_worldbody(document, "world").bodies) {
+    MjcfTreeReader reader(document, geoms, cache, "world");
+    reader.read_body(body, true);
+    const MjcfTree tree = reader.take();
+    for (size_t l = 0; l < tree.pieces.size(); ++l)
+      if (tree.pieces[l].has_inertial) mass += tree.model.links[l].body.mass;
+  }
+  return mass;
+}
+
+void MjcfModel::scale_masses(MjcfTree& tree) {
+  const double wanted = document_.settings(document_.root().element).total_mass;
+  if (!(wanted > 0)) return;
+  if (!mass_scale_) {
+    const double mass = mass_of_all(document_.path(), cache_.options());
+    mass_scale_ = mass > 0 ? wanted / mass : 1;
+  }
+  for (size_t l = 0; l < tree.pieces.size(); ++l) {
+    double& mass = tree.model.links[l].body.mass;
+    if (tree.pieces[l].has_inertial && mass > mass_rule.min)
+      mass = std::clamp(mass * *mass_scale_, mass_rule.min, mass_rule.max);
+  }
+}
+
+// --- robots of a scene ---
 
 static void find_joints(const MjcfNode& node, std::set<std::string>& into) {
   for (const MjcfNode& child : node.children) {
@@ -111,6 +151,22 @@ void MjcfModel::keep_masks(MjcfTree& tree) {
 
 // --- robots ---
 
+/// Joints whose reference lies outside of their limits, within which a DOF must start.
+void MjcfModel::warn_of_starts(const TreeModel& tree) const {
+  constexpr double rounding = 1e-9;
+  for (const TreeJoint& joint : tree.joints) {
+    const double start = joint.motor.default_value;
+    if (joint.leader >= 0 || joint.min == joint.max ||
+        std::abs(start - joint.zero) <= rounding * std::max(1.0, std::abs(joint.zero)))
+      continue;
+    cache_.warn(fmt::format(
+        "{}: joint '{}': expected a start within its limits [{:.6g}, {:.6g}] {}, got {:.6g}; it "
+        "starts at {:.6g}",
+        joint.place, excerpt(joint.name), joint.min, joint.max,
+        joint.kind == JointKind::revolute ? "rad" : "m", joint.zero, start));
+  }
+}
+
 MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
                           const std::set<std::string>& elsewhere, bool tells) {
   TreeModel& model = tree.model;
@@ -119,6 +175,7 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
   read_excludes(tree);
   keep_masks(tree);
   read_mjcf_couplings(document_, cache_, model, elsewhere, tells);
+  warn_of_starts(model);
   for (size_t i = 0; i < tree.geoms.size(); ++i)
     for (const MjcfGeom& geom : tree.geoms[i]) {
       if (geom.collides()) tree.pieces[i].collision.push_back(geom.piece);
@@ -156,6 +213,7 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
 
 void MjcfModel::tell() {
   document_.repairs().tell();
+  document_.losses().tell();
   for (const auto& sentence : document_.unused().sentences()) cache_.warn(sentence);
 }
 

@@ -1,5 +1,6 @@
 // An MJCF model in memory, and the robots that its trees of joints are.
 #pragma once
+#include <optional>
 #include <set>
 
 #include "clench/io/mjcf/mjcf_tree.h"
@@ -26,6 +27,8 @@ class MjcfModel {
   std::vector<const TopBody*> joint_trees() const;
   /// A tree alone: as a base of its own where it has no joint itself, else below a frame.
   MjcfTree read_tree(const TopBody& body);
+  /// Scales masses to the compiler's `settotalmass`.
+  void scale_masses(MjcfTree& tree);
   /// The tree that begins with a body, as one of the robots of a scene.
   MjcfRobot scene_robot(const TopBody& body, bool first);
   /// elsewhere  joints of other robots; tells  of what concerns no joint at all?
@@ -36,6 +39,7 @@ class MjcfModel {
 
  private:
   void leave_out(const MjcfNode& section);
+  void warn_of_starts(const TreeModel& tree) const;
   void read_excludes(MjcfTree& tree);
   void keep_masks(MjcfTree& tree);
 
@@ -45,6 +49,7 @@ class MjcfModel {
   MjcfGeoms geoms_;
   Worldbody worldbody_;
   std::string name_;
+  std::optional<double> mass_scale_;  // computed when first needed
 };
 
 }  // namespace clench

@@ -7,60 +7,50 @@
 
 namespace clench {
 
+MjcfTreeReader::MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCache& cache,
+                               const char* whole)
+    : document_(document), geoms_(geoms), cache_(cache), whole_(whole) {
+  names_.add(document.root());
+}
+
 // --- what stands in the world ---
 
-static int count_joints(const MjcfNode& node) {
-  int count = 0;
-  for (const auto& child : node.children) {
-    if (child.name() == "joint" && child.element.attribute("type").value_or("") != "free") ++count;
-    count += count_joints(child);
+/// Joints in a body and below.
+struct JointCount {
+  int all = 0;        // in the body and below, free ones left out
+  bool own = false;   // has the body itself a joint that is not free?
+  bool free = false;  // has it a free one?
+};
+
+static bool is_free(const XmlElement& element, const std::string& child_class,
+                    const MjcfDocument& document) {
+  if (element.name() == "freejoint") return true;
+  return document.values(element, child_class).text("type", "hinge") == "free";
+}
+
+/// Joints may stand in frames, and their types in classes.
+static void count_joints(const MjcfNode& node, const std::string& child_class,
+                         const MjcfDocument& document, bool of_body, JointCount& into) {
+  for (const MjcfNode& child : node.children) {
+    const std::string name = child.name();
+    if (name == "joint" || name == "freejoint") {
+      const bool free = is_free(child.element, child_class, document);
+      into.all += !free;
+      if (of_body) (free ? into.free : into.own) = true;
+    } else {
+      const std::string inherited = child.element.attribute("childclass").value_or(child_class);
+      count_joints(child, inherited, document, of_body && name == "frame", into);
+    }
   }
-  return count;
 }
 
-static int count_elements(const MjcfNode& node, const std::string& name) {
-  int count = 0;
-  for (const auto& child : node.children)
-    count += (child.name() == name) + count_elements(child, name);
-  return count;
-}
-
-static bool moves_freely(const MjcfNode& node) {
-  return std::any_of(node.children.begin(), node.children.end(), [](const MjcfNode& child) {
-    return child.name() == "freejoint" ||
-           (child.name() == "joint" && child.element.attribute("type").value_or("") == "free");
-  });
-}
-
-static bool has_own_joints(const MjcfNode& node) {
-  return std::any_of(node.children.begin(), node.children.end(), [](const MjcfNode& child) {
-    return (child.name() == "frame" && has_own_joints(child)) ||
-           (child.name() == "joint" && child.element.attribute("type").value_or("") != "free");
-  });
-}
-
-bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const FileCache& cache,
-                  const char* whole) {
+bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const char* whole) {
   const std::string name = node.name();
-  const auto warn = [&](const std::string& what) {
-    cache.warn(node.element.place() + ": " + what);
-  };
-  if (name == "replicate" || name == "composite" || name == "flexcomp") {
-    const std::string what =
-        name == "replicate"
-            ? fmt::format("all that it repeats (bodies: {}, geoms: {})",
-                          count_elements(node, "body"), count_elements(node, "geom"))
-            : "the bodies that it makes";
-    warn(fmt::format("<{}> is not used: the {} lacks {}; save the model expanded by MuJoCo",
-                     excerpt(name), whole, what));
-    return true;
-  }
-  if (name == "attach") {
-    warn(
-        fmt::format("<attach> is not used: the {} lacks the body {} of model {} and all that "
-                    "hangs on it; save the model expanded by MuJoCo",
-                    whole, in_quotes(node.element.attribute("body").value_or("")),
-                    in_quotes(node.element.attribute("model").value_or(""))));
+  if (name == "composite" || name == "flexcomp") {
+    document.losses().add(
+        name, fmt::format("{}: <{}> is not used: the {} lacks the bodies that it generates; save "
+                          "the model expanded by MuJoCo",
+                          node.element.place(), name, whole));
     return true;
   }
   document.unused().element(node.element);
@@ -68,33 +58,43 @@ bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const FileCache&
 }
 
 static void find_in_world(const MjcfNode& node, const std::string& child_class, const Pose& X_frame,
-                          MjcfDocument& document, const FileCache& cache, const char* whole,
-                          Worldbody& into) {
+                          MjcfDocument& document, const char* whole, Worldbody& into) {
   if (node.name() == "body") {
     const auto name = node.element.attribute("name").value_or("");
     const int number = static_cast<int>(into.bodies.size());
+    const std::string inherited = node.element.attribute("childclass").value_or(child_class);
+    JointCount joints;
+    count_joints(node, inherited, document, true, joints);
     into.order.emplace_back(true, number);
-    into.bodies.push_back({&node, child_class, X_frame,
-                           name.empty() ? fmt::format("body{}", number + 1) : name,
-                           count_joints(node), has_own_joints(node), moves_freely(node),
-                           XmlValues(node.element).boolean("mocap", false)});
+    into.bodies.push_back(
+        {&node, child_class, X_frame, name.empty() ? fmt::format("body{}", number + 1) : name,
+         joints.all, joints.own, joints.free, XmlValues(node.element).boolean("mocap", false)});
   } else if (node.name() == "frame") {
     const std::string inherited = node.element.attribute("childclass").value_or(child_class);
     const Pose X = X_frame * document.pose(XmlValues(node.element));
     for (const auto& child : node.children)
-      find_in_world(child, inherited, X, document, cache, whole, into);
+      find_in_world(child, inherited, X, document, whole, into);
   } else if (node.name() == "geom") {
     into.order.emplace_back(false, static_cast<int>(into.geoms.size()));
     into.geoms.push_back({&node, child_class, X_frame});
-  } else if (warn_of_loss(node, document, cache, whole)) {
+  } else if (warn_of_loss(node, document, whole)) {
     into.lacks_bodies = true;
   }
 }
 
-Worldbody read_worldbody(MjcfDocument& document, const FileCache& cache, const char* whole) {
+Worldbody read_worldbody(MjcfDocument& document, const char* whole) {
   Worldbody out;
   for (const MjcfNode* node : document.section("worldbody"))
-    find_in_world(*node, "", Pose{}, document, cache, whole, out);
+    find_in_world(*node, "", Pose{}, document, whole, out);
+  // a body without a name is called by its number, as far as no other one is
+  std::map<std::string, int> names;
+  for (const TopBody& body : out.bodies)
+    if (body.node->element.attribute("name")) names[body.name] = 0;
+  for (TopBody& body : out.bodies) {
+    if (body.node->element.attribute("name").value_or("") == body.name) continue;
+    if (names.contains(body.name)) body.name = unused_name(body.name, names);
+    names[body.name] = 0;
+  }
   return out;
 }
 
@@ -119,14 +119,20 @@ int MjcfTreeReader::add_link(const XmlElement& element, const std::string& name,
   TreeLink link;
   link.parent = parent;
   link.X_PL = X_PL;
-  link.body.name = name.empty() ? fmt::format("body{}", number) : name;
   link.body.source = document_.path().generic_string();
-  link.body.name = own_name(element, link.body.name, tree_.links);
+  if (!name.empty()) {
+    link.body.name = own_name(element, name, tree_.links);
+  } else {
+    link.body.name = fmt::format("body{}", number);
+    if (names_.has("body", link.body.name) || tree_.links.contains(link.body.name))
+      link.body.name = unused_name(link.body.name, tree_.links);
+  }
   tree_.links[link.body.name] = number;
   tree_.model.links.push_back(std::move(link));
   tree_.pieces.emplace_back().place = element.place();
   tree_.geoms.emplace_back();
   tree_.slots.emplace_back();
+  massless_.push_back(false);
   return number;
 }
 
@@ -145,7 +151,7 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
     cache_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
                             element.place(), excerpt(tree_.model.links[link].body.name)));
   read_contents(node, link, inherited, Pose{});
-  if (!tree_.pieces[link].has_inertial || document_.inertia_from_geoms()) weigh_geoms(link);
+  weigh(element, link);
 }
 
 void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::string& child_class,
@@ -168,7 +174,7 @@ void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::st
       if (auto geom = geoms_.read(child.element, child_class, X_frame))
         tree_.geoms[link].push_back(std::move(*geom));
     } else {
-      warn_of_loss(child, document_, cache_, whole_);
+      warn_of_loss(child, document_, whole_);
     }
   }
 }
@@ -184,11 +190,12 @@ static bool given_range(const XmlValues& values) {
 
 void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   const bool turns = joint.kind == JointKind::revolute;
-  const double unit = turns ? document_.angle_unit() : 1;
+  const MjcfSettings& settings = document_.settings(values.element());
+  const double unit = turns ? settings.angle_unit : 1;
   const std::string limited = values.word("limited", {"auto", "true", "false"}, "auto");
   // two zeros undo what a class says
   const bool has_range = given_range(values);
-  if (limited == "auto" && has_range && !document_.autolimits())
+  if (limited == "auto" && has_range && !settings.autolimits)
     document_.repairs().add(
         "autolimits", values.subject("range") +
                           ": expected limited=\"true\" beside it, as autolimits is off; the range "
@@ -249,7 +256,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
     return;
   }
   joint.kind = type == "slide" ? JointKind::prismatic : JointKind::revolute;
-  const double unit = type == "slide" ? 1 : document_.angle_unit();
+  const double unit = type == "slide" ? 1 : document_.settings(element).angle_unit;
   joint.anchor = X_frame * values.vec3("pos", {0, 0, 0});
   const Eigen::Vector3d axis = values.vec3("axis", {0, 0, 1});
   if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "expected a direction, got none");
@@ -285,61 +292,8 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   }
 }
 
-// --- masses ---
-
-void MjcfTreeReader::read_inertial(const XmlElement& element, int link, const Pose& X_frame) {
-  document_.unused().attributes(element, {"pos", "quat", "axisangle", "euler", "xyaxes", "zaxis",
-                                          "mass", "diaginertia", "fullinertia"});
-  BodySpec& body = tree_.model.links[link].body;
-  const XmlValues values(element);
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  if (values.has("fullinertia")) {
-    const auto v = values.numbers("fullinertia", 6, 6);
-    inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
-  } else if (values.has("diaginertia")) {
-    inertia.diagonal() = values.vec3("diaginertia", {0, 0, 0});
-  }
-  const double mass = values.number("mass");
-  if (const auto wrong = fault(mass_rule, mass); !wrong.empty()) {
-    warn(element,
-         fmt::format("body '{}': mass: {}; the geometry gives it", excerpt(body.name), wrong));
-    return;
-  }
-  const Inertial inertial = set_inertial(body, mass, X_frame * document_.pose(values), inertia);
-  const bool given = values.has("fullinertia") || values.has("diaginertia");
-  tree_.faults.add(given ? inertial : Inertial::not_given, element.place(), body.name);
-  tree_.pieces[link].has_inertial = true;
-}
-
-/// Mass, centre and inertia of all geoms of a body, as MuJoCo takes them where a file gives none.
-void MjcfTreeReader::weigh_geoms(int link) {
-  double mass = 0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  std::vector<std::pair<const MjcfGeom*, MassProperties>> parts;
-  for (const MjcfGeom& geom : tree_.geoms[link]) {
-    if (!(geom.mass > 0)) continue;
-    parts.emplace_back(&geom, solid_of(geom.piece));
-    if (!parts.back().second.centroid.allFinite()) return;
-    mass += geom.mass;
-    moment += geom.mass * (geom.piece.X_LG * parts.back().second.centroid);
-  }
-  if (!mass_rule.allows(mass)) return;
-  const Eigen::Vector3d com = moment / mass;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (const auto& [geom, solid] : parts) {
-    const Eigen::Matrix3d R = geom->piece.X_LG.matrix();
-    const Eigen::Vector3d off = geom->piece.X_LG * solid.centroid - com;
-    inertia +=
-        geom->mass * (R * solid.inertia * R.transpose() +
-                      off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
-  }
-  BodySpec with = tree_.model.links[link].body;
-  if (set_inertial(with, mass, Pose::translation(com), inertia) == Inertial::not_definite) return;
-  tree_.model.links[link].body = std::move(with);
-  tree_.pieces[link].has_inertial = true;
-}
-
 void MjcfTreeReader::read_body(const TopBody& body, bool base) {
+  if (body.free) free_.insert(static_cast<int>(tree_.model.links.size()));
   read_body(*body.node, tree_.model.links.empty() ? -1 : 0, body.child_class, body.X_frame, base,
             whole_ == std::string_view("robot") ? body.node->element.attribute("name").value_or("")
                                                 : body.name);

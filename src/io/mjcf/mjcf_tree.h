@@ -1,6 +1,7 @@
 // Bodies of an MJCF model that hang on one another, as links with their joints and geoms.
 #pragma once
 #include "clench/io/mjcf/mjcf_geoms.h"
+#include "clench/io/mjcf/mjcf_names.h"
 
 namespace clench {
 
@@ -50,24 +51,22 @@ struct Worldbody {
 };
 
 /// whole  what lacks the bodies that are not read: "robot" or "world"
-Worldbody read_worldbody(MjcfDocument& document, const FileCache& cache, const char* whole);
+Worldbody read_worldbody(MjcfDocument& document, const char* whole);
 
-/// Tells of an element that is not read and holds bodies or geoms.
-/// returns  is it one of these?
-bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const FileCache& cache,
-                  const char* whole);
+/// Reports an element that is not read.
+/// returns  would it generate bodies?
+bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const char* whole);
 
 class MjcfTreeReader {
  public:
-  MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCache& cache, const char* whole)
-      : document_(document), geoms_(geoms), cache_(cache), whole_(whole) {}
+  MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCache& cache, const char* whole);
 
   /// A frame that bodies stand on.
   void add_world() { add_link(document_.root().element, "world", -1, {}); }
   /// The body and all that hangs on it. As the base it is the tree's first link, whose own pose is
   /// left out.
   void read_body(const TopBody& body, bool base);
-  MjcfTree take() { return std::move(tree_); }
+  MjcfTree take();
 
  private:
   void warn(const XmlElement& at, const std::string& what) const {
@@ -85,13 +84,20 @@ class MjcfTreeReader {
   void add_joint(TreeJoint joint, const XmlElement& element, int link);
   void set_range(const XmlValues& values, TreeJoint& joint);
   void read_inertial(const XmlElement& element, int link, const Pose& X_frame);
-  void weigh_geoms(int link);
+  void weigh(const XmlElement& element, int link);
+  bool weigh_geoms(int link);
+  void bound_inertia(const XmlElement& element, int link);
+  void set_massless(int link);
+  void check_moving_masses();
 
   MjcfDocument& document_;
   MjcfGeoms& geoms_;
   FileCache& cache_;
   const char* whole_;
   MjcfTree tree_;
+  MjcfNames names_;             // of the whole file
+  std::vector<bool> massless_;  // one per link
+  std::set<int> free_;          // links that free joints move
 };
 
 }  // namespace clench

@@ -177,7 +177,10 @@ std::string own_text(const tinyxml2::XMLElement& element) {
 // --- elements ---
 
 std::string_view XmlElement::name() const { return element_->Name(); }
-int XmlElement::line() const { return element_->GetLineNum(); }
+int XmlElement::line() const {
+  const auto* original = static_cast<const tinyxml2::XMLElement*>(element_->GetUserData());
+  return (original ? original : element_)->GetLineNum();
+}
 std::string XmlElement::place() const { return fmt::format("{}:{}", *file_, line()); }
 
 XmlElement XmlElement::child(std::string_view name) const {
@@ -306,6 +309,21 @@ void XmlElement::check(const XmlKnown& known,
                        did_you_mean(attribute, known.attributes)));
   if (const std::string own = own_text(*element_); !own.empty() && !names.empty())
     warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), excerpt(name())));
+}
+
+// --- copies ---
+
+XmlCopies::XmlCopies() : document_(std::make_unique<tinyxml2::XMLDocument>()) {}
+XmlCopies::~XmlCopies() = default;
+
+XmlElement XmlCopies::make(const XmlElement& original, std::string_view name,
+                           const Attributes& attributes) {
+  tinyxml2::XMLElement* element = document_->NewElement(std::string(name).c_str());
+  document_->InsertEndChild(element);
+  for (const auto& [key, value] : attributes) element->SetAttribute(key.c_str(), value.c_str());
+  const void* first = original.element_->GetUserData();
+  element->SetUserData(const_cast<void*>(first ? first : original.element_));
+  return {element, original.file_};
 }
 
 // --- files ---

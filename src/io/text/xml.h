@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "clench/base/text.h"
@@ -35,9 +36,12 @@ class XmlElement {
   XmlElement(const tinyxml2::XMLElement* element, const std::string* file)
       : element_(element), file_(file) {}
 
+  /// Name of the file that it stands in. Its address identifies the XmlFile.
+  const std::string* file() const { return file_; }
+
   explicit operator bool() const { return element_; }
   std::string_view name() const;
-  int line() const;           ///< from 1
+  int line() const;           ///< from 1; of a copy, that of its original
   std::string place() const;  ///< "Barrett.xml:31"
   /// its text as a line at its place, for the readers of text formats
   Line as_line(std::string_view text) const { return Line(file_, line(), text); }
@@ -80,8 +84,26 @@ class XmlElement {
   }
 
  private:
+  friend class XmlCopies;
   const tinyxml2::XMLElement* element_ = nullptr;
   const std::string* file_ = nullptr;
+};
+
+/// Elements generated from others: they have attributes of their own, no children, and the place of
+/// their originals. They live as long as this.
+class XmlCopies {
+ public:
+  using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+  XmlCopies();
+  ~XmlCopies();
+  XmlCopies(const XmlCopies&) = delete;
+  XmlCopies& operator=(const XmlCopies&) = delete;
+
+  XmlElement make(const XmlElement& original, std::string_view name, const Attributes& attributes);
+
+ private:
+  std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 
 /// A whole file in memory.

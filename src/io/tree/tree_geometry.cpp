@@ -2,12 +2,14 @@
 
 #include "clench/base/error.h"
 #include "clench/io/inventor/read_geometry.h"
+#include "clench/io/mesh/mesh_files.h"
 #include "clench/io/text/file_cache.h"
 #include "clench/io/tree/tree_shapes.h"
 
 namespace clench {
 
-TreeGeometry::TreeGeometry(const ReadOptions& options) : options_(options) {
+TreeGeometry::TreeGeometry(const ReadOptions& options, BarePoints bare_points)
+    : options_(options), bare_points_(bare_points) {
   // robot files of today count in metres, and place a mesh with its axes as they stand
   options_.silent_mesh_unit = 1;
   options_.turn_mesh_up = false;
@@ -19,7 +21,10 @@ std::shared_ptr<const Geometry> TreeGeometry::file(const std::filesystem::path& 
   ReadOptions options = options_;
   // VRML of robots of today counts in metres, too
   if (is_inventor(path) && !options.mesh_scale) options.mesh_scale = 1;
-  return found = std::make_shared<const Geometry>(read_geometry(path, options));
+  const bool points = bare_points_ == BarePoints::hull && !is_inventor(path);
+  return found = std::make_shared<const Geometry>(
+             points ? read_mesh_file(path, options, GeometryFormat::none, bare_points_)
+                    : read_geometry(path, options));
 }
 
 std::shared_ptr<const Geometry> TreeGeometry::made(const std::string& name, Mesh mesh) {

@@ -9,6 +9,7 @@
 
 #include "clench/geometry/mesh/mass.h"
 #include "clench/io/mesh/geometry_builder.h"
+#include "clench/io/mesh/mesh_input.h"
 #include "clench/math/pose.h"
 
 namespace clench {
@@ -33,7 +34,7 @@ MassProperties solid_of(const GeometryPiece& piece);
 /// Meshes already read and shapes already made for one robot: five fingers share theirs.
 class TreeGeometry {
  public:
-  explicit TreeGeometry(const ReadOptions& options);
+  explicit TreeGeometry(const ReadOptions& options, BarePoints bare_points = BarePoints::refused);
 
   /// A mesh file in metres.   throws what read_mesh_file throws
   std::shared_ptr<const Geometry> file(const std::filesystem::path& path);
@@ -53,6 +54,7 @@ class TreeGeometry {
 
  private:
   ReadOptions options_;
+  BarePoints bare_points_;
   std::map<std::string, std::shared_ptr<const Geometry>> geometries_;  // by path or name
   std::map<std::string, Body> bodies_;                                 // by pieces
   size_t triangles_ = 0;                                               // of all shapes

@@ -103,4 +103,50 @@ MassProperties ellipsoid_solid(const Eigen::Vector3d& radii) {
                (Eigen::Vector3d::Constant(squares.sum()) - squares) / 5);
 }
 
+MassProperties box_shell(const Eigen::Vector3d& size) {
+  // pairs of faces, by the axis across them
+  const Eigen::Vector3d areas(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
+  const double area = 2 * areas.sum();
+  const Eigen::Vector3d squares = size.cwiseAbs2();
+  Eigen::Vector3d second = Eigen::Vector3d::Zero();  // mean squares of coordinates
+  for (int face = 0; face < 3; ++face)
+    for (int axis = 0; axis < 3; ++axis)
+      second[axis] += 2 * areas[face] / area * squares[axis] / (axis == face ? 4 : 12);
+  return solid(area, Eigen::Vector3d::Constant(second.sum()) - second);
+}
+
+MassProperties cylinder_shell(double radius, double length) {
+  const double side = 2 * std::numbers::pi * radius * length,
+               ends = 2 * std::numbers::pi * radius * radius, area = side + ends;
+  const double r2 = radius * radius, l2 = length * length;
+  const Eigen::Vector3d of_side(r2 / 2 + l2 / 12, r2 / 2 + l2 / 12, r2);
+  const Eigen::Vector3d of_ends(r2 / 4 + l2 / 4, r2 / 4 + l2 / 4, r2 / 2);
+  return solid(area, (side * of_side + ends * of_ends) / area);
+}
+
+MassProperties capsule_shell(double radius, double length) {
+  const double side = 2 * std::numbers::pi * radius * length,
+               ball = 4 * std::numbers::pi * radius * radius, area = side + ball;
+  const double r2 = radius * radius, l2 = length * length;
+  const Eigen::Vector3d of_side(r2 / 2 + l2 / 12, r2 / 2 + l2 / 12, r2);
+  // half spheres, their centres of mass half a radius beyond the ends
+  const double across = 2.0 / 3 * r2 + l2 / 4 + length * radius / 2;
+  const Eigen::Vector3d of_ball(across, across, 2.0 / 3 * r2);
+  return solid(area, (side * of_side + ball * of_ball) / area);
+}
+
+MassProperties ellipsoid_shell(const Eigen::Vector3d& radii) {
+  constexpr double p = 1.6075;
+  const double a = radii.x(), b = radii.y(), c = radii.z();
+  const double mean = (std::pow(a * b, p) + std::pow(b * c, p) + std::pow(c * a, p)) / 3;
+  const double area = 4 * std::numbers::pi * std::pow(mean, 1 / p);
+  // the derivative of the solid's moments as all radii grow alike
+  const Eigen::Vector3d squares = radii.cwiseAbs2();
+  const double share = 2 * a * b * c / (a * b + b * c + c * a);
+  const Eigen::Vector3d moments = (Eigen::Vector3d::Constant(squares.sum()) - squares +
+                                   share * (Eigen::Vector3d::Constant(radii.sum()) - radii)) /
+                                  5;
+  return solid(area, moments);
+}
+
 }  // namespace clench

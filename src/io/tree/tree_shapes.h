@@ -24,4 +24,13 @@ MassProperties cylinder_solid(double radius, double length);
 MassProperties capsule_solid(double radius, double length);
 MassProperties ellipsoid_solid(const Eigen::Vector3d& radii);
 
+/// Of their surfaces, with mass spread evenly: `volume` is the area [m^2]. The ellipsoid's area is
+/// approximate, within 1.1 %, and its inertia that of a shell between it and one with radii longer
+/// by the same.
+/// source  K. Thomsen (2004), p = 1.6075, for the area
+MassProperties box_shell(const Eigen::Vector3d& size);
+MassProperties cylinder_shell(double radius, double length);
+MassProperties capsule_shell(double radius, double length);
+MassProperties ellipsoid_shell(const Eigen::Vector3d& radii);
+
 }  // namespace clench

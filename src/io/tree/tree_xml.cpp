@@ -22,6 +22,13 @@ const XmlElement& XmlValues::giver(const char* name) const {
   return layers_.front();
 }
 
+XmlValues XmlValues::nearest(std::span<const char* const> names) const {
+  for (const XmlElement& layer : layers_)
+    for (const char* name : names)
+      if (layer && layer.attribute(name)) return XmlValues(layer);
+  return XmlValues(element());
+}
+
 std::optional<std::string> XmlValues::find(const char* name) const {
   return giver(name).attribute(name);
 }
@@ -101,6 +108,16 @@ std::vector<double> XmlValues::numbers(const char* name, int least, int most) co
   const std::string expected =
       least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
   fail(name, "expected {} number{}, got {}", expected, most == 1 ? "" : "s", count);
+}
+
+std::vector<double> XmlValues::leading_numbers(const char* name, int most) const {
+  std::vector<double> out;
+  for (const XmlElement& layer : layers_) {
+    if (!layer || !layer.attribute(name)) continue;
+    const auto given = XmlValues(layer).numbers(name, 1, most);
+    for (size_t i = out.size(); i < given.size(); ++i) out.push_back(given[i]);
+  }
+  return out;
 }
 
 Eigen::Vector3d XmlValues::vec3(const char* name, const Eigen::Vector3d& fallback) const {

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ class XmlValues {
   XmlValues(XmlElement own, const std::vector<XmlElement>& behind = {});
 
   const XmlElement& element() const { return layers_.front(); }
+  /// The nearest element that has one of the attributes, alone; the own one where none has.
+  XmlValues nearest(std::span<const char* const> names) const;
   bool has(const char* name) const { return find(name).has_value(); }
   std::string text(const char* name) const;  ///< expected, not empty
   std::string text(const char* name, const std::string& fallback) const;
@@ -49,6 +52,8 @@ class XmlValues {
   bool boolean(const char* name, bool fallback) const;
   /// between `least` and `most` numbers, each of at most 1e15
   std::vector<double> numbers(const char* name, int least, int most) const;
+  /// Up to `most` numbers; an element that gives fewer leaves the others to the next one.
+  std::vector<double> leading_numbers(const char* name, int most) const;
   Eigen::Vector3d vec3(const char* name, const Eigen::Vector3d& fallback) const;
   /// one of the words
   std::string word(const char* name, std::initializer_list<const char*> words,

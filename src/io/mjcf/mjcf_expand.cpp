@@ -1,0 +1,364 @@
+#include "clench/io/mjcf/mjcf_expand.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "clench/base/suggest.h"
+#include "clench/io/mjcf/mjcf_names.h"
+#include "clench/io/text/find_file.h"
+
+namespace clench {
+
+/// Sections whose elements refer to bodies, joints and geoms; tendons come first, since others
+/// refer to them.
+static constexpr const char* referring_sections[] = {"tendon", "equality", "contact", "actuator"};
+
+class MjcfExpander {
+ public:
+  MjcfExpander(MjcfDocument& document, FileCache& cache) : document_(document), cache_(cache) {}
+
+  void expand(MjcfNode& root) {
+    std::vector<MjcfNode> worlds;
+    for (const MjcfNode& section : root.children)
+      if (section.name() == "worldbody") worlds.push_back(section);
+    // sections are appended meanwhile
+    for (size_t i = 0, next = 0; i < root.children.size(); ++i) {
+      if (root.children[i].name() != "worldbody" || next == worlds.size()) continue;
+      MjcfNode world = worlds[next++];
+      expand_below(world, root);
+      root.children[i] = std::move(world);
+    }
+  }
+
+ private:
+  using Rename = std::function<std::string(const MjcfNode& node, const std::string& attribute,
+                                           const std::string& value)>;
+
+  void expand_below(MjcfNode& node, MjcfNode& root);
+  void replicate(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into);
+  void attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into);
+  MjcfNode* attached_model(const XmlValues& values, MjcfNode& root);
+  void copy_assets(const MjcfNode& from, MjcfNode& root, const std::string& prefix);
+  void copy_sections(const MjcfNode& from, MjcfNode& root, const MjcfNames& names,
+                     const Rename& rename, const XmlElement& reason);
+  MjcfNode copy(const MjcfNode& node, const Rename& rename, XmlCopies::Attributes more = {});
+  MjcfNode frame(const XmlElement& original, XmlCopies::Attributes attributes);
+
+  MjcfDocument& document_;
+  FileCache& cache_;
+  int generated_ = 0;
+  int depth_ = 0;
+  std::map<std::string, MjcfNode> models_;  // of attached files, by place of the asset
+  std::set<std::pair<const MjcfNode*, std::string>> copied_assets_;  // of models, with prefixes
+};
+
+// --- copies ---
+
+MjcfNode MjcfExpander::copy(const MjcfNode& node, const Rename& rename,
+                            XmlCopies::Attributes more) {
+  if (++generated_ > max_generated_elements)
+    node.element.fail("expected at most {} elements made by replicate and attach",
+                      max_generated_elements);
+  XmlCopies::Attributes attributes;
+  for (const std::string& key : node.element.attributes())
+    attributes.emplace_back(key, rename(node, key, node.element.attribute(key).value_or("")));
+  for (auto& entry : more)
+    if (!node.element.attribute(entry.first)) attributes.push_back(std::move(entry));
+  MjcfNode out{document_.copies_.make(node.element, node.element.name(), attributes), {}};
+  for (const MjcfNode& child : node.children) out.children.push_back(copy(child, rename));
+  return out;
+}
+
+MjcfNode MjcfExpander::frame(const XmlElement& original, XmlCopies::Attributes attributes) {
+  return {document_.copies_.make(original, "frame", attributes), {}};
+}
+
+void MjcfExpander::expand_below(MjcfNode& node, MjcfNode& root) {
+  std::vector<MjcfNode> children;
+  for (MjcfNode& child : node.children) {
+    const std::string name = child.name();
+    if (name == "attach") {
+      attach(child, root, children);
+      continue;
+    }
+    expand_below(child, root);
+    if (name == "replicate")
+      replicate(child, root, children);
+    else
+      children.push_back(std::move(child));
+  }
+  node.children = std::move(children);
+}
+
+// --- replicate ---
+
+static XmlCopies::Attributes pose_attributes(const Pose& X) {
+  const auto& p = X.position;
+  const auto& q = X.rotation;
+  return {{"pos", fmt::format("{} {} {}", p.x(), p.y(), p.z())},
+          {"quat", fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z())}};
+}
+
+/// Each replica stands in the frame of the one before. Names end in `sep` and the replica's number,
+/// padded to as many digits as their count has.
+void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
+  const XmlValues values(node.element);
+  document_.unused_.attributes(node.element, {"count", "sep", "offset", "euler", "childclass"});
+  values.text("count");
+  const int count = values.integer("count", 0);
+  if (count < 1) values.fail("count", "expected a count >= 1, got {}", count);
+  for (const MjcfNode& child : node.children)
+    if (child.name() == "joint" || child.name() == "freejoint")
+      child.element.fail("replicate: expected joints inside of a body only");
+  Pose step = Pose::translation(values.vec3("offset", {0, 0, 0}));
+  if (values.has("euler"))
+    step.rotation = euler_turn(document_.settings(node.element), values.numbers("euler", 3, 3));
+  const std::string sep = values.text("sep", "");
+  const size_t digits = std::to_string(count).size();
+  MjcfNames names;
+  names.add(node.children);
+  // elements that refer to replicas, kept until all replicas exist
+  MjcfNode referring{node.element, {}};
+  for (const char* section : referring_sections)
+    for (MjcfNode& part : root.children) {
+      if (part.name() != section) continue;
+      MjcfNode found{part.element, {}};
+      std::erase_if(part.children, [&](MjcfNode& element) {
+        if (names.references(element).inside == 0) return false;
+        names.add(element);
+        found.children.push_back(std::move(element));
+        return true;
+      });
+      if (!found.children.empty()) referring.children.push_back(std::move(found));
+    }
+  Pose X;
+  for (int i = 0; i < count; ++i) {
+    const std::string number = std::to_string(i);
+    const std::string suffix = sep + std::string(digits - number.size(), '0') + number;
+    XmlCopies::Attributes attributes = pose_attributes(X);
+    if (const auto inherited = node.element.attribute("childclass"))
+      attributes.emplace_back("childclass", *inherited);
+    MjcfNode replica = frame(node.element, std::move(attributes));
+    const Rename in_tree = [&](const MjcfNode&, const std::string& attribute,
+                               const std::string& value) {
+      return attribute == "name" && !value.empty() ? value + suffix : value;
+    };
+    for (const MjcfNode& child : node.children) replica.children.push_back(copy(child, in_tree));
+    into.push_back(std::move(replica));
+    const Rename in_sections = [&](const MjcfNode& at, const std::string& attribute,
+                                   const std::string& value) {
+      const bool refers = names.has(referred_kind(attribute), value);
+      return refers ? value + suffix : in_tree(at, attribute, value);
+    };
+    copy_sections(referring, root, names, in_sections, node.element);
+    X = X * step;
+  }
+}
+
+/// Appends copies of elements all of whose references are among the names.
+void MjcfExpander::copy_sections(const MjcfNode& from, MjcfNode& root, const MjcfNames& names,
+                                 const Rename& rename, const XmlElement& reason) {
+  for (const MjcfNode& section : from.children) {
+    MjcfNode out{section.element, {}};
+    for (const MjcfNode& element : section.children) {
+      if (names.references(element).outside == 0)
+        out.children.push_back(copy(element, rename));
+      else
+        document_.repairs_.add(
+            std::string("refers to others"),
+            fmt::format("{}: {}: refers to elements inside and outside of the {} at {}; not used",
+                        element.element.place(), excerpt(element.name()), excerpt(reason.name()),
+                        reason.place()));
+    }
+    if (!out.children.empty()) root.children.push_back(std::move(out));
+  }
+}
+
+// --- attach ---
+
+namespace {
+
+struct Target {
+  const MjcfNode* node = nullptr;
+  std::string child_class;  // that it inherits
+};
+
+void find_target(const MjcfNode& at, const std::string& kind, const std::string& name,
+                 const std::string& child_class, Target& found, std::vector<std::string>& others) {
+  for (const MjcfNode& child : at.children) {
+    if (found.node) return;
+    const std::string own = child.element.attribute("name").value_or("");
+    if (child.name() == kind && own == name) {
+      found = {&child, child_class};
+      return;
+    }
+    if (child.name() == kind && !own.empty()) others.push_back(own);
+    if (child.name() == "body" || child.name() == "frame" || child.name() == "replicate")
+      find_target(child, kind, name, child.element.attribute("childclass").value_or(child_class),
+                  found, others);
+  }
+}
+
+}  // namespace
+
+/// The model of an asset, read when first attached; null: this model itself.
+MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) {
+  if (!values.has("model")) return nullptr;
+  const std::string name = values.text("model");
+  std::vector<std::string> names;
+  for (const MjcfNode& section : root.children) {
+    if (section.name() != "asset") continue;
+    for (const MjcfNode& asset : section.children) {
+      if (asset.name() != "model") continue;
+      const XmlValues of_asset(asset.element);
+      const std::string key = asset.element.place() + ' ' + of_asset.text("file");
+      const std::string given = of_asset.text("name", "");
+      names.push_back(given);
+      if (!given.empty() && given != name) continue;
+      auto found = models_.find(key);
+      if (found == models_.end()) {
+        document_.unused_.attributes(asset.element, {"name", "file", "content_type"});
+        const MjcfSettings& own = document_.settings(asset.element);
+        std::filesystem::path path;
+        try {
+          path = find_file(of_asset.text("file"), own.path, cache_.options());
+        } catch (const Error& error) {
+          asset.element.fail("model: {}", error.what());
+        }
+        const auto canonical = std::filesystem::weakly_canonical(path);
+        auto& open = document_.open_;
+        if (std::ranges::find(open, canonical) != open.end())
+          asset.element.fail("model: '{}' attaches itself", excerpt(of_asset.text("file")));
+        MjcfNode model = document_.load_file(path);
+        open.push_back(canonical);
+        found = models_.emplace(key, std::move(model)).first;
+        expand(found->second);
+        open.pop_back();
+      }
+      names.back() = found->second.element.attribute("model").value_or("");
+      if (given == name || names.back() == name) return &found->second;
+    }
+  }
+  values.fail("model", "no model {}{}", in_quotes(name), did_you_mean(name, names));
+}
+
+void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::string& prefix) {
+  if (!copied_assets_.emplace(&from, prefix).second) return;
+  document_.add_classes(from, prefix);
+  for (const MjcfNode& section : from.children) {
+    const std::string name = section.name();
+    if (name == "asset") {
+      MjcfNode out{section.element, {}};
+      for (const MjcfNode& asset : section.children) {
+        if (asset.name() == "model") continue;
+        // a name of a mesh that is not given is its file's
+        const std::string file = asset.element.attribute("file").value_or("");
+        const std::string stem = std::filesystem::path(file).stem().string();
+        XmlCopies::Attributes more = {{"name", prefix + stem}, {"class", prefix + "main"}};
+        if (asset.name() != "mesh" && asset.name() != "material") more.clear();
+        out.children.push_back(copy(
+            asset,
+            [&](const MjcfNode&, const std::string& attribute, const std::string& value) {
+              const bool names = attribute == "name" || attribute == "class" ||
+                                 attribute == "material" || attribute == "texture";
+              return names && !value.empty() ? prefix + value : value;
+            },
+            std::move(more)));
+      }
+      root.children.push_back(std::move(out));
+    } else if (name == "keyframe" || name == "sensor") {
+      document_.unused_.element(section.element);
+    }
+  }
+}
+
+/// Copies a body, a frame or all contents of a model, whose names get a prefix. Frames around a
+/// body are left out, those around a frame too; classes are inherited.
+void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
+  constexpr int max_depth = 20;
+  if (++depth_ > max_depth)
+    node.element.fail("attach: expected at most {} attached in each other", max_depth);
+  const XmlValues values(node.element);
+  document_.unused_.attributes(node.element, {"model", "body", "frame", "prefix"});
+  const std::string prefix = values.text("prefix");
+  MjcfNode* model = attached_model(values, root);
+  const MjcfNode& source = model ? *model : root;
+  const std::string kind = values.has("body") ? "body" : values.has("frame") ? "frame" : "";
+  if (kind.empty() && !model)
+    node.element.fail("attach: expected an attribute 'model', 'body' or 'frame', got none");
+  Target target;
+  std::vector<std::string> others;
+  if (!kind.empty()) {
+    for (const MjcfNode& section : source.children)
+      if (section.name() == "worldbody")
+        find_target(section, kind, values.text(kind.c_str()), "", target, others);
+    if (!target.node)
+      values.fail(kind.c_str(), "no {} {}{}", kind, in_quotes(values.text(kind.c_str())),
+                  did_you_mean(values.text(kind.c_str()), others));
+  }
+  std::vector<MjcfNode> content;
+  if (target.node) {
+    content.push_back(*target.node);
+  } else {
+    for (const MjcfNode& section : source.children)
+      if (section.name() == "worldbody")
+        content.insert(content.end(), section.children.begin(), section.children.end());
+  }
+  // classes and assets of another model are renamed along
+  const auto own_class = [&](const std::string& name) {
+    return model ? prefix + (name.empty() ? "main" : name) : name;
+  };
+  const Rename rename = [&](const MjcfNode&, const std::string& attribute,
+                            const std::string& value) {
+    if (value.empty()) return value;
+    if (attribute == "name" || !referred_kind(attribute).empty()) return prefix + value;
+    const bool of_model = attribute == "class" || attribute == "childclass" ||
+                          attribute == "material" || attribute == "mesh" || attribute == "hfield";
+    return of_model && model ? prefix + value : value;
+  };
+  if (!model)  // its own contents may attach in turn
+    for (MjcfNode& part : content) expand_below(part, root);
+  MjcfNames names;
+  names.add(content);
+  XmlCopies::Attributes inherited;
+  if (const std::string name = own_class(target.child_class); !name.empty())
+    inherited.emplace_back("childclass", name);
+  if (target.node) {
+    into.push_back(copy(content.front(), rename, inherited));
+  } else {
+    MjcfNode all = frame(node.element, inherited);
+    for (const MjcfNode& part : content) all.children.push_back(copy(part, rename));
+    into.push_back(std::move(all));
+  }
+  if (model) copy_assets(*model, root, prefix);
+  std::vector<MjcfNode> sections;
+  for (const char* section : referring_sections)
+    for (const MjcfNode& part : source.children) {
+      if (part.name() != section) continue;
+      MjcfNode out{part.element, {}};
+      for (const MjcfNode& element : part.children) {
+        const auto references = names.references(element);
+        if (references.inside == 0) continue;
+        if (references.outside > 0) {
+          document_.repairs_.add(
+              "attached", fmt::format("{}: {}: refers to elements that are not attached; not used",
+                                      element.element.place(), excerpt(element.name())));
+          continue;
+        }
+        names.add(element);
+        XmlCopies::Attributes more;
+        if (model) more.emplace_back("class", own_class(""));
+        out.children.push_back(copy(element, rename, std::move(more)));
+      }
+      if (!out.children.empty()) sections.push_back(std::move(out));
+    }
+  for (MjcfNode& section : sections) root.children.push_back(std::move(section));
+  --depth_;
+}
+
+void expand_mjcf(MjcfDocument& document, FileCache& cache, MjcfNode& root) {
+  MjcfExpander(document, cache).expand(root);
+}
+
+}  // namespace clench

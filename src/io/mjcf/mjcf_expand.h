@@ -1,0 +1,17 @@
+// Elements of MJCF that generate others: <replicate> and <attach>.
+#pragma once
+#include "clench/io/mjcf/mjcf_document.h"
+
+namespace clench {
+
+/// Largest number of elements that <replicate> and <attach> generate in a file.
+inline constexpr int max_generated_elements = 200'000;
+
+/// Replaces each <replicate> and <attach> below <worldbody> by what it generates: frames with
+/// renamed copies of bodies and geoms. Tendons, actuators, equalities and contact filters that name
+/// what is copied are copied, too.
+/// root  of the document
+/// throws  Error  "scene.xml:12: attach: model: no model 'hnd'; did you mean 'hand'?"
+void expand_mjcf(MjcfDocument& document, FileCache& cache, MjcfNode& root);
+
+}  // namespace clench

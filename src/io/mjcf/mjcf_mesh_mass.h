@@ -1,0 +1,28 @@
+// Mass properties of meshes by the rules of MuJoCo.
+#pragma once
+#include "clench/geometry/mesh/mass.h"
+#include "clench/math/pose.h"
+
+namespace clench {
+
+/// What a mesh's attribute `inertia` says. `legacy`, MuJoCo's default: the pyramids between the
+/// triangles and the centroid of the surface all count positive, so that parts of a concave mesh
+/// count several times. `exact`: the solid. `convex`: the solid of the convex hull. `shell`: the
+/// surface.
+enum class MeshInertia { legacy, exact, convex, shell };
+
+/// Properties for unit density; of a shell, `volume` is the area [m^2]. Where the legacy rule gives
+/// the solid's volume, the properties are the solid's.
+/// returns  volume 0 for a mesh without volume (or area)
+MassProperties mesh_mass(const Mesh& mesh, MeshInertia rule);
+
+/// Principal axes of an inertia.
+struct PrincipalAxes {
+  Eigen::Quaterniond rotation;  ///< of the axes
+  Eigen::Vector3d moments;      ///< in descending order
+};
+/// Axes of a matrix that is diagonal to rounding are those of the frame, exchanged.
+/// source  Golub & Van Loan (2013), sec. 8.5: cyclic Jacobi
+PrincipalAxes principal_axes(const Eigen::Matrix3d& inertia);
+
+}  // namespace clench

@@ -1,0 +1,56 @@
+// Mesh assets of MJCF: files, points and faces in the model itself, and built-in shapes; their mass
+// properties, and primitives fitted to them.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "clench/io/mjcf/mjcf_document.h"
+#include "clench/io/mjcf/mjcf_mesh_mass.h"
+#include "clench/io/tree/tree_geometry.h"
+
+namespace clench {
+
+struct MjcfMesh {
+  std::shared_ptr<const Geometry> geometry;
+  MassProperties mass;   ///< for unit density, by the asset's rule; of a shell per area
+  std::string material;  ///< of geoms that name none; empty: none
+};
+
+/// A primitive in place of a mesh.
+struct FittedPrimitive {
+  std::vector<double> size;  ///< as a geom's `size`: radii and half lengths [m]
+  Pose X_MF;                 ///< its frame in the mesh's frame
+};
+
+class MjcfMeshes {
+ public:
+  MjcfMeshes(MjcfDocument& document, FileCache& cache, TreeGeometry& geometry)
+      : document_(document), cache_(cache), geometry_(geometry) {}
+
+  /// An element <mesh> of the assets.
+  void add(const XmlElement& element);
+  /// The mesh that a geom names, read when first used.
+  /// returns  null, with a warning, when it cannot be read and the geom does not collide
+  const MjcfMesh* find(const XmlValues& geom, bool collides);
+  /// A primitive "box", "sphere", "capsule", "cylinder" or "ellipsoid" of the same inertia as the
+  /// mesh, or around it where the compiler's `fitaabb` says so.
+  FittedPrimitive fit(const MjcfMesh& mesh, const std::string& type, const XmlValues& geom) const;
+
+ private:
+  struct Asset {
+    XmlValues values;
+    std::optional<MjcfMesh> mesh;  // read when first used
+  };
+  const MjcfMesh& read(Asset& asset);
+  std::shared_ptr<const Geometry> shape(const Asset& asset);
+  Mesh own_points(const XmlValues& values) const;
+
+  MjcfDocument& document_;
+  FileCache& cache_;
+  TreeGeometry& geometry_;
+  std::map<std::string, Asset> assets_;
+};
+
+}  // namespace clench
