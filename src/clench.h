@@ -4,6 +4,7 @@
 #include "clench/base/error.h"
 #include "clench/base/progress.h"
 #include "clench/base/random.h"
+#include "clench/base/watched.h"
 #include "clench/dynamics/control/closing.h"
 #include "clench/dynamics/control/joint_dynamics.h"
 #include "clench/dynamics/measure.h"

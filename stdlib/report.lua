@@ -14,6 +14,11 @@ local function names(list)
   return out
 end
 
+-- Ctrl-C is no fault of a file
+local function pass_stop(ok, problem)
+  if not ok and type(problem) == "table" and problem.kind == "stopped" then error(problem, 0) end
+end
+
 -- what is logged while a file is read, by what it is about; a script's own messages by their level
 local function listen(run)
   local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}}
@@ -23,6 +28,7 @@ local function listen(run)
   end)
   local ok, result = pcall(run)
   clench.log.sink()
+  pass_stop(ok, result)
   return heard, ok, result
 end
 
@@ -45,6 +51,7 @@ local function of_primitives(path, options)
   local before = clench.log.level "quiet"  -- what is no primitive is the rule here
   local ok, list = pcall(clench.files.primitives, path, {root = options.root, confine = options.confine})
   clench.log.level(before)
+  pass_stop(ok, list)
   for _, p in ipairs(ok and list or {}) do counts[p.kind] = (counts[p.kind] or 0) + 1 end
   return next(counts) and counts
 end

@@ -27,6 +27,7 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
   const auto result = state.call("host." + verb, "main", arguments);
   std::fflush(stdout);
   if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, result.error);
+  if (running.pressed()) return 130;
   return result.ok && result.values == std::vector<std::string>{"0"} ? 0 : 1;
 }
 

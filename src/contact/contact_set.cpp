@@ -7,6 +7,7 @@
 
 #include "clench/base/disjoint_sets.h"
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/contact/cone.h"
 #include "clench/contact/near_points.h"
 #include "clench/contact/outline.h"
@@ -83,8 +84,10 @@ static void join_neighbours(std::vector<NearPoint>& points, double reach) {
 
   // the least region of all that are linked stands for them
   DisjointSets linked(regions);
+  StopCheck check(4096);
   for (const auto& [home, i] : sorted)
     for (int k = 0; k < 27; ++k) {
+      check();
       const Cell next = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1};
       auto other = std::lower_bound(sorted.begin(), sorted.end(), std::pair(next, 0));
       for (; other != sorted.end() && other->first == next; ++other) {

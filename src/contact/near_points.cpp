@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "clench/base/disjoint_sets.h"
+#include "clench/base/watched.h"
 #include "clench/contact/near_surface.h"
 
 namespace clench {
@@ -53,7 +54,9 @@ class Collector {
 
   std::vector<NearPoint> collect() {
     add_closest();
+    StopCheck check(256);
     for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
+      check();
       i_ = a_.find(pairs_[pair].triangle_a), j_ = b_.find(pairs_[pair].triangle_b);
       for (int k = 0; k < 3; ++k) corner_of_a(pair, k);
       for (int k = 0; k < 3; ++k) corner_of_b(pair, k);

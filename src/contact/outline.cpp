@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 using Eigen::Vector2d;
@@ -62,6 +64,7 @@ static void keep_corners(const Points& points, const std::vector<int>& polygon, 
                          size_t to, double flat, std::vector<char>& keep) {
   std::vector<std::pair<size_t, size_t>> open = {{from, to}};
   while (!open.empty()) {
+    check_stop();
     const auto [low, high] = open.back();
     open.pop_back();
     size_t highest = low;
@@ -107,6 +110,7 @@ std::vector<int> spread(const Points& points, int first, const std::vector<int>&
   std::vector<int> chosen = {first};
   std::vector<double> nearest(others.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(chosen.size()) < most) {
+    check_stop();
     int best = -1;
     double far = radius;
     for (size_t k = 0; k < others.size(); ++k) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 using Eigen::Matrix2d;
@@ -241,6 +243,7 @@ static void add_piece(const SeenSheet& a, const SeenSheet& b, const RingPiece& p
 }
 
 static void add_circle(const SeenSheet& a, const SeenSheet& b, RingPiece piece, PatchRings& out) {
+  check_stop();
   std::vector<RingArc> arcs_a, arcs_b;
   for (const int t : a.sheet.triangles()) add_arcs(a, t, piece.radius, arcs_a);
   for (const int t : b.sheet.triangles()) add_arcs(b, t, piece.radius, arcs_b);

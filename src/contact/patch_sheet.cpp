@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "clench/base/watched.h"
 #include "clench/contact/near_points.h"
 #include "clench/geometry/query/queries.h"
 
@@ -79,9 +80,12 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
     inside[t] = 1, triangles_.push_back(t);
   };
   for (const int seed : all.seeds) take(near_.find(seed));
-  for (size_t i = 0; i < triangles_.size(); ++i)
+  StopCheck check(1024);
+  for (size_t i = 0; i < triangles_.size(); ++i) {
+    check();
     for (int k = 0; k < 3; ++k)
       for (const int slot : near_.at_corner(near_.corner(triangles_[i], k))) take(slot / 3);
+  }
   std::sort(triangles_.begin(), triangles_.end());
 }
 
@@ -119,6 +123,7 @@ std::vector<PatchSheet::Blade> PatchSheet::blades_at(int triangle, int k) const 
 
 // the same where the mesh is to be asked
 std::vector<PatchSheet::Blade> PatchSheet::far_blades_at(int triangle, int k) const {
+  check_stop();
   const Vector3d centre = shape_.mesh().corners(known_[triangle])[k];
   std::vector<Blade> out;
   std::vector<Vector3d> ends;

@@ -1,10 +1,15 @@
 // Stepper::solve_by_ode: the same contacts, motors and limits, with velocities that ODE finds.
 #include <algorithm>
 
+#include "clench/base/error.h"
 #include "clench/dynamics/ode/ode_step.h"
 #include "clench/dynamics/stepper.h"
 
 namespace clench {
+
+// Dantzig's method, which nothing can stop, takes the cube of their number: of so many, about a
+// second.
+static constexpr size_t max_contacts = 1000;
 
 void Stepper::solve_by_ode(double h) {
   std::vector<OdeContact> contacts;
@@ -25,6 +30,11 @@ void Stepper::solve_by_ode(double h) {
         Eigen::Map<const Eigen::VectorXd>(q_.data() + block.law.row, linear);
     contacts.push_back(contact);
   }
+  if (contacts.size() > max_contacts)
+    fail(ErrorKind::limit,
+         "dynamics: engine 'ode': expected at most {} contact points in a step, got {}; use engine "
+         "'clench'",
+         max_contacts, contacts.size());
   Eigen::VectorXd before;
   gather_velocities(system_, world_, *world_.dynamics(), before);
   const OdeSolution solution = step_ode(world_,

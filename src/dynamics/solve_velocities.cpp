@@ -1,7 +1,8 @@
-// Stepper::solve: forces, contacts, limits and motors give new velocities.
+// Stepper::solve_found: forces, contacts, limits and motors give new velocities.
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/dynamics/stepper.h"
 
 namespace clench {
@@ -47,6 +48,7 @@ void Stepper::find_free_velocities(double h) {
   gather_velocities(system_, world_, state, v_);
   v_before_ = v_;
   for (size_t t = 0; t < trees_.size(); ++t) {
+    check_stop();
     const Articulation& tree = system_.trees[t];
     TreeDynamics& dynamics = trees_[t];
     const int n = tree.size();
@@ -151,12 +153,6 @@ void Stepper::carry_welded() {
     if (system_.place(body).tree >= 0) continue;
     state.twists[body.index] = world_.carried_twist(body, to);
   }
-}
-
-void Stepper::solve(double h) {
-  refresh();
-  find_manifolds(world_, system_, 0);
-  solve_found(h);
 }
 
 void Stepper::solve_found(double h) {

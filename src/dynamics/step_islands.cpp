@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/dynamics/solve/friction_residual.h"
 #include "clench/dynamics/stepper.h"
 
@@ -77,16 +78,19 @@ bool Stepper::holds(const Island& island, const Eigen::VectorXd& warm, FrictionS
 
 void Stepper::assemble(const Island& island, int count) {
   problem_.W.setZero(count, count);
+  StopCheck check(64);
   for (const int row : rows_) problem_.W(local_[row], local_[row]) = compliance_[row];
   for (const int tree : island.trees) {
     const TreeRows& rows = tree_rows_[tree];
-    for (int i = 0; i < static_cast<int>(rows.rows.size()); ++i)
+    for (int i = 0; i < static_cast<int>(rows.rows.size()); ++i) {
+      check();
       for (int j = 0; j <= i; ++j) {
         const double w = rows.Y.col(i).dot(rows.Y.col(j));
         const int a = local_[rows.rows[i]], b = local_[rows.rows[j]];
         problem_.W(a, b) += w;
         if (i != j) problem_.W(b, a) += w;
       }
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/contact/cone.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/model/near_bodies.h"
@@ -231,11 +232,14 @@ void Stepper::find_rows(double h) {
   coordinate_rows_.clear();
   q_.clear();
   for (TreeRows& rows : tree_rows_) rows.rows.clear();
-  for (size_t m = 0; m < state.manifolds.size(); ++m)
+  for (size_t m = 0; m < state.manifolds.size(); ++m) {
+    check_stop();
     for (size_t p = 0; p < state.manifolds[m].points.size(); ++p)
       if (state.manifolds[m].points[p].gap <= world_.contact_threshold())
         add_contact(static_cast<int>(m), static_cast<int>(p), h);
+  }
   for (size_t t = 0; t < trees_.size(); ++t) {
+    check_stop();
     if (system_.trees[t].coordinates.empty()) continue;
     Eigen::MatrixXd mass = trees_[t].mass_matrix();
     mass.diagonal() += forces_[t].added - forces_[t].velocity_part;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/dynamics/contact/ball_contact.h"
 #include "clench/dynamics/contact/sliding.h"
 #include "clench/model/advance.h"
@@ -43,6 +44,18 @@ void Stepper::refresh() {
 }
 
 namespace {
+
+// A step that fails or is stopped leaves the world as it was when the step began.
+template <class Change>
+void change_or_restore(World& world, Change change) {
+  const std::shared_ptr<const Snapshot> before = world.snapshot();
+  try {
+    change();
+  } catch (const std::exception&) {
+    world.restore(*before);
+    throw;
+  }
+}
 
 // How far apart a pair was when it was last measured, and how far it has moved since.
 bool may_have_met(const World& world, const Manifold& m, const Pose& X_AB) {
@@ -88,6 +101,7 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
     const Manifold& m = world_.dynamics()->manifolds[i];
     double s = 0, before = std::numeric_limits<double>::infinity();
     for (int steps = 0; s < stop && steps < 1000; ++steps) {
+      check_stop();
       mover.place(s);
       const double gap = ball_distance(world_, m, speed * (stop - s) + 2 * threshold);
       // one that leaves goes on
@@ -106,6 +120,7 @@ double Stepper::advance_balls(const std::vector<std::pair<int, double>>& pairs, 
 double Stepper::free_until(const Manifold& m, int places, double dt, Mover& mover) {
   const auto [first, second] = ordered(m.a, m.b);
   const auto is_free = [&](double s) {
+    check_stop();
     mover.place(s);
     if (has_ball(world_, m)) return ball_distance(world_, m, world_.contact_threshold()) > 0;
     return distance(*world_.body(m.a).shape, *world_.body(m.b).shape,
@@ -228,14 +243,30 @@ void Stepper::measure_met(Meetings& meetings, bool whole) {
 }
 
 double Stepper::move(double dt) {
+  double passed = 0;
+  change_or_restore(world_, [&] { passed = move_bodies(dt); });
+  return passed;
+}
+
+void Stepper::solve(double h) {
+  change_or_restore(world_, [&] {
+    refresh();
+    find_manifolds(world_, system_, 0);
+    solve_found(h);
+  });
+}
+
+double Stepper::move_bodies(double dt) {
   refresh();
   find_manifolds(world_, system_, max_travel(dt));
   DynamicState& state = world_.edit_dynamics();
   Mover mover(world_, system_);
   mover.place(dt);
   Meetings meetings{.max_time = dt, .overlap_time = dt};
-  for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i)
+  for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
+    check_stop();
     follow_pair(i, dt, mover, meetings);
+  }
   const double passed = time_until_meeting(meetings, dt, mover);
   if (passed < meetings.overlap_time) ++state.report.impacts;
   mover.finish(passed);
@@ -253,6 +284,7 @@ bool Stepper::step(double end) {
   const double step = world_.dynamic_settings().step;
   if (!(end - world_.time() > rounding * step)) return false;
   world_.context().progress().check();
+  check_stop();
   // Steps end at multiples of the step, after an impact as well: the same ones however a time is
   // divided.
   const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
@@ -261,11 +293,13 @@ bool Stepper::step(double end) {
     fail(ErrorKind::limit, "world: a step of {} s is no time beside the {} s that it has run", step,
          now);
   if (std::abs(left - step) < rounding * step) left = step;
-  const double h = move(left);
-  double& time = world_.edit_dynamics().time;
-  if (std::abs(end - time) < rounding * step) time = end;
-  refresh();
-  solve_found(h);
+  change_or_restore(world_, [&] {
+    const double h = move_bodies(left);
+    double& time = world_.edit_dynamics().time;
+    if (std::abs(end - time) < rounding * step) time = end;
+    refresh();
+    solve_found(h);
+  });
   return true;
 }
 

@@ -15,7 +15,9 @@
 
 namespace clench {
 
-/// Steps a world. It holds nothing but room: a new one goes on where another left off, to the bit.
+/// Steps a world. Holds only scratch memory; all state is in the World, so a new Stepper continues
+/// bit-exactly. A step that is stopped (see base/watched.h) throws Stopped; a step that throws leaves
+/// the world bit-exactly as it was before.
 class Stepper {
  public:
   explicit Stepper(World& world);
@@ -60,6 +62,7 @@ class Stepper {
   };
 
   void refresh();
+  double move_bodies(double dt);
   void solve_found(double h);  // the manifolds are those of the bodies where they are
   double max_travel(double dt) const;
   double advance_balls(const std::vector<std::pair<int, double>>& pairs, double end, Mover& mover);

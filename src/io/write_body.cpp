@@ -8,6 +8,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/base/units.h"
+#include "clench/base/watched.h"
 #include "clench/io/graspit/world_parts.h"
 #include "clench/io/mesh/mesh_files.h"
 #include "clench/io/mesh/write_mesh.h"
@@ -82,10 +83,16 @@ std::string inventor_text(const BodySpec& body) {
   if (body.shape) {
     const Mesh& mesh = body.shape->mesh();
     out += "  Coordinate3 { point [\n";
-    for (const auto& p : mesh.vertices) fmt::format_to(to, "    {},\n", millimetres(p));
+    StopCheck check(1 << 12);
+    for (const auto& p : mesh.vertices) {
+      check();
+      fmt::format_to(to, "    {},\n", millimetres(p));
+    }
     out += "  ] }\n  IndexedFaceSet { coordIndex [\n";
-    for (const auto& t : mesh.triangles)
+    for (const auto& t : mesh.triangles) {
+      check();
       fmt::format_to(to, "    {}, {}, {}, -1,\n", t[0], t[1], t[2]);
+    }
     out += "  ] }\n";
   }
   return out + "}\n";

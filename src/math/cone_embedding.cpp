@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 namespace {
 
@@ -200,6 +202,7 @@ EmbeddingEnd solve_embedding(const ConeRows& rows) {
   if (!is_finite(p)) return best;
   int without_progress = 0;
   for (int i = 0;; ++i) {
+    check_stop();
     const ConeQuality q = judge(rows, p);
     ++without_progress;
     if (q.worst() < best.quality.worst()) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "clench/base/watched.h"
 #include "clench/math/decompositions.h"
 
 namespace clench {
@@ -61,7 +62,9 @@ class Tableau {
   /// returns  the variable that leaves
   int pivot(int row, int entering) {
     rows_.row(row) /= rows_(row, entering);
+    StopCheck check(64);
     for (int i = 0; i < n_; ++i) {
+      check();
       const double factor = rows_(i, entering);
       if (i != row && factor != 0) rows_.row(i) -= factor * rows_.row(row);
     }
@@ -121,6 +124,7 @@ LcpSolution solve_lcp(const MatrixXd& M, const VectorXd& q, int max_iterations) 
   Tableau tableau(M, q);
   int entering = tableau.complement(tableau.pivot(tableau.first_row(), tableau.z0()));
   for (; solution.iterations < max_iterations; ++solution.iterations) {
+    check_stop();
     const int row = tableau.leaving_row(entering);
     if (row < 0) {
       solution.status = LcpStatus::ray;

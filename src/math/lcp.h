@@ -22,6 +22,7 @@ struct LcpSolution {
 /// to a few hundred rows, of numbers of about one.
 ///
 /// max_iterations  0: 50 per row, and 200
+/// throws          Stopped (see base/watched.h)
 /// source          Cottle, Pang & Stone (1992), The linear complementarity problem, 4.4 and 4.9
 LcpSolution solve_lcp(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, int max_iterations = 0);
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "clench/base/watched.h"
 #include "clench/math/decompositions.h"
 
 namespace clench {
@@ -44,6 +45,7 @@ VectorXd nonnegative_least_squares(const MatrixXd& a, const VectorXd& b, double 
   const VectorXd lengths = a.colwise().norm();
   // each round takes one more column; the known worst cases need a few rounds a column
   for (int round = 0; round < 10 * a.cols(); ++round) {
+    check_stop();
     const VectorXd slope = a.transpose() * (b - a * x);
     int best = -1;
     double steepest = tolerance * b.norm();
@@ -61,6 +63,7 @@ VectorXd nonnegative_least_squares(const MatrixXd& a, const VectorXd& b, double 
     std::fill(refused.begin(), refused.end(), false);
     used = std::move(tried);
     while (!used.empty() && VectorXd(z(used)).minCoeff() <= 0) {
+      check_stop();
       x = step_towards(x, z, used);
       if (!used.empty()) z = solve_free(a, b, used);
     }

@@ -7,6 +7,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -113,6 +114,7 @@ Advance advance(World& world, std::vector<PairBound>& watches, double end,
       return arrive(std::nullopt);
     }
     world.context().progress().check();
+    check_stop();
     go(next->safe);
     const bool stop = run.stops(*next, s, queries);
     if (stop || step == max_steps) return arrive(*next, !stop);

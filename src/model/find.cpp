@@ -5,6 +5,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/contact/contact_set.h"
 
 namespace clench {
@@ -14,6 +15,7 @@ class Remember {
  public:
   Remember(const World& world, QueryContext* context)
       : context_(context ? *context : own_.emplace()) {
+    check_stop();
     context_.attend(world.lineage(), world.model());
   }
   QueryContext& operator*() { return context_; }
@@ -35,8 +37,10 @@ static PairCache& cache_of(const BodyPair& p, QueryContext& context) {
 
 static std::vector<BodyPair> colliding_of(const World& world, std::vector<BodyPair> pairs,
                                           QueryContext& context) {
-  std::erase_if(pairs,
-                [&](const BodyPair& p) { return !pair_collides(world, p, cache_of(p, context)); });
+  std::erase_if(pairs, [&](const BodyPair& p) {
+    check_stop();
+    return !pair_collides(world, p, cache_of(p, context));
+  });
   return pairs;
 }
 
@@ -72,8 +76,10 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
   BodyDistance best;
   best.distance = limit;
   best.p_a = best.p_b = Eigen::Vector3d::Zero();
+  StopCheck check(256);
   for (const auto i : a)
     for (const auto j : b) {
+      check();
       const auto [first, second] = ordered(i, j);
       const Body &one = world.body(first), &two = world.body(second);
       if (i == j || !one.shape || !two.shape || sphere_gap(world, first, second) > best.distance)

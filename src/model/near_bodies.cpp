@@ -4,6 +4,8 @@
 #include <array>
 #include <set>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 using Eigen::Vector3d;
@@ -52,7 +54,9 @@ template <class Visit>
 void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
   const int axis = widest_axis(items);
   sort_along(axis, items);
+  StopCheck check(16);
   for (size_t i = 0; i < items.size(); ++i) {
+    check();
     const BodyBox& box = *items[i].box;
     for (size_t j = i + 1; j < items.size() && items[j].box->low[axis] - box.high[axis] <= reach;
          ++j)

@@ -5,6 +5,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/model/dof.h"
 #include "clench/motion/move.h"
 #include "clench/motion/relax_springs.h"
@@ -170,6 +171,7 @@ void drive_on(Drive& drive, const Eigen::VectorXd& all_rates, const DriveOptions
   int unrest = 0;
   while (true) {
     drive.world.context().progress().check();
+    check_stop();
     re_engage(drive);
     const Springs springs = sprung ? relax_springs(drive, options, result) : Springs::at_rest;
     if (springs == Springs::stopped) return stop_all(result, all_rates, DofStop::contact);

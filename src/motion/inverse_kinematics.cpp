@@ -6,6 +6,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/math/decompositions.h"
 #include "clench/model/carrying.h"
 #include "clench/model/dof.h"
@@ -130,6 +131,7 @@ Posture Search::descend(const VectorXd& start, int& iterations) {
     const VectorXd slope = J.transpose() * best.residual;
     // longer steps until one is no better, shorter ones until one is
     while (true) {
+      check_stop();
       MatrixXd damped = H;
       damped.diagonal().array() += damping * best.error() + 1e-15;
       VectorXd q = best.q + solve_symmetric(damped, slope);
@@ -195,6 +197,7 @@ IkResult inverse_kinematics(const World& world, Id<Robot> id, Id<Body> body, con
   const VectorXd now = world.dofs(id);
   for (Random random(options.seed); !out.reached && out.starts < options.starts; ++out.starts) {
     if (context) context->progress().check();
+    check_stop();
     VectorXd start = now;
     for (int d = 0; d < start.size() && out.starts > 0; ++d)
       if (search.may_move(d))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/motion/springs.h"
 
 namespace clench {
@@ -53,6 +54,7 @@ double longest(const JointSpeeds& way) {
 Springs relax_springs(Drive& drive, const DriveOptions& options, DriveResult& result) {
   for (int turn = 0; turn < max_turns; ++turn) {
     drive.world.context().progress().check();
+    check_stop();
     const auto touching =
         contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
     const JointSpeeds way = SpringBalance(drive.world, drive.id, touching, turn > 0).displacement();

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "clench/base/random.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -171,6 +172,7 @@ std::optional<Vector3d> BallTrial::touch(const Vector3d& from, const Vector3d& d
   // the point of the hand that the ball meets first
   double farthest = -std::numeric_limits<double>::infinity();
   for (int l = -1; l < static_cast<int>(hand_.robot.links.size()); ++l) {
+    check_stop();
     const Pose X_BL = open_.at(l);
     for (const Vector3d& p_L : part(l).points) {
       const Vector3d p = X_BL * p_L - from;
@@ -208,6 +210,7 @@ Posture BallTrial::close_on(const Vector3d& centre) const {
     for (size_t i = 0; i < closing_.size(); ++i) {
       const Closing& c = closing_[i];
       if (stopped[i]) continue;
+      check_stop();
       at.q[c.dof] += c.step;
       place(c);
       if (!inside(at, c.links, centre)) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/random.h"
+#include "clench/base/watched.h"
 #include "clench/spec/hand_tree.h"
 
 namespace clench {
@@ -59,6 +60,7 @@ Eigen::Vector3d grasp_centre(const HandTree& hand) {
       if (!hand.turns_without_end(dof)) q[dof] = value;
     }
     for (const auto& p : tips_at(hand, q)) sum += p;
+    check_stop();
   }
   return sum / (samples * static_cast<double>(hand.fingers.size()));
 }
@@ -102,6 +104,7 @@ Way way_to(const HandTree& hand, const Posture& posture, int dof, const std::vec
   std::vector<Eigen::Vector3d> before(fingers.size());
   double first = 0;
   for (int s = 0; s <= steps; ++s) {
+    check_stop();
     q[dof] = start + (end - start) * s / steps;
     double distance = 0;
     for (size_t f = 0; f < fingers.size(); ++f) {

@@ -12,6 +12,7 @@ function convert.main(root, folder, package, unit, strict, from, to)
     return clench.convert(from, to, reading(clench.file_kind(from), said))
   end)
   if not ok then
+    if type(kind) == "table" and kind.kind == "stopped" then error(kind, 0) end
     io.stderr:write("clench convert: ", error_text(kind), "\n")
     return 1
   end

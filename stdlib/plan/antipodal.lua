@@ -29,7 +29,7 @@ return function(options)
   end
   local told = {planner = "plan.antipodal"}
   own.planner, own.kind = "antipodal", "antipodal"
-  local found = batch.try(job, told, starts.random(job, own), own)
+  local found = batch.try(job, told, job:prepare(starts.random, own), own)
   job:finish()
   return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
 end

@@ -28,7 +28,7 @@ end
 --- Tries one start after the other, in rounds that do not depend on the threads.
 ---@param job table  of clench.plan.job
 ---@param told table  of clench.plan.report
----@param next_state fun(number: integer): table?  nil: no more
+---@param next_state? fun(number: integer): table?  nil: no more; absent: the search ended before it was there
 ---@param options {planner: string, limit: integer, count?: integer, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp)}
 ---@return grasp[]  more than `count`: rounds are tried to their end, and what is alike does not count
 function batch.try(job, told, next_state, options)
@@ -41,7 +41,7 @@ function batch.try(job, told, next_state, options)
   local found, founders, number, unlike = {}, {}, 0, 0
   local is_new = distinct(job.hand, job.object, options.distance or 0)
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
-  if options.near_found then next_state = starts_near_found(job, next_state, founders, tally) end
+  if options.near_found and next_state then next_state = starts_near_found(job, next_state, founders, tally) end
   local function tally_of(state) return state.is_near and tally.near or tally.elsewhere end
   local bar <close> = clench.progress(options.limit, job.subject)
   local tried = 0
@@ -84,7 +84,7 @@ function batch.try(job, told, next_state, options)
   end
 
   job:interruptible(function()
-    while job:goes_on() and (not options.count or unlike < options.count) do
+    while next_state and job:goes_on() and (not options.count or unlike < options.count) do
       local items = {}
       for i = 1, chunks do
         local states = {}
@@ -105,6 +105,7 @@ function batch.try(job, told, next_state, options)
     end
   end)
   told.candidates = number
+  if number == 0 then told.late_start = job:late_start() end
   return found
 end
 

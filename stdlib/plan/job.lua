@@ -3,6 +3,7 @@
 local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
+local deadline = require "clench.deadline"
 local described = require "clench.described"
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
@@ -47,6 +48,7 @@ end
 
 -- Waits while the search is paused. What an energy of the script moves is meanwhile as the script left it.
 function Job:rest()
+  self:end_deadline()
   local paused_at, here = clench.clock(), self.before and self.world:snapshot()
   if here then self.given_world:restore(self.before) end
   coroutine.yield()
@@ -55,6 +57,19 @@ function Job:rest()
     self.world:restore(here)
   end
   self.began = self.began + clench.clock() - paused_at
+  self:begin_deadline()
+end
+
+-- From now on what runs in the engine fails when the time of the options has run out, as by Ctrl-C.
+function Job:begin_deadline()
+  self.deadline = self.seconds and deadline(self.began + self.seconds - clench.clock())
+end
+
+-- returns whether that time has run out
+function Job:end_deadline()
+  local over = self.deadline and self.deadline:close() or false
+  self.deadline = nil
+  return over
 end
 
 --- Between two pieces of work: false when the time of the options has run out, Ctrl-C was pressed or the search is cancelled.
@@ -62,7 +77,21 @@ function Job:goes_on()
   local search = self.search
   if search and search.pause_at and clench.clock() >= search.pause_at and not search.cancelled then self:rest() end
   if search and search.cancelled then self.cancelled = true end
-  return not (self.stopped or self.cancelled or self.seconds ~= nil and clench.clock() - self.began >= self.seconds)
+  return not (self.stopped or self.cancelled) and self:has_time()
+end
+
+function Job:has_time() return self.seconds == nil or clench.clock() - self.began < self.seconds end
+
+--- What the first candidate needs: make(job, options); nil when Ctrl-C or the end of the time came first.
+---@param make fun(job: table, options: table): any
+function Job:prepare(make, options)
+  return self:interruptible(function() return make(self, options) end)
+end
+
+--- Why no candidate was tried, if it is for want of time.
+function Job:late_start()
+  if self.stopped or self.cancelled or self:has_time() then return end
+  return ("the search ended before its first candidate: for this hand and object its start takes longer than the %.6g s that were given; allow more"):format(self.seconds)
 end
 
 local patience = 0.25  -- half of what a script has after Ctrl-C [s]
@@ -70,12 +99,17 @@ local patience = 0.25  -- half of what a script has after Ctrl-C [s]
 --- After Ctrl-C, is there time to look at what was found?
 function Job:has_patience() return not self.stopped or clench.clock() - self.stopped_at < patience end
 
---- Calls what searches. Ctrl-C ends it, and the planner goes on with what was found; any other error puts the hand back.
+--- Calls what prepares a search, or searches. Ctrl-C and the end of the time of the options end it, and the planner continues with
+--- what was found; any other error puts the hand back.
+---@return any result  nil when it was ended
 function Job:interruptible(search)
-  local ok, problem = pcall(search)
-  if ok then return end
+  self:begin_deadline()
+  local ok, result = pcall(search)
+  local over = self:end_deadline()
+  if ok then return result end
+  local problem = result
   if type(problem) == "table" and problem.kind == "stopped" then
-    self.stopped, self.stopped_at = true, clench.clock()
+    if not over then self.stopped, self.stopped_at = true, clench.clock() end
     return
   end
   self:finish()

@@ -152,6 +152,8 @@ return function(job, told)
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
   if told.grasps == 0 and told.stopped then
     told.causes[1] = too_weak(told)
+  elseif told.grasps == 0 and told.late_start then
+    told.causes[1] = told.late_start
   elseif told.grasps == 0 then
     for _, cause in ipairs {nothing_closes(job) or false, told.no_start or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
@@ -159,6 +161,6 @@ return function(job, told)
     end
     if #told.causes == 0 then told.causes[1] = "none that is known; try more steps or another seed" end
   end
-  told.verify, told.best_load, told.no_start = nil, nil, nil
+  told.verify, told.best_load, told.no_start, told.late_start = nil, nil, nil, nil
   return setmetatable(told, Report)
 end

@@ -20,7 +20,7 @@ return function(name, options, read_more)
   end)
   own.approach = 2 * own.standoff
   local told = {planner = "plan." .. name}
-  local found = batch.try(job, told, starts.random(job, own), own)
+  local found = batch.try(job, told, job:prepare(starts.random, own), own)
   job:finish()
   return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
 end

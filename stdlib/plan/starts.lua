@@ -13,12 +13,36 @@ local function self_collisions(hand, dofs)
   return #hand.world:colliding(hand)
 end
 
--- Hands whose DOFs open further than there is room for them (a thumb into the palm): the DOF whose smallest motion frees most
+local many_links = 64  -- of so many, moving one DOF at a time takes too long: its time grows with the fourth power of their number
+
+-- All DOFs move back together, by the smallest part of their ranges that leaves fewest collisions.
+local function freed_together(hand, dofs, count)
+  local best = dofs
+  for part = 0.1, 0.9, 0.1 do
+    if count == 0 then break end
+    local moved = {}
+    for i, value in ipairs(dofs) do
+      local low, high = table.unpack(hand.dof_limits[i])
+      local far = math.abs(value - low) > math.abs(value - high) and low or high
+      moved[i] = high - low < math.huge and value + part * (far - value) or value
+    end
+    local left = self_collisions(hand, moved)
+    if left < count then best, count = moved, left end
+  end
+  return best
+end
+
+-- Hands whose open DOFs make them collide with themselves (a thumb in the palm): the DOF whose smallest motion frees most
 -- moves back, then the next one.
 local function freed(hand, dofs)
   local world = hand.world
   local here <close> = world:snapshot()
   local count = self_collisions(hand, dofs)
+  if #hand.links > many_links then
+    dofs = freed_together(hand, dofs, count)
+    world:restore(here)
+    return dofs
+  end
   local limits = hand.dof_limits
   for _ = 1, #dofs do
     if count == 0 then break end

@@ -1,9 +1,12 @@
 // Long calls that are told to stop end, and leave nothing half done behind.
 #include <doctest/doctest.h>
 
+#include "clench/base/error.h"
 #include "clench/base/progress.h"
 #include "clench/base/random.h"
+#include "clench/base/watched.h"
 #include "clench/grasp/measure/robustness.h"
+#include "clench/grasp/wrench/grasp.h"
 #include "clench/grasp/wrench/projection.h"
 #include "clench/grasp/wrench/sum_volume.h"
 #include "clench/grasp/wrench/wrench_space.h"
@@ -75,4 +78,43 @@ TEST_CASE("a projection that is stopped is none") {
   CHECK_THROWS_AS(project(space, options), Stopped);
   watcher->take_stop();
   CHECK(project(space, options).volume > 0);
+}
+
+TEST_CASE("a space of thousands of edges tells force closure soon, and checks at each direction") {
+  const WrenchSpace space = ball_of(40, 500, WrenchNorm::l1);
+  const Watched watched{Progress()};
+  CHECK(space.is_force_closure());
+  const uint64_t checks = watched.checks();
+  CHECK(checks > 40);
+  CHECK(checks < 2000);
+  // as the same cones of fewer edges do
+  CHECK(ball_of(40, 8, WrenchNorm::l1).is_force_closure());
+}
+
+TEST_CASE("epsilon stops at any direction, and is then as if it had not") {
+  const WrenchSpace space = ball_of(6, 20, WrenchNorm::l1);
+  for (const uint64_t at : {1, 20, 60}) {
+    Watched watched{Progress()};
+    watched.stop_at(at);
+    CHECK_THROWS_AS(space.epsilon(), Stopped);
+  }
+  CHECK(space.epsilon() == ball_of(6, 20, WrenchNorm::l1).epsilon());
+}
+
+TEST_CASE("contacts times edges are limited") {
+  GraspSpec grasp;
+  for (int i = 0; i < 101; ++i) grasp.points.push_back({});
+  grasp.options.edges = 1000;
+  CHECK_THROWS_WITH_AS(wrench_space(grasp),
+                       "wrench space: expected at most 100000 edges of all contacts, got more of "
+                       "101 contacts of 1000 edges; "
+                       "give fewer edges, or edges = \"exact\"",
+                       Error);
+  try {
+    wrench_space(grasp);
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::limit);
+  }
+  grasp.points.pop_back();
+  CHECK(wrench_space(grasp).contacts().size() == 100);
 }

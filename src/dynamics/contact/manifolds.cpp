@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/contact/contact_set.h"
 #include "clench/contact/near_points.h"
 #include "clench/dynamics/contact/ball_contact.h"
@@ -223,6 +224,7 @@ static bool find_points(World& world, Manifold& m, double limit,
 }
 
 void measure(World& world, Manifold& m) {
+  check_stop();
   if (follow_sliding(world, m)) return;
   const double threshold = world.contact_threshold(), limit = manifold_reach + threshold;
   std::vector<ManifoldPoint> points;

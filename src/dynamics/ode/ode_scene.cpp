@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/dynamics/ode/ode_library.h"
 
 namespace clench {
@@ -246,6 +247,7 @@ void OdeScene::step() {
   for (const OdeTree& tree : trees_)
     for (const OdeNode& node : tree.nodes) reset(node);
   for (const OdeNode& node : obstacle_nodes_) reset(node);
+  check_stop();
   if (dWorldStep(ode_.get(), h_) == 0)
     fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
 }

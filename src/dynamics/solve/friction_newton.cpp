@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 using Eigen::VectorXd;
@@ -112,7 +114,9 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
   m.resize(n, n);
   columns_.resize(rows, 1);
   symmetric_ = true;
+  StopCheck check(256);
   for (int l = 0; l < n; ++l) {
+    check();
     const Direction& by = directions_[l];
     const double* column = problem.S.col(by.row).data();
     if (by.tangents > 0) {
@@ -154,9 +158,11 @@ bool FrictionNewton::step(const ScaledFriction& problem, double damping, const V
   next = r;
   decide(problem, next);
   shift_ = u;
+  StopCheck check(256);
   for (int j = 0; j < problem.rows(); ++j) {
     const double change = next[j] - r[j];
     if (change == 0) continue;
+    check();
     shift_ += change * problem.S.col(j);
     shift_[j] += change * damping * problem.weights[j];
   }
@@ -193,6 +199,7 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const V
   rho_ = rho;
   End end;
   const auto velocities = [&](const VectorXd& at, VectorXd& u) {
+    check_stop();
     u = q + damping * problem.weights.cwiseProduct(at);
     u.noalias() += problem.S * at;
   };

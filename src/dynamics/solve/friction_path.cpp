@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "clench/base/watched.h"
 #include "clench/dynamics/solve/friction_newton.h"
 
 namespace clench {
@@ -129,6 +130,7 @@ FrictionNewton::End FrictionNewton::follow(const ScaledFriction& problem, const 
   rho_ = 1;
   End end;
   const auto velocities = [&](const VectorXd& at, VectorXd& u) {
+    check_stop();
     u = q + damping * problem.weights.cwiseProduct(at);
     u.noalias() += problem.S * at;
   };

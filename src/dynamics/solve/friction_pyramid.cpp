@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "clench/base/error.h"
 #include "clench/math/decompositions.h"
 #include "clench/math/lcp.h"
+#include "clench/math/product.h"
 
 namespace clench {
 
@@ -120,8 +122,16 @@ void take_damping_away(const MatrixXd& damped, const Velocities& velocities, Vec
 
 }  // namespace
 
+// Pivots take the square of their number each, and as much memory.
+static constexpr int max_unknowns = 6000;
+
 PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& centre,
                               const std::vector<MatrixXd>& edges) {
+  if (const int count = count_unknowns(problem, edges); count > max_unknowns)
+    fail(ErrorKind::limit,
+         "dynamics: cone 'pyramid': expected at most {} edges and bounds of things that touch each "
+         "other, got {}; use cone 'round' or fewer edges",
+         max_unknowns, count);
   Complementarity c = put_together(problem, edges);
   MatrixXd S = problem.S;
   S.diagonal() += damping * problem.weights;
@@ -134,7 +144,7 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   const int count = static_cast<int>(free.size());
   if (count > 0) {
     MatrixXd part(count, count), right(count, c.rows.cols() + 1);
-    const MatrixXd by_unknowns = S * c.rows;
+    const MatrixXd by_unknowns = product(S, c.rows);
     const VectorXd by_start = S * c.start + pulled;
     for (int i = 0; i < count; ++i) {
       for (int j = 0; j < count; ++j) part(i, j) = S(free[i], free[j]);
@@ -146,7 +156,7 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
       c.start[free[i]] = -share(i, c.rows.cols());
     }
   }
-  const MatrixXd M = c.rows.transpose() * S * c.rows + c.coupling;
+  const MatrixXd M = product(product(c.rows.transpose(), S), c.rows) + c.coupling;
   const VectorXd q = c.rows.transpose() * (S * c.start + pulled) + c.offset;
   LcpSolution lcp = solve_lcp(M, q);
   PyramidSolution solution;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 void GaussSeidel::set(const ScaledFriction& problem, double damping) {
@@ -17,11 +19,13 @@ void GaussSeidel::set(const ScaledFriction& problem, double damping) {
 
 void GaussSeidel::sweep(const ScaledFriction& problem, int sweeps, Eigen::VectorXd& r) {
   const int count = static_cast<int>(problem.blocks.size());
+  StopCheck check(64);
   for (int s = 0; s < sweeps; ++s) {
     for (int k = 0; k < count; ++k) {
       const int i = s % 2 == 0 ? k : count - 1 - k;
       const auto& block = problem.blocks[i];
       if (!block.moves) continue;
+      check();
       const int row = block.row, size = block.size();
       // velocities of its rows by all other impulses
       double q[4];

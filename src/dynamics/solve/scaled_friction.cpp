@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/dynamics/solve/friction_residual.h"
 
 namespace clench {
@@ -39,7 +40,11 @@ void ScaledFriction::set(const FrictionProblem& problem) {
           .setConstant(mean * units[blocks[i].row] * units[blocks[i].row]);
   }
   S.resize(n, n);
-  for (int j = 0; j < n; ++j) S.col(j) = problem.W.col(j).cwiseProduct(units) * units[j];
+  StopCheck check(256);
+  for (int j = 0; j < n; ++j) {
+    check();
+    S.col(j) = problem.W.col(j).cwiseProduct(units) * units[j];
+  }
   q = problem.q.cwiseProduct(units);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
 #include "clench/dynamics/solve/friction_feasibility.h"
 #include "clench/dynamics/solve/friction_pyramid.h"
 #include "clench/dynamics/solve/friction_residual.h"
@@ -95,6 +96,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
   // sets u_ and keeps the best
   bool enough = false;
   const auto measure = [&](VectorXd& at) {
+    check_stop();
     // bounds hold to the bit
     for (const auto& block : scaled_.blocks)
       at[block.row] = block.is_contact() ? std::max(at[block.row], 0.0)
@@ -191,7 +193,9 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
   solution.r = warm_start.size() == n && warm_start.allFinite() ? warm_start : VectorXd::Zero(n);
   solution.u = problem.q;
   solution.u.noalias() += problem.W * solution.r;
+  check_stop();
   const FrictionFault fault = friction_fault(problem, solution.r, solution.u, tolerance);
+  check_stop();
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
   const bool finite =

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <string>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/math/decompositions.h"
 
 namespace clench {
@@ -53,11 +53,14 @@ int rank_of(const Normalised& n, double tolerance) {
   return static_cast<int>((values.array() > std::max(tolerance, n.noise) * values[0]).count());
 }
 
-// qhull's state and what it says, given back whatever happens
+// qhull's state and its messages, freed in any case. It reports its progress among them, which is
+// where it can be stopped: what is thrown there passes through frames of C that own nothing but
+// qhull's memory, as its own errors do by longjmp.
 class Qhull {
  public:
-  Qhull() : said_(open_memstream(&text_, &length_)) {
+  Qhull() : said_(fopencookie(this, "w", {nullptr, &Qhull::take_message, nullptr, nullptr})) {
     if (!said_) fail(ErrorKind::limit, "convex_hull: no memory for qhull's messages");
+    std::setvbuf(said_, nullptr, _IONBF, 0);
     qh_zero(&state, said_);
   }
   ~Qhull() {
@@ -65,7 +68,6 @@ class Qhull {
     int pieces = 0, bytes = 0;
     qh_memfreeshort(&state, &pieces, &bytes);
     std::fclose(said_);
-    std::free(text_);
   }
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
@@ -76,17 +78,22 @@ class Qhull {
     return qh_new_qhull(&state, static_cast<int>(points.rows()), static_cast<int>(points.cols()),
                         points.data(), False, command.data(), nullptr, said_) == qh_ERRnone;
   }
-  std::string first_line() {
-    std::fflush(said_);
-    const std::string all = text_ ? text_ : "";
-    return all.substr(0, all.find('\n'));
+  /// The first line of its errors, "QH6154 ...".
+  std::string error() const {
+    const size_t begin = text_.find("QH");
+    return begin == std::string::npos ? "" : text_.substr(begin, text_.find('\n', begin) - begin);
   }
 
   qhT state{};
 
  private:
-  char* text_ = nullptr;
-  size_t length_ = 0;
+  static ssize_t take_message(void* qhull, const char* text, size_t size) {
+    check_stop();
+    static_cast<Qhull*>(qhull)->text_.append(text, size);
+    return static_cast<ssize_t>(size);
+  }
+
+  std::string text_;
   FILE* said_;
 };
 
@@ -123,15 +130,15 @@ Hull convex_hull(const Eigen::MatrixXd& points) {
   if (!hull.full()) return hull;
 
   // Qt: simplices; FA: area and volume; Pp: no warning about precision;
-  // Qs: the widest first simplex
+  // Qs: the widest first simplex; TF: a report every so many facets
   std::string refusal;
-  for (const char* options : {"qhull Qt FA Pp", "qhull Qt FA Pp Qs"}) {
+  for (const char* options : {"qhull Qt FA Pp TF500", "qhull Qt FA Pp TF500 Qs"}) {
     Qhull qhull;
     if (qhull.run(n.points, options)) {
       read_facets(&qhull.state, n, hull);
       return hull;
     }
-    refusal = qhull.first_line();
+    refusal = qhull.error();
   }
   fail(ErrorKind::internal, "convex_hull: qhull refuses {} points in {} dimensions: {}",
        points.cols(), hull.dimension, refusal);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 using Eigen::Matrix3d;
@@ -20,7 +22,9 @@ MassProperties solid_mass(const Mesh& mesh) {
   double volume = 0;
   Vector3d first = Vector3d::Zero();
   Matrix3d second = Matrix3d::Zero();
+  StopCheck check(1 << 14);
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    check();
     auto c = mesh.corners(static_cast<int>(i));
     for (Vector3d& p : c) p -= apex;
     const double v = c[0].dot(c[1].cross(c[2])) / 6;

@@ -9,6 +9,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/hash.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -29,6 +30,7 @@ class ByVertex {
   explicit ByVertex(size_t vertices) : start_(vertices + 1, 0) {}
 
   void add(int vertex, int one, int other) {
+    check_();
     items_.push_back({vertex, static_cast<uint64_t>(one) << 32 | static_cast<uint32_t>(other)});
     ++start_[static_cast<size_t>(vertex) + 1];
   }
@@ -40,6 +42,7 @@ class ByVertex {
     std::vector<size_t> next(start_.begin(), start_.end() - 1);
     for (const auto& [vertex, number] : items_) sorted[next[vertex]++] = number;
     for (size_t v = 0; v + 1 < start_.size(); ++v) {
+      check_();
       const std::span<uint64_t> here(sorted.data() + start_[v], start_[v + 1] - start_[v]);
       std::sort(here.begin(), here.end());
       visit(here);
@@ -49,6 +52,7 @@ class ByVertex {
  private:
   std::vector<size_t> start_;
   std::vector<std::pair<int, uint64_t>> items_;
+  StopCheck check_{1 << 14};
 };
 
 void count_edges(const Mesh& mesh, MeshFaults& faults, const Progress& progress) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/geometry/query/placement.h"
 #include "clench/geometry/query/queries.h"
 
@@ -21,8 +22,11 @@ std::vector<TrianglePair> pairs_within(const Shape& a, const Shape& b, const Pos
     return uint64_t{static_cast<uint32_t>(pair.triangle_a)} << 32 |
            static_cast<uint32_t>(pair.triangle_b);
   };
-  std::sort(near.begin(), near.end(),
-            [&](const NearPair& x, const NearPair& y) { return key(x) < key(y); });
+  StopCheck check(1 << 16);
+  std::sort(near.begin(), near.end(), [&](const NearPair& x, const NearPair& y) {
+    check();
+    return key(x) < key(y);
+  });
   std::vector<TrianglePair> out;
   out.reserve(near.size());
   placement.measure(near, [&](const NearPair& pair, const Closest& c) {

@@ -2,6 +2,7 @@
 #include <limits>
 #include <vector>
 
+#include "clench/base/watched.h"
 #include "clench/geometry/tree/box_lanes.h"
 #include "clench/geometry/tree/frame_boxes.h"
 #include "clench/geometry/tree/precision.h"
@@ -15,6 +16,8 @@ namespace {
 // so many pairs are judged at once, as soon as a leaf is done: fewer would leave lanes idle, more
 // would let the limit wait
 constexpr int patience = 4;
+
+constexpr uint32_t tasks_between_checks = 4096;
 
 template <class F>
 class PairWalk {
@@ -78,9 +81,11 @@ class PairWalk {
     Task stack[16 * deepest_tree];
     int height = 0;
     stack[height++] = {std::numeric_limits<Real>::lowest(), 0, 0};
+    StopCheck check(tasks_between_checks);
     while (height > 0) {
       const Task task = stack[--height];
       if (task.bound > limit_) continue;
+      check();
       const int child_a = child(a_, task.box_a), child_b = child(b_, task.box_b);
       const bool leaf_a = child_a & 1, leaf_b = child_b & 1;
       if (leaf_a && leaf_b) {

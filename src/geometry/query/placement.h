@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "clench/base/watched.h"
 #include "clench/geometry/query/triangle.h"
 #include "clench/geometry/tree/shape.h"
 #include "clench/geometry/tree/walk.h"
@@ -65,7 +66,9 @@ void Placement::measure(const std::vector<NearPair>& pairs, Take&& take) const {
   // most triangles come in several pairs
   int kept[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
   Corners kept_b[8];
+  StopCheck check(512);
   for (size_t begin = 0; begin < pairs.size(); begin += 8) {
+    check();
     const size_t count = std::min<size_t>(8, pairs.size() - begin);
     for (size_t i = 0; i < count; ++i) {
       const auto [triangle_a, triangle_b] = pairs[begin + i];

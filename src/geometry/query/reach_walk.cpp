@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clench/base/watched.h"
 #include "clench/geometry/tree/frame_boxes.h"
 #include "clench/geometry/tree/precision.h"
 #include "clench/geometry/tree/tree_pair.h"
@@ -17,6 +18,8 @@ namespace {
 
 // When one pair that meets is enough, so many are judged as soon as a leaf is done.
 constexpr int patience = 3;
+
+constexpr uint32_t tasks_between_checks = 4096;
 
 // ordered: what overlaps most first
 template <class F, bool ordered>
@@ -41,7 +44,9 @@ class ReachWalk {
     if (!(limit_ >= 0)) return false;
     int height = 0;
     stack_[height++] = {0, 0, 0, root(a_), root(b_), size_of(a_, 0, 0), size_of(b_, 0, 0)};
+    StopCheck check(tasks_between_checks);
     while (height > 0) {
+      check();
       const Task task = stack_[--height];
       if ((task.child_a & task.child_b & 1) != 0) {
         if (judge_leaves(task, visit)) return true;

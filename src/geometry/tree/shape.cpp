@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/hash.h"
+#include "clench/base/watched.h"
 #include "clench/geometry/mesh/parts.h"
 #include "clench/geometry/tree/tree.h"
 
@@ -64,6 +65,7 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
   progress.check();
   for (const Triangle& t : shape->mesh_.triangles)
     for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
+  check_stop();
   shape->centre_ = shape->bounds_.centre();
   shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
   shape->convex_ = shape->closed() && is_convex(shape->mesh_);
@@ -71,6 +73,7 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
   progress.check();
   shape->find_parts();
   progress.check();
+  check_stop();
   Hasher hasher;
   for (const Eigen::Vector3d& v : shape->mesh_.vertices)
     for (const double x : v) hasher.add(x);

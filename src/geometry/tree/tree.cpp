@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
 #include <limits>
 #include <numeric>
-#include "clench/base/progress.h"
 
 #include "clench/base/convert.h"
+#include "clench/base/progress.h"
+#include "clench/base/watched.h"
 #include "clench/geometry/mesh/mesh.h"
 #include "clench/geometry/mesh/principal_axes.h"
 #include "clench/geometry/tree/lanes.h"
@@ -208,6 +208,7 @@ class TreeBuilder {
 
   // parts the items of a group.   returns where the second half begins
   int split(const Group& group) {
+    check_stop();
     Bounds centres;
     for (int i = group.begin; i < group.end; ++i) centres.add(items_[i].centre());
     const Vector3d scale = bin_count * centres.size().cwiseInverse();
@@ -253,6 +254,7 @@ class TreeBuilder {
     Matrix3d axes = Matrix3d::Identity();
     Bounds best = bounds_along(axes);
     const auto offer = [&](const Matrix3d& given) {
+      check_stop();
       // as they will be stored
       const Matrix3d turned = given.unaryExpr(&to_single);
       const Bounds bounds = bounds_along(turned);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "clench/base/watched.h"
 #include "clench/grasp/wrench/facet_complex.h"
 #include "clench/grasp/wrench/facet_plane.h"
 #include "clench/grasp/wrench/first_simplex.h"
@@ -78,6 +79,7 @@ class Growing {
 // alike.
 template <int D>
 double Growing<D>::support(const double* direction, double* point) {
+  check_stop();
   const double reach = set_.support(direction, point);
   if (reach < upper_) {
     upper_ = reach;

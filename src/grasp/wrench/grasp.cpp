@@ -7,6 +7,8 @@
 #include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
+#include "clench/grasp/wrench/max_space_edges.h"
 #include "clench/model/dof.h"
 
 namespace clench {
@@ -225,7 +227,16 @@ WrenchSpace wrench_space(const GraspSpec& grasp, const GraspSpaceOptions& option
                          .rho = options.rho.value_or(grasp.rho),
                          .p_OM = grasp.com};
   std::vector<UnitWrenches> contacts;
-  for (const PointContact& point : grasp.points) contacts.push_back(unit_wrenches(point, cone));
+  Eigen::Index edges = 0;
+  for (const PointContact& point : grasp.points) {
+    check_stop();
+    edges += contacts.emplace_back(unit_wrenches(point, cone)).edges.cols();
+    if (edges > max_space_edges)
+      fail(ErrorKind::limit,
+           "wrench space: expected at most {} edges of all contacts, got more of {} contacts of {} "
+           "edges; give fewer edges, or edges = \"exact\"",
+           max_space_edges, grasp.points.size(), cone.edges);
+  }
   return WrenchSpace(std::move(contacts), options.space);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 namespace {
@@ -96,6 +98,7 @@ struct Simplex {
 NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, double noise) {
   const int d = set.dimension();
   const auto reach = [&](const Eigen::VectorXd& direction) {
+    check_stop();
     Eigen::VectorXd point(d);
     set.support(direction.data(), point.data());
     return Eigen::VectorXd(point - place);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clench/base/random.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -111,6 +112,7 @@ double Slice::climb(const Eigen::VectorXd& goal, double stand_in) const {
   const int rows = fixed_ + 1;
   Eigen::VectorXd worth(rows), way(set_.dimension()), point(set_.dimension());
   for (int pivot = 0; pivot < max_pivots; ++pivot) {
+    check_stop();
     for (int k = 0; k < rows; ++k) worth[k] = stands_in_[k] ? stand_in : goal.dot(corners_.col(k));
     // what a point must be worth to gain: prices of the fixed coordinates and of weight
     const Eigen::VectorXd prices = inverse_.transpose() * worth;

@@ -5,6 +5,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/random.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -18,9 +19,11 @@ static std::vector<int> distinct(const Eigen::MatrixXd& points) {
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return std::pair(points(0, i), i) < std::pair(points(0, j), j); });
   std::vector<char> repeats(points.cols(), 0);
+  StopCheck check(1 << 12);
   for (size_t k = 0; k < order.size(); ++k) {
     if (repeats[order[k]]) continue;
     for (size_t l = k + 1; l < order.size(); ++l) {
+      check();
       if (points(0, order[l]) - points(0, order[k]) > same_point) break;
       if ((points.col(order[l]) - points.col(order[k])).cwiseAbs().maxCoeff() <= same_point)
         repeats[order[l]] = 1;

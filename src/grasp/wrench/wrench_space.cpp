@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/grasp/wrench/expanding_polytope.h"
 #include "clench/grasp/wrench/nearest_point.h"
@@ -34,6 +35,9 @@ constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 // A bracket wider than this is not good enough for a polytope: only the larger shifts of points
 // leave one.
 constexpr double poor = 3e-10;
+
+// The last digits of so many take long: whether the origin is inside is found without them.
+constexpr size_t many_wrenches = 10'000;
 
 // How near to the most a contact's answer must come to count as it.
 constexpr double carries = 1e-9;
@@ -171,6 +175,7 @@ const WrenchSpace::Prepared& WrenchSpace::prepared() const {
   // a power of two changes no digit
   int exponent = largest > 0 ? std::ilogb(largest) + 1 : 0;
   for (const UnitWrenches& contact : contacts_) {
+    check_stop();
     const auto add = [&](const auto& column) {
       double sum = 0;
       for (const int row : options_.coordinates) {
@@ -213,6 +218,7 @@ WrenchSupport WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
       numbers.push_back(common ? column[row] * scale : std::ldexp(column[row], -exponent));
   };
   for (const UnitWrenches& contact : contacts_) {
+    check_stop();
     ContactPart part;
     const double* start = numbers.data() + numbers.size();
     if (contact.round) {
@@ -244,6 +250,7 @@ Eigen::MatrixXd WrenchSpace::spanning() const {
     ++column;
   };
   for (const UnitWrenches& contact : contacts_) {
+    check_stop();
     for (const auto& wrench : contact.edges.colwise()) add(wrench);
     if (contact.round) {
       add(contact.round->axis);
@@ -310,10 +317,13 @@ bool WrenchSpace::is_force_closure(const Progress& progress) const {
   // each normal force at most one resists the same directions as their sum at most one
   const bool l1 = options_.norm == WrenchNorm::l1;
   const double inside = 2 * prepared().zero;
+  size_t wrenches = 0;
+  for (const UnitWrenches& contact : contacts_) wrenches += contact.edges.cols();
+  const double tolerance = wrenches > many_wrenches ? flat_tolerance : 0.5;
   Bracket b = bracket_ && l1 ? *bracket_
                              : bracket_of(l1 ? prepared().reach
                                              : reach_in(WrenchNorm::l1, prepared().exponent),
-                                          0.5, inside, progress);
+                                          tolerance, inside, progress);
   progress.check();
   if (b.outside) {
     if (l1) bracket_ = b, bracket_->tolerance = 0;

@@ -62,6 +62,7 @@ void InventorTokens::skip_blanks() {
 }
 
 InventorToken InventorTokens::next() {
+  check_();
   skip_blanks();
   InventorToken token{InventorToken::end, {}, line_, at_};
   if (at_ >= end_) return token;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -56,6 +57,7 @@ class InventorTokens {
   size_t at_ = 0, end_;
   int line_ = 1;
   bool vrml2_ = false;
+  StopCheck check_{1 << 12};  // of tokens
 };
 
 }  // namespace clench

@@ -8,6 +8,7 @@
 
 #include "clench/base/file.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/io/text/byte_writer.h"
 
 namespace clench {
@@ -16,12 +17,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr uint32_t lines_between_checks = 1 << 12;
+
 std::string obj_text(const Mesh& mesh) {
   std::string out = "# metres\n";
   const auto to = std::back_inserter(out);
-  for (const auto& p : mesh.vertices) fmt::format_to(to, "v {} {} {}\n", p.x(), p.y(), p.z());
-  for (const auto& t : mesh.triangles)
+  StopCheck check(lines_between_checks);
+  for (const auto& p : mesh.vertices) {
+    check();
+    fmt::format_to(to, "v {} {} {}\n", p.x(), p.y(), p.z());
+  }
+  for (const auto& t : mesh.triangles) {
+    check();
     fmt::format_to(to, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  }
   return out;
 }
 
@@ -57,7 +66,9 @@ std::string stl_bytes(const Mesh& mesh, const std::string& file) {
   std::string out = "metres, by clench";  // a header that begins with "solid" would be text
   out.resize(80, ' ');
   append_little_endian(out, static_cast<uint32_t>(mesh.triangles.size()));
+  StopCheck check(lines_between_checks);
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    check();
     const auto corners = mesh.corners(static_cast<int>(i));
     for (const double x : normal_of(corners)) append_little_endian(out, static_cast<float>(x));
     for (const auto& p : corners)
@@ -74,8 +85,15 @@ constexpr std::string_view written_endings[] = {".obj", ".off", ".ply", ".stl"};
 std::string off_text(const Mesh& mesh) {
   std::string out = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
   const auto to = std::back_inserter(out);
-  for (const auto& p : mesh.vertices) fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
-  for (const auto& t : mesh.triangles) fmt::format_to(to, "3 {} {} {}\n", t[0], t[1], t[2]);
+  StopCheck check(lines_between_checks);
+  for (const auto& p : mesh.vertices) {
+    check();
+    fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
+  }
+  for (const auto& t : mesh.triangles) {
+    check();
+    fmt::format_to(to, "3 {} {} {}\n", t[0], t[1], t[2]);
+  }
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -19,6 +20,7 @@ class Scanner {
   CsvRecord record() {
     CsvRecord out{.line = line_};
     while (true) {
+      check_();
       out.cells.push_back(text_.substr(at_).starts_with('"') ? quoted(out.line) : plain());
       if (done() || text_[at_] != ends_[0]) break;
       ++at_;
@@ -58,6 +60,7 @@ class Scanner {
   std::string ends_;  // of a cell: the separator first
   size_t at_ = 0;
   int line_ = 1;
+  StopCheck check_{1 << 10};  // of cells
 };
 
 }  // namespace

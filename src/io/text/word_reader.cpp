@@ -7,6 +7,7 @@ namespace clench {
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 bool WordReader::start_line() {
+  check_();
   if (next_ >= text_.size()) {
     at_ = end_ = text_.size();
     return false;
@@ -31,6 +32,7 @@ bool WordReader::next_line() {
 }
 
 std::string_view WordReader::word() {
+  check_();
   for (;;) {
     skip_blanks();
     if (at_ >= end_ || text_[at_] == '#') return {};

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -46,6 +47,7 @@ class WordReader {
   size_t at_ = 0, end_ = 0;  // what is left of the line
   size_t next_ = 0;          // where the line after it begins
   int line_ = 0;
+  StopCheck check_{1 << 12};  // of words and lines
 };
 
 }  // namespace clench

@@ -9,6 +9,7 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/suggest.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -93,7 +94,9 @@ std::vector<size_t> check_limits(const std::string& file, std::string_view text,
   std::vector<size_t> alone;
   int depth = 0;
   size_t at = 0, behind = 0;  // the last tag
+  StopCheck check(1 << 10);
   while ((at = text.find('<', at)) != std::string_view::npos) {
+    check();
     if (const size_t next = skip_other(text, at)) {
       check_entities(file, text, behind, at, alone);
       at = behind = next;
@@ -237,7 +240,9 @@ int XmlElement::integer(int low, int high) const {
 std::vector<double> XmlElement::numbers() const {
   std::vector<double> out;
   const std::string all = text();
+  StopCheck check(1 << 12);
   for (const auto word : split_words(all, ",")) {
+    check();
     const auto value = parse_number(word);
     if (!value) fail("{}: expected a number, got {}", excerpt(name()), in_quotes(word));
     out.push_back(*value);

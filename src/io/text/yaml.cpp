@@ -9,6 +9,7 @@
 #include <streambuf>
 
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -76,6 +77,7 @@ class TreeBuilder : public YAML::EventHandler {
     take(std::move(done));
   }
   void take(YamlNode value) {
+    check_();
     if (open_.empty()) {
       root = std::move(value);
       return;
@@ -97,6 +99,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   const std::string& file_;
   std::vector<Open> open_;
+  StopCheck check_{64};  // of nodes
 };
 
 // a text as a stream, not copied

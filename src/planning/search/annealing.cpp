@@ -6,6 +6,7 @@
 #include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/model/find.h"
 
 namespace clench {
@@ -177,6 +178,7 @@ int Annealing::run(int count, const Progress& progress) {
   int taken = 0;
   for (int stuck = 0; taken < count && stuck < max_stuck;) {
     progress.check();
+    check_stop();
     if (take_step())
       ++taken, stuck = 0;
     else

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -35,7 +36,11 @@ void run_together(std::span<Share> shares, int threads, const Progress& progress
   };
   std::vector<std::jthread> workers;
   const size_t most = std::min<size_t>(threads, shares.size());
-  for (size_t t = 1; t < most; ++t) workers.emplace_back(work);
+  for (size_t t = 1; t < most; ++t)
+    workers.emplace_back([&] {
+      const Watched watched(progress);
+      work();
+    });
   for (size_t i = 0; i < shares.size(); ++i)
     if (!elsewhere(i)) run(i);
   work();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -83,12 +84,14 @@ std::array<Part, 2> cut(Part part, const std::vector<Shade>& all) {
 
 Palette find_palette(std::span<const Picture> frames) {
   std::vector<Shade> all(shades);
-  for (const Picture& frame : frames)
+  for (const Picture& frame : frames) {
+    check_stop();
     for (size_t i = 0; i < frame.pixels.size(); i += 3) {
       Shade& shade = all[shade_of(&frame.pixels[i])];
       ++shade.count;
       for (int c = 0; c < 3; ++c) shade.sum[c] += frame.pixels[i + c];
     }
+  }
   std::vector<int> used;
   for (int shade = 0; shade < shades; ++shade)
     if (all[shade].count > 0) used.push_back(shade);
@@ -159,6 +162,7 @@ std::string gif_bytes(std::span<const Picture> frames, std::span<const int> dela
   put_repeat_forever(file.get());
   std::vector<GifByteType> row(static_cast<size_t>(width));
   for (size_t i = 0; i < frames.size(); ++i) {
+    check_stop();
     const GraphicsControlBlock control{DISPOSE_DO_NOT, false, std::clamp(delays[i], 0, 65535),
                                        NO_TRANSPARENT_COLOR};
     GifByteType bytes[4];

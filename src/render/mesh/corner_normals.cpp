@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 namespace {
 
@@ -33,7 +35,9 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
   const int count = static_cast<int>(triangles.size());
   std::vector<Eigen::Vector3d> faces(count);
   std::vector<int> first(vertices.size() + 1, 0);
+  StopCheck check(1 << 12);
   for (int i = 0; i < count; ++i) {
+    check();
     faces[i] = face_normal(vertices, triangles[i]);
     for (const int v : triangles[i]) ++first[v + 1];
   }
@@ -42,15 +46,18 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
   for (size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
   std::vector<int> around(3 * triangles.size()), next(first.begin(), first.end() - 1);
   std::vector<double> weights(3 * triangles.size());
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
+    check();
     for (int k = 0; k < 3; ++k) {
       around[next[triangles[i][k]]++] = i;
       weights[3 * i + k] = angle_at(vertices, triangles[i], k);
     }
+  }
 
   const double least = std::cos(crease);
   std::vector<std::array<Eigen::Vector3f, 3>> normals(count);
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
+    check();
     for (int k = 0; k < 3; ++k) {
       const int v = triangles[i][k];
       Eigen::Vector3d sum = faces[i];
@@ -68,6 +75,7 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
       const double length = sum.norm();
       normals[i][k] = (length > 1e-9 ? Eigen::Vector3d(sum / length) : faces[i]).cast<float>();
     }
+  }
   return normals;
 }
 

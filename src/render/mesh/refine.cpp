@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 namespace {
 
@@ -57,8 +59,11 @@ std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float l
   while (longest < 4 && count_after(corners, longest) > static_cast<double>(most)) longest *= 1.5f;
   std::vector<Corner> out;
   out.reserve(corners.size());
-  for (size_t i = 0; i < corners.size(); i += 3)
+  StopCheck check(1 << 12);
+  for (size_t i = 0; i < corners.size(); i += 3) {
+    check();
     split(corners[i], corners[i + 1], corners[i + 2], longest, out);
+  }
   return out;
 }
 
@@ -69,7 +74,9 @@ void append_shared(const std::vector<Corner>& corners, std::vector<Corner>& shar
   const auto compare = [&](uint32_t a, uint32_t b) {
     return std::memcmp(&corners[a], &corners[b], sizeof(Corner));
   };
+  StopCheck check(1 << 14);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    check();
     const int c = compare(a, b);
     return c != 0 ? c < 0 : a < b;
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "clench/base/watched.h"
 #include "clench/render/mesh/corner_normals.h"
 #include "clench/render/mesh/outward.h"
 
@@ -18,7 +19,9 @@ void share_corners(const std::vector<Eigen::Vector3d>& vertices,
   const size_t base = corners.size();
   std::vector<Paint> paints;
   for (const auto& color : colors) paints.push_back(make_paint(color, 1));
+  StopCheck check(1 << 12);
   for (size_t i = 0; i < triangles.size(); ++i) {
+    check();
     if (normals[i][0].isZero()) continue;
     const Paint& paint = paints[paints.size() == 1 ? 0 : i];
     for (int k = 0; k < 3; ++k) {

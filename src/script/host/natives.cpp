@@ -2,8 +2,11 @@
 
 #include "clench/base/suggest.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/deadline.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/watching.h"
 
 namespace clench {
 
@@ -33,10 +36,27 @@ static int suggest(lua_State* L) {
   return push(L, known.empty() ? "" : did_you_mean(string_at(L, 1), known));
 }
 
+using DeadlinePtr = std::shared_ptr<Deadline>;
+
+// deadline:close(): ends it.   returns  has the time passed?
+static int close_deadline(lua_State* L) { return push(L, self<DeadlinePtr>(L)->close()); }
+
+static const Entry deadline_methods[] = {{"close", guarded<close_deadline>, ""}};
+static const Class deadline_class{
+    .name = "deadline", .variable = "deadline", .doc = "", .methods = deadline_methods};
+template <>
+inline constexpr const Class* script_class<DeadlinePtr> = &deadline_class;
+
+// deadline(seconds): after so much time what runs in the engine fails as by Ctrl-C, once
+static int deadline(lua_State* L) {
+  return push_object(L, std::make_shared<Deadline>(bar_of(L), check_number(L, 1, "seconds")));
+}
+
 void add_natives(lua_State* L) {
   static constexpr luaL_Reg natives[] = {{"clench.raise", guarded<raise>},
                                          {"clench.script_line", script_line},
                                          {"clench.suggest", guarded<suggest>},
+                                         {"clench.deadline", guarded<deadline>},
                                          {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);

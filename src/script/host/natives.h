@@ -1,5 +1,5 @@
 // What the standard library requires of the engine, as it does its own files: clench.raise,
-// clench.script_line, clench.suggest.
+// clench.script_line, clench.suggest, clench.deadline.
 #pragma once
 #include <lua.hpp>
 

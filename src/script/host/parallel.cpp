@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/parcel.h"
 #include "clench/script/host/state.h"
@@ -211,6 +212,7 @@ class Crew {
   bool broken() const { return !broken_.empty(); }
 
   void run(Worker& worker) {
+    const Watched watched{Progress(bar_of(worker.state.lua()))};
     TaskError failure;
     const bool ready = make_ready(worker, task_, failure);
     for (size_t i; ready && !ended_ && (i = next_++) < outcomes_.size();) {

@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/host/modules.h"
 #include "clench/script/host/open.h"
@@ -284,6 +285,7 @@ static bool push_strings(lua_State* L, const std::vector<std::string>& strings) 
 // below is a chunk, or the message of why there is none
 State::Result State::run_loaded(int status, const std::vector<std::string>& arguments) {
   const int base = lua_gettop(L_) - 1;
+  const Watched watched{Progress(bar_)};
   if (status != LUA_OK) return finish(status, base);
   lua_pushcfunction(L_, explain);
   lua_insert(L_, base + 1);
@@ -364,6 +366,7 @@ static int call_session(lua_State* L) {
 
 State::Line State::evaluate(const std::string& input, int line) {
   const int base = lua_gettop(L_), handler = base + 1, chunk = base + 2;
+  const Watched watched{Progress(bar_)};
   lua_pushcfunction(L_, explain);
   lua_pushcfunction(L_, call_session);
   lua_pushliteral(L_, "compile");

@@ -3,6 +3,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/script/lua/json.h"
 
 namespace clench {
@@ -53,6 +54,7 @@ class Reader {
   }
 
   void value(int depth) {
+    check_();
     if (depth > json_depth) complain(at_, fmt::format("nested deeper than {} levels", json_depth));
     if (!lua_checkstack(L_, 8)) complain(at_, "too many values on Lua's stack");
     blanks();
@@ -208,6 +210,7 @@ class Reader {
   std::string_view text_;
   size_t at_ = 0;
   std::string scratch_;
+  StopCheck check_{1 << 10};  // of values
 };
 
 }  // namespace

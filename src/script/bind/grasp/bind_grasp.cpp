@@ -337,7 +337,7 @@ Can it resist every wrench?
 > grasp:is_force_closure()  --> true)"},
     {"wrench_space", guarded<grasp_space>, R"(
 Its wrench space about the object's centre of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
-in some of the coordinates "fx" to "tz". The same options give the same space, which keeps what it has found.
+in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
 @param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
 @return wrench_space
 > grasp:wrench_space().rank  --> 6

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/suggest.h"
+#include "clench/grasp/wrench/max_space_edges.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -85,8 +86,6 @@ static UnitWrenches read_contact(lua_State* L, int i, const What& what, const Co
   }
   return {columns_of(read_rows(L, i, what, 6)), {}};
 }
-
-static constexpr Eigen::Index max_space_edges = 100'000;  // each question goes through all
 
 static int new_wrench_space(lua_State* L) {
   Table options(L, 1);

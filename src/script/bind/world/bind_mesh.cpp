@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "clench/base/watched.h"
 #include "clench/io/mesh/write_mesh.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -58,7 +59,9 @@ static int sample(lua_State* L) {
   }
   if (!(sum > 0)) fail("{}: the mesh has no area", subject(L));
   push_list(L, count);
+  StopCheck check(1 << 12);
   for (int i = 1; i <= count; ++i) {
+    check();
     const double at = random.uniform(0, sum);
     const auto t = std::min<std::ptrdiff_t>(std::ranges::upper_bound(areas, at) - areas.begin(),
                                             std::ssize(areas) - 1);

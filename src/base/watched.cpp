@@ -1,0 +1,7 @@
+#include "clench/base/watched.h"
+
+namespace clench {
+
+thread_local constinit Watched* Watched::innermost_ = nullptr;
+
+}  // namespace clench
