@@ -56,14 +56,35 @@ bool exerts_nothing(const ActuatorSpec& actuator) {
   return actuator.gear == 0 || (actuator.gain == 0 && no_bias) || actuator.kind == "damper";
 }
 
+// An actuator on a tendon, whose coefficients are known by the largest effort that they give the DOF
+// alone: they count as positive, so that a range on one side of 0 stays there.
+DriveTerm on_tendon(const ActuatorSpec& actuator, double max_effort) {
+  DriveTerm law;
+  if (actuator.law_known) law.gain = actuator.gain, law.bias = actuator.bias;
+  if (actuator.law_known && actuator.control_range) law.control = *actuator.control_range;
+  if (actuator.force_range) law.force = *actuator.force_range;
+  const EffortRange range = law.is_servo() ? range_of(law.force) : by_control(law, 0);
+  const double most = std::max(-range.low, range.high);
+  if (range.is_zero()) return {.reach = 0};
+  const double scale = max_effort > 0 && most < none ? max_effort / most : std::abs(actuator.gear);
+  // the larger end has the limit of the DOF, where there is one
+  const auto end = [&](double force) {
+    const bool is_larger = std::abs(force) >= most * (1 - 1e-12);
+    return is_larger && max_effort > 0 ? std::copysign(none, force) : force * scale;
+  };
+  DriveTerm out;
+  out.reach = actuator.gear < 0 ? -1 : 1;
+  out.force = {end(range.low), end(range.high)};
+  return out;
+}
+
 DriveTerm term_of(const Robot& robot, const ActuatorSpec& actuator) {
   DriveTerm term;
   if (exerts_nothing(actuator)) {
     term.reach = 0;
     return term;
   }
-  // how joints share the length of a tendon is in DofSpec::max_effort alone
-  if (actuator.joint.empty()) return term;
+  if (actuator.joint.empty()) return on_tendon(actuator, robot.dofs[actuator.dof].max_effort);
   term.reach = actuator.gear * ratio_of(robot, actuator.joint, actuator.dof);
   if (actuator.force_range) term.force = *actuator.force_range;
   if (!actuator.law_known) return term;

@@ -48,9 +48,9 @@ struct DofDrive {
   bool acts() const;
 };
 
-/// The drive of a DOF; of one that is not driven, that of a motor which a script adds. Actuators on
-/// tendons and of unknown law count by their force limits alone; one whose gear is 0, or whose gain
-/// and bias are 0, exerts nothing.
+/// The drive of a DOF; of one that is not driven, that of a motor which a script adds. Actuators of
+/// unknown law count by their force limits alone; so do those on tendons, whose coefficients count as
+/// positive. One whose gear is 0, or whose gain and bias are 0, exerts nothing.
 DofDrive drive_of(const Robot& robot, int dof);
 
 }  // namespace clench

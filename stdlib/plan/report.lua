@@ -80,9 +80,11 @@ local function nothing_closes(job)
   return ("no DOF of %s closes: nothing in its file says so or lets it be guessed; the option close of its reader names those that do"):format(job.hand.name)
 end
 
--- does no motor press, where verified grasps need force?
+-- which joints close without force, where verified grasps need it
 local function nothing_presses(job, told)
-  if told.verify then return drives.no_force(job.hand) end
+  if not told.verify then return end
+  local missing = drives.missing(job.hand)
+  return drives.no_force(job.hand) or missing and ("joints that close %s exert no force: %s"):format(job.hand.name, missing)
 end
 
 local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in which the line to the one opposite lies

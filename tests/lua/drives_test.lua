@@ -5,19 +5,20 @@ local verification = require "clench.plan.verification"
 local weight = 9.81 * 0.2  -- of the block [N]
 
 -- two jaws that slide towards each other, of actuators that are given as elements of MJCF, %s the joint
-local function gripper(t, actuator)
+-- second: of j2, where it has another one
+local function gripper(t, actuator, second)
   local jaw = [[<body name="f%d" pos="0 %g 0.06"><inertial pos="0 0 0" mass="0.1" diaginertia="0.0001 0.0001 0.0001"/>
     <joint name="j%d" type="slide" axis="0 %d 0" range="0 0.04"/><geom type="box" size="0.01 0.005 0.05"/></body>]]
-  local drive = actuator and "<actuator>" .. actuator:format "j1" .. actuator:format "j2" .. "</actuator>" or ""
+  local drive = actuator and "<actuator>" .. actuator:format "j1" .. (second or actuator):format "j2" .. "</actuator>" or ""
   return test.path(".xml", [[<mujoco model="grip"><compiler angle="radian"/><worldbody><body name="palm">
     <inertial pos="0 0 0" mass="0.5" diaginertia="0.001 0.001 0.001"/><geom type="box" size="0.02 0.08 0.01"/>]]
     .. jaw:format(1, -0.06, 1, 1) .. jaw:format(2, 0.06, 2, -1) .. "</body></worldbody>" .. drive .. "</mujoco>")
 end
 
 -- the gripper closed about a block of 50 mm between its jaws; grasp
-local function closed(t, actuator)
+local function closed(t, actuator, second)
   local world = clench.world()
-  local hand = world:add_robot(gripper(t, actuator))
+  local hand = world:add_robot(gripper(t, actuator, second))
   local block = world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {mass = 0.2, pose = {xyz = {0, 0, 0.08}}})
   hand:autograsp()
   return hand, block, clench.grasp(hand, block)
@@ -107,6 +108,13 @@ test("a search that cannot verify names the joints without a motor", function(t)
     t.equal(#run.grasps, 0)
     t.ok(tostring(run.report):find("why: no grasp of grip can be verified, for it exerts no force: " .. words, 1, true), tostring(run.report))
   end
+end)
+
+test("a search without success names the one joint that closes without a motor", function(t)
+  local hand, block = closed(t, [[<motor joint="%s" ctrlrange="-20 20"/>]], hopeless.gear0)
+  local run = clench.plan.sample {hand = hand, object = block, candidates = 10, refine = 0}
+  t.equal(#run.grasps, 0)
+  t.ok(tostring(run.report):find("why: joints that close grip exert no force: no motor drives j2", 1, true), tostring(run.report))
 end)
 
 test("a hand without motors does not close by them", function(t)

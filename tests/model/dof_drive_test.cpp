@@ -102,10 +102,23 @@ TEST_CASE("actuators of unknown law and those on tendons count by their limits")
   ActuatorSpec tendon;
   tendon.tendon = "split", tendon.dof = 0, tendon.force_range = {{-5, 5}};
   CHECK(drive_with({tendon}, 2).at_rest(0) == EffortRange{-2, 2});
-  tendon.gear = 0;
-  World world;
-  const auto id = world.add_robot(slider({tendon}, 2), {});
-  CHECK_FALSE(world.robot(id).dofs[0].driven);
+  tendon.force_range = {{-5, 0}};
+  CHECK(drive_with({tendon}, 2).at_rest(0) == EffortRange{-2, 0});
+  CHECK(drive_with({tendon}).at_rest(0) == EffortRange{-5, 0});
+  tendon.gear = -2;
+  CHECK(drive_with({tendon}).at_rest(0) == EffortRange{0, 10});
+  tendon.force_range = {}, tendon.control_range = {{-1, 3}};
+  CHECK(drive_with({tendon}).at_rest(0) == EffortRange{-6, 2});
+  tendon.bias = {0, -1, 0};
+  CHECK(drive_with({tendon}).at_rest(0) == EffortRange{-none, none});
+  ActuatorSpec no_gear = tendon, no_control = tendon;
+  no_gear.gear = 0;
+  no_control.bias = {0, 0, 0}, no_control.control_range = {{0, 0}};
+  for (const ActuatorSpec& dead : {no_gear, no_control}) {
+    World world;
+    const auto id = world.add_robot(slider({dead}, 2), {});
+    CHECK_FALSE(world.robot(id).dofs[0].driven);
+  }
 }
 
 TEST_CASE("efforts of several actuators add up, and a limit of the DOF bounds their sum") {
