@@ -57,11 +57,13 @@ local function of_primitives(path, options)
 end
 
 local function of_dofs(robot)
-  local dofs = {}
+  local dofs, ranges = {}, robot.effort_ranges
+  local function if_limited(effort) return math.abs(effort) < math.huge and effort or nil end
   for i, info in ipairs(robot.dof_info) do
     local low, high = table.unpack(robot.dof_limits[i])
     dofs[i] = {name = info.name, kind = info.kind, low = low, high = high, value = robot.dofs[i], endless = info.endless or nil,
-               closing = info.default_velocity, max_effort = info.max_effort}
+               closing = info.default_velocity, max_effort = info.max_effort, driven = info.driven,
+               effort_low = if_limited(ranges[i][1]), effort_high = if_limited(ranges[i][2])}
   end
   return dofs
 end

@@ -175,6 +175,10 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       "times the object's weight that all fingers together press with at most; default: 10")
       ->type_name("N")
       ->check(positive);
+  add("--max-effort",
+      "of motors for which the hand's file gives no limit [N or N m]; default: none")
+      ->type_name("N")
+      ->check(positive);
   add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
       ->type_name("FILE")
       ->check(named);

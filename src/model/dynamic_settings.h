@@ -29,6 +29,8 @@ struct RobotDynamics {
   std::vector<std::optional<Gains>> gains;  ///< in place of those of its file; empty: none
   /// do joints leave breakaway DOFs? else these drive them rigidly, as in the original's dynamics
   bool breakaway = false;
+  /// of motors without a limit, > 0 [N m or N]; empty: none
+  std::optional<double> max_effort = {};
 
   bool operator==(const RobotDynamics&) const = default;
 };

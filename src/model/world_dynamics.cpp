@@ -11,6 +11,8 @@ namespace clench {
 
 void World::set_dynamic_settings(DynamicSettings settings) {
   check(time_step_rule, settings.step, "world");
+  for (const auto& [id, robot] : settings.robots)
+    if (robot.max_effort) check(positive_rule.called("largest effort"), *robot.max_effort, "robot");
   // what is as it was at first is no setting
   for (auto& [id, robot] : settings.robots)
     if (std::ranges::none_of(robot.gains, [](const auto& gains) { return gains.has_value(); }))

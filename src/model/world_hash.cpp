@@ -83,6 +83,7 @@ static void add(Hasher& h, const World& world, const DynamicSettings& settings) 
       flag(gains.has_value());
       if (gains) add(h, *gains);
     }
+    if (robot.max_effort) h.add(*robot.max_effort);
   }
   for (const auto& [id, velocity] : settings.surface_velocities)
     h.add(world.body(id).name), add(h, velocity);

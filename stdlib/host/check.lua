@@ -74,6 +74,15 @@ function print_kind.body(body)
   if body.tracker then print(("  kept, without effect: position sensor %d"):format(body.tracker)) end
 end
 
+-- efforts of a DOF's motor
+local function effort_words(dof)
+  local unit, low, high = dof.unit == "m" and "N" or "N m", dof.effort_low, dof.effort_high
+  if not dof.driven then return "no motor" end
+  if not low and not high then return "no limit" end
+  if low and high and low == -high then return quantity(high, unit) end
+  return ("%s to %s"):format(low and quantity(low, unit) or "no limit", high and quantity(high, unit) or "no limit")
+end
+
 function print_kind.robot(robot)
   local links = {body_row(robot.base)}
   for _, chain in ipairs(robot.chains) do
@@ -88,7 +97,7 @@ function print_kind.robot(robot)
     local function limit(value) return dof.endless and "no limit" or quantity(value, dof.unit) end
     rows[#rows + 1] = {tostring(i), dof.name or "", dof.kind, limit(dof.low), limit(dof.high),
       quantity(dof.value, dof.unit), dof.closing > 0 and "up" or dof.closing < 0 and "down" or "not",
-      dof.max_effort > 0 and quantity(dof.max_effort, dof.unit == "m" and "N" or "N m") or "no limit"}
+      effort_words(dof)}
   end
   columns(rows, "  ")
   rows = {{"chain", "from", "joint", "kind", "DOF", "ratio", "from", "to"}}

@@ -66,6 +66,7 @@ end
 local function check_words(given)
   if given.verify and given["no-verify"] then fail "expected --verify or --no-verify, got both" end
   if given["force-ratio"] and given["no-verify"] then fail "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for none" end
+  if given["max-effort"] and given["no-verify"] then fail "--max-effort limits motors in load margins, and --no-verify asks for none" end
   if given["keep-lost"] and not given.verify then fail "--keep-lost says what becomes of grasps that --verify loses, and there is no --verify" end
 end
 
@@ -79,7 +80,7 @@ local function search(root, folder, package, unit, strict, ...)
   job.run = clench.plan.sample {
     hand = job.hand, object = job.object, count = job.count or 1000000, seconds = tonumber(given.seconds),
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
-    contacts = given.contacts,
+    contacts = given.contacts, max_effort = tonumber(given["max-effort"]),
     verify = given["no-verify"] == nil and {shake = given.verify ~= nil, keep_lost = given["keep-lost"] ~= nil,
                                                force_ratio = tonumber(given["force-ratio"])},
     on_grasp = function(grasp) job.files:add(grasp) end,

@@ -5,7 +5,7 @@ local chain = require "clench.plan.chain"
 local closing = require "clench.plan.closing"
 
 --- Simulated annealing: one chain from a start to small energies; then the hand closes from each of the best states.
----@param options {hand: robot, object: body, energy?: string|energy|function, steps?: integer, seconds?: number, seed?: integer, schedule?: string|table, best?: table, grasp?: table, world?: world, threads?: integer}  energy: "contact" by default; steps: 70000; and what clench.annealing takes: position, posture, limits, jumps, values, targets, fixed, start, variables, collisions; grasp: options of clench.grasp
+---@param options {hand: robot, object: body, energy?: string|energy|function, steps?: integer, seconds?: number, seed?: integer, schedule?: string|table, best?: table, grasp?: table, world?: world, threads?: integer, max_effort?: number}  energy: "contact" by default; steps: 70000; and what clench.annealing takes: position, posture, limits, jumps, values, targets, fixed, start, variables, collisions; grasp: options of clench.grasp; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table} # grasps in the order of their energies, each with its `pregrasp`, and `info.energy`, `info.step`, `info.seed`; report: steps, first, best, steps_per_second, accepted, in_collision, ..., trace, causes; chart() draws the best energy over the steps
 --- > run = clench.plan.anneal {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.best < run.report.first  --> 500, true

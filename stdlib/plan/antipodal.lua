@@ -6,7 +6,7 @@ local opposition = require "clench.plan.opposition"
 
 --- For two jaws: a point of the surface, the one that the inward normal meets opposite, and the jaws about both, from any
 --- side across that line.
----@param options {hand: robot, object: body, count?: integer, candidates?: integer, seconds?: number, seed?: integer, threads?: integer, friction?: number, width?: number, standoff?: number, distance?: number, on_grasp?: function, grasp?: table, world?: world}  count: the best of those that were found when there were as many, 100; candidates: at most, 20000; friction: the cones in which the line lies, 0.5; width: between the points at most, 0.2 [m]; standoff: before the grasp, 0.1 [m]
+---@param options {hand: robot, object: body, count?: integer, candidates?: integer, seconds?: number, seed?: integer, threads?: integer, friction?: number, width?: number, standoff?: number, distance?: number, on_grasp?: function, grasp?: table, world?: world, max_effort?: number}  count: the best of those that were found when there were as many, 100; candidates: at most, 20000; friction: the cones in which the line lies, 0.5; width: between the points at most, 0.2 [m]; standoff: before the grasp, 0.1 [m]; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
 --- > world = clench.world()
 --- > jaws = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"

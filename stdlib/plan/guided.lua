@@ -35,7 +35,7 @@ end
 --- Annealing that is guided by what virtual contacts could hold, and, from each promising state, a child that looks for
 --- the best closed grasp near it. Children run beside the parent and are merged at fixed steps, so that any number of
 --- threads gives the same grasps.
----@param options {hand: robot, object: body, steps?: integer, seconds?: number, seed?: integer, threads?: integer, children?: integer, child_steps?: integer, energy?: string|energy|function, child_energy?: string|energy|function, count?: integer, world?: world}  steps: of the parent, 70000; children: at most so many at once, 1; child_steps: 200; energy: "guided_potential_quality"; child_energy: "strict_autograsp" without its volume; and as of plan.anneal
+---@param options {hand: robot, object: body, steps?: integer, seconds?: number, seed?: integer, threads?: integer, children?: integer, child_steps?: integer, energy?: string|energy|function, child_energy?: string|energy|function, count?: integer, world?: world, max_effort?: number}  steps: of the parent, 70000; children: at most so many at once, 1; child_steps: 200; energy: "guided_potential_quality"; child_energy: "strict_autograsp" without its volume; and as of plan.anneal; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table} # grasps in force closure, the largest epsilon first
 --- > run = clench.plan.guided {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.seeds >= 0  --> 500, true

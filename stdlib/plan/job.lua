@@ -1,5 +1,6 @@
 --- What all planners are given: a hand, an object, and a world to move, which is a clone unless a script's function looks
 --- at the world itself.
+local drives = require "clench.drives"
 local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
@@ -209,6 +210,7 @@ return function(subject, given, own)
   job.grasp_options = read:raw "grasp" or {}
   if type(job.grasp_options) ~= "table" then read:expected("grasp", "a table of options of clench.grasp", job.grasp_options) end
   job.touch = touch.read(read, hand)
+  if read:raw "max_effort" ~= nil then job.max_effort = read:positive "max_effort" end
   for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
   if own then own(read, job) end
   read:done()
@@ -224,6 +226,8 @@ return function(subject, given, own)
   end
   job.hand, job.object = job.world:robot(hand.name), job.world:body(object.name)
   job.given_hand, job.given_object = hand, object
+  if job.max_effort then job.hand.max_effort = job.max_effort end
+  job.unlimited_efforts = drives.unlimited(job.hand)
   check_grasp_options(job)
   job.search = running[coroutine.running()]
   job.began = clench.clock()

@@ -51,7 +51,7 @@ local function read_states(read, hand)
 end
 
 --- Tries a given list of states, of another planner, hand or file: the hand closes from each.
----@param options {hand: robot, object: body, states: grasps|table, approach?: number, energy?: string|energy|function, count?: integer, seconds?: number, world?: world}  states: grasps, from their pregrasps, or {pose = of the hand in the object, dofs =} each; approach: to the first touch, at most so far [m]; by default as far as the grasp came from its pregrasp, else 0; energy: noted with each, measured before it closes
+---@param options {hand: robot, object: body, states: grasps|table, approach?: number, energy?: string|energy|function, count?: integer, seconds?: number, world?: world, max_effort?: number}  states: grasps, from their pregrasps, or {pose = of the hand in the object, dofs =} each; approach: to the first touch, at most so far [m]; by default as far as the grasp came from its pregrasp, else 0; energy: noted with each, measured before it closes; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table} # all in contact, the largest epsilon first
 --- > run = clench.plan.list {hand = hand, object = flask, states = {{pose = grasp.pose, dofs = grasp.dofs}, grasp}}
 --- > #run.grasps, run.report.candidates  --> 1, 2

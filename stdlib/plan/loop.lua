@@ -5,7 +5,7 @@ local chain = require "clench.plan.chain"
 local closing = require "clench.plan.closing"
 
 --- Annealing again and again: what a loop found is avoided by those that follow, so that they look elsewhere.
----@param options {hand: robot, object: body, energy?: string|energy|function, steps?: integer, loop_steps?: integer, seconds?: number, seed?: integer, max_energy?: number, count?: integer, world?: world}  energy: "guided_potential_quality" by default; steps: 70000 in all, loop_steps of each loop, 5000; max_energy: states above 10 are not kept; count: of grasps, any number by default; and as of plan.anneal
+---@param options {hand: robot, object: body, energy?: string|energy|function, steps?: integer, loop_steps?: integer, seconds?: number, seed?: integer, max_energy?: number, count?: integer, world?: world, max_effort?: number}  energy: "guided_potential_quality" by default; steps: 70000 in all, loop_steps of each loop, 5000; max_energy: states above 10 are not kept; count: of grasps, any number by default; and as of plan.anneal; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table}
 --- > run = clench.plan.loop {hand = hand, object = flask, steps = 600, loop_steps = 200, energy = "contact", max_energy = 500}
 --- > run.report.steps, run.report.loops  --> 600, 3

@@ -92,7 +92,7 @@ end
 
 --- A search that goes on while hand and object move: each `planner:search()` looks around where they are now, and what was
 --- found is ranked by how near it is to the hand. Nothing of the user's world is moved.
----@param options {hand: robot, object: body, energy?: string|energy, seed?: integer, grasp?: table, posture?: string, world?: world}  energy: "contact"
+---@param options {hand: robot, object: body, energy?: string|energy, seed?: integer, grasp?: table, posture?: string, world?: world, max_effort?: number}  energy: "contact"; max_effort: of motors without a limit [N m or N]
 ---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs to go on with, `tested`, `found`
 --- > planner = clench.plan.online {hand = hand, object = flask}
 --- > list = planner:search(200)

@@ -72,7 +72,7 @@ end
 
 --- An object as boxes, spheres, cylinders and cones, each approached from all sides (Miller, Knoop, Christensen and Allen
 --- 2003): the hand comes to the first touch, closes, and where that holds nothing once more from a step further back.
----@param options {hand: robot, object: body, primitives: string|table, density?: integer, preshapes?: table, thumb?: vec3, rule?: string, seconds?: number, threads?: integer, count?: integer, on_grasp?: function, grasp?: table, world?: world}  primitives: a file of clench.files.primitives, or such a list; density: 2; preshapes: {opposing = dofs, circle = dofs}, otherwise derived; thumb: where it is, across the approach, in the frame of the hand's base; rule: "corrected" (default), or "graspit" with the original's sizes of boxes and limits
+---@param options {hand: robot, object: body, primitives: string|table, density?: integer, preshapes?: table, thumb?: vec3, rule?: string, seconds?: number, threads?: integer, count?: integer, on_grasp?: function, grasp?: table, world?: world, max_effort?: number}  primitives: a file of clench.files.primitives, or such a list; density: 2; preshapes: {opposing = dofs, circle = dofs}, otherwise derived; thumb: where it is, across the approach, in the frame of the hand's base; rule: "corrected" (default), or "graspit" with the original's sizes of boxes and limits; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
 --- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
 --- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12

@@ -1,4 +1,5 @@
 --- What a planner did: counts by reason, best energy over its steps, and, where nothing was found, why.
+local drives = require "clench.drives"
 local facing = require "clench.plan.facing"
 local starts = require "clench.plan.starts"
 local touch = require "clench.plan.touch"
@@ -51,6 +52,8 @@ function Report:__tostring()
   if self.out_of_reach > 0 then add(lines, "%d more are out of the arm's reach", self.out_of_reach) end
   if self.alike > 0 then add(lines, "%d more were like one of these", self.alike) end
   if self.one_thread then add(lines, "an energy of the script ran on one thread") end
+  local unlimited = drives.unlimited_text(self.unlimited_efforts)
+  if unlimited then lines[#lines + 1] = unlimited end
   if self.stopped then lines[#lines + 1] = "interrupted: these are the grasps until then" end
   for _, cause in ipairs(self.causes) do lines[#lines + 1] = "why: " .. cause end
   return table.concat(lines, "\n")
@@ -75,6 +78,13 @@ local function nothing_closes(job)
     if info.default_velocity ~= 0 then return end
   end
   return ("no DOF of %s closes: nothing in its file says so or lets it be guessed; the option close of its reader names those that do"):format(job.hand.name)
+end
+
+-- which joints close without force, where verified grasps need it
+local function nothing_presses(job, told)
+  if not told.verify then return end
+  local missing = drives.missing(job.hand)
+  return drives.no_force(job.hand) or missing and ("joints that close %s exert no force: %s"):format(job.hand.name, missing)
 end
 
 local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in which the line to the one opposite lies
@@ -147,15 +157,16 @@ end
 ---@param told table  planner, grasps, alike, and counts
 return function(job, told)
   told.trace = told.trace or {}
+  told.unlimited_efforts = job.unlimited_efforts
   told.causes = {}
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
   if told.grasps == 0 and told.stopped then
-    told.causes[1] = too_weak(told)
+    told.causes[1] = nothing_presses(job, told) or too_weak(told)
   elseif told.grasps == 0 and told.late_start then
     told.causes[1] = told.late_start
   elseif told.grasps == 0 then
-    for _, cause in ipairs {nothing_closes(job) or false, told.no_start or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
+    for _, cause in ipairs {nothing_closes(job) or false, nothing_presses(job, told) or false, told.no_start or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end

@@ -1,7 +1,9 @@
 --- What plan.sample and plan.random share: random starts, tried over threads.
+local drives = require "clench.drives"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
+local script_line = require "clench.script_line"
 local starts = require "clench.plan.starts"
 
 ---@param name string  "sample"
@@ -18,9 +20,16 @@ return function(name, options, read_more)
     if own.on_grasp and type(own.on_grasp) ~= "function" then read:expected("on_grasp", "a function", own.on_grasp) end
     if read_more then read_more(read, own, job) end
   end)
+  local no_force = own.verify and drives.no_force(job.hand)
+  if no_force then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, no_force)) end
   own.approach = 2 * own.standoff
   local told = {planner = "plan." .. name}
-  local found = batch.try(job, told, job:prepare(starts.random, own), own)
+  local found = {}
+  if no_force and own.verify.min_load > 0 and drives.is_inert(job.hand) then
+    told.verify, told.candidates, told.rejected = own.verify, 0, {}
+  else
+    found = batch.try(job, told, job:prepare(starts.random, own), own)
+  end
   job:finish()
   return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
 end

@@ -8,7 +8,7 @@ local verdict = require "clench.study.motion.verdict"
 --- Load and time at which a hand loses an object. The hand presses as in study.shake; then a force at the object's centre of mass grows along each
 --- axis of the world in turn, from zero by `rate`, until the object is displaced by max_distance or max_angle.
 ---@param options {hand: robot, object: body, world?: world, rate?: number, max_force?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean}  rate: 5 [N/s]; max_force: at which it ends, 20 [N]; mass: 0.1 [kg]; gravity: none [m/s^2]; grip_force: 10 [N]; the others as in study.shake
----@return {survived: boolean, directions: table[], min_force: number, min_time: number, held: integer, settled: table, grip: string, contacts: integer, failures: integer, protocol: string} # survived: nowhere lost; directions: {direction, force [N] and time [s] at which it was lost or the test ended, moved [m], turned [rad], held}; min_force, min_time: the least of all
+---@return {survived: boolean, directions: table[], min_force: number, min_time: number, held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # survived: nowhere lost; directions: {direction, force [N] and time [s] at which it was lost or the test ended, moved [m], turned [rad], held}; min_force, min_time: the least of all
 --- > clench.study.fall_off({hand = hand, object = flask, rate = 10, max_force = 2, settle = 0.1}).min_force  --> 2.0
 return function(options)
   local read = read_options("study.fall_off", options)

@@ -11,7 +11,7 @@ local ramp = 0.1  -- in which the speed is reached, and lost again [s]
 --- carries the hand moves up with it, whatever its joints could do, and stays up for a while. The object is held while it is displaced by less than
 --- max_distance and max_angle, as the hand's base sees it. What else stands in the world stays there.
 ---@param options {hand: robot, object: body, world?: world, height?: number, speed?: number, hold?: number, direction?: vec3, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean}  height: 0.1 [m]; speed: 0.1 [m/s]; hold: 1 [s]; direction: up; mass: the object's [kg]; gravity: the world's [m/s^2]; grip_force: ten weights [N]; surroundings: true; the others as in study.shake
----@return {survived: boolean, rows: table[], held: integer, settled: table, grip: string, contacts: integer, failures: integer, protocol: string} # rows: of "gravity", "lift" and "hold", {phase, moved [m], turned [rad], held, time [s] at which it was lost}, as far as it came
+---@return {survived: boolean, rows: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # rows: of "gravity", "lift" and "hold", {phase, moved [m], turned [rad], held, time [s] at which it was lost}, as far as it came
 --- > clench.study.lift({hand = hand, object = flask, height = 0.02, hold = 0.1, settle = 0.1, mass = 0.1}).survived  --> true
 return function(options)
   local read = read_options("study.lift", options)

@@ -10,7 +10,7 @@ local axes = {{"x", clench.vec3(1, 0, 0)}, {"y", clench.vec3(0, 1, 0)}, {"z", cl
 --- all comes to rest, as in study.shake; then gravity acts, and the base that carries all moves to and fro like a sine along each axis of
 --- the world in turn, from the second period on with the whole acceleration.
 ---@param options {hand: robot, object: body, world?: world, acceleration?: number, amplitude?: number, frequency?: number, seconds?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean}  acceleration: the largest, 9.81 [m/s^2]; amplitude: instead of it [m]; frequency: 5 [Hz]; seconds: 2 along each axis; mass: the object's [kg]; gravity: the world's [m/s^2]; grip_force: ten weights [N]; the others as in study.shake
----@return {survived: boolean, axes: table[], held: integer, settled: table, grip: string, contacts: integer, failures: integer, protocol: string} # axes: {axis, moved [m], turned [rad], held, time [s] at which it was lost}
+---@return {survived: boolean, axes: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # axes: {axis, moved [m], turned [rad], held, time [s] at which it was lost}
 --- > clench.study.shake_base({hand = hand, object = flask, seconds = 0.4, settle = 0.1, mass = 0.1, acceleration = 2}).survived  --> true
 return function(options)
   local read = read_options("study.shake_base", options)

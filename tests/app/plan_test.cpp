@@ -284,6 +284,41 @@ TEST_CASE("--force-ratio says how hard verified grasps may press") {
             "none"));
 }
 
+// jaws that slide towards each other, 120 mm apart; actuators of the joints j1 and j2
+static std::string jaws_mjcf(const std::string& actuators) {
+  std::string text =
+      R"(<mujoco model="jaws"><worldbody><body name="palm"><geom type="box" size="0.02 0.08 0.01"/>)";
+  for (const int side : {1, 2})
+    text += fmt::format(
+        R"(<body name="f{0}" pos="0 {1} 0.06"><joint name="j{0}" type="slide" axis="0 {2} 0" range="0 0.04"/>
+<geom type="box" size="0.01 0.005 0.05" mass="0.1"/></body>)",
+        side, side == 1 ? -0.06 : 0.06, side == 1 ? 1 : -1);
+  return text + "</body></worldbody>" + actuators + "</mujoco>";
+}
+
+TEST_CASE("a hand without motors has no verified grasps, and plan names its joints at once") {
+  const Folder folder;
+  const auto cube = folder.file("cube.obj", cube_of(0.05));
+  const std::string dead = R"(<motor joint="j1" gear="0"/><position joint="j2" kp="0"/>)";
+  for (const std::string& actuators : {std::string(), "<actuator>" + dead + "</actuator>"}) {
+    const auto hand = folder.file("limp.xml", jaws_mjcf(actuators));
+    const auto result =
+        run("plan " + hand + " " + cube + " --unit m --mass 1e6 --count 1 --verify --max-effort 5");
+    CHECK(result.code == 1);
+    CHECK(has(result.out, "plan.sample: no grasp of"));
+    CHECK(has(result.out, "can be verified, for it exerts no force: no motor drives j1, j2"));
+    CHECK(has(result.out, "0 candidates"));
+    CHECK(has(result.out, "\nwhy: no grasp of"));
+  }
+  const auto refused = run(barrett + "--max-effort 0");
+  CHECK(refused.code == 2);
+  CHECK(has(refused.out, "--max-effort: expected a number above 0, got '0'"));
+  const auto unused = run(barrett + "--max-effort 5 --no-verify");
+  CHECK(unused.code == 2);
+  CHECK(
+      has(unused.out, "--max-effort limits motors in load margins, and --no-verify asks for none"));
+}
+
 TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost") {
   const auto survived = run(
       "plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 --verify --mass 0.1");

@@ -32,7 +32,7 @@ end
 -- infinite where there is no limit, or nothing to measure, as the docs say
 local endless = {
   ["patch.radii"] = true, ["patch.relative_radii"] = true, ["robot.dof_limits"] = true, ["eigengrasps.limits"] = true,
-  ["eigengrasps.range"] = true,
+  ["eigengrasps.range"] = true, ["robot.effort_ranges"] = true,
   ["measures:quality"] = true, ["world:distance"] = true,
 }
 

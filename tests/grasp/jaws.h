@@ -12,7 +12,9 @@ struct Jaws {
 };
 
 /// springs of this stiffness [N/m] press inwards until the jaws are closed
-inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, double spring = 0) {
+/// actuators  of the joints "jaw0" and "jaw1", `dof` 0 and 1
+inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, double spring = 0,
+                 const std::vector<ActuatorSpec>& actuators = {}) {
   Jaws j;
   RobotSpec spec;
   spec.name = "jaws";
@@ -22,6 +24,7 @@ inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, 
   dof.default_velocity = 1;
   dof.max_effort = max_effort;
   spec.dofs = {dof, dof};
+  spec.actuators = actuators;
   for (int side = 0; side < 2; ++side) {
     const double quarter = std::numbers::pi / 2;
     // z of the joint points inwards
@@ -30,7 +33,8 @@ inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, 
                     {side == 0 ? 0.1 : -0.1, 0, 0.1}};
     LinkSpec link;
     link.body = body_spec("jaw" + std::to_string(side), box(0.02, 0.02, 0.02));
-    link.joints = {{.kind = JointKind::prismatic,
+    link.joints = {{.name = "jaw" + std::to_string(side),
+                    .kind = JointKind::prismatic,
                     .X_PJ = X_BJ,
                     .dof = side,
                     .min = 0,

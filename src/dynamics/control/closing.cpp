@@ -35,8 +35,13 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
   // second
   constexpr double longest = 3;  // [s]
   std::vector<double> ends(robot.dofs.size()), rates(robot.dofs.size());
+  std::vector<std::string> without_motor;
   double slowest = 0;
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
+    if (robot.dofs[d].default_velocity != 0 && !robot.dofs[d].driven) {
+      without_motor.push_back(dof_name(robot, static_cast<int>(d)));
+      continue;
+    }
     rates[d] = speed * robot.dofs[d].default_velocity;
     if (rates[d] == 0) continue;
     ends[d] = range_around(robot, static_cast<int>(d),
@@ -44,6 +49,10 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
     slowest = std::max(
         slowest, std::abs(ends[d] - world.dofs(id)[static_cast<int>(d)]) / std::abs(rates[d]));
   }
+  const bool none_moves = std::ranges::all_of(rates, [](double rate) { return rate == 0; });
+  if (none_moves && !without_motor.empty())
+    fail("closing '{}' by its motors: no motor drives any of the DOFs that close it: {}",
+         excerpt(robot.name), name_list(without_motor));
   const double faster = std::max(1.0, slowest / (longest / std::abs(speed)));
   for (size_t d = 0; d < robot.dofs.size(); ++d)
     if (rates[d] != 0)

@@ -7,8 +7,8 @@ namespace clench {
 /// Each DOF is sent to its limit in the sense of its default velocity, on a smooth way at that
 /// velocity times `speed`, all of them faster where one would go for more than 3 s at speed 1 and
 /// constant velocity; negative: it opens. What its motor cannot push away stops it; then it
-/// presses. DOFs without a default velocity hold.
-/// throws  Error for a speed that is 0 or not finite
+/// presses. DOFs without a default velocity hold; those that no motor drives stay free.
+/// throws  Error for a speed that is 0 or not finite, and where no DOF that closes has a motor
 void close_by_motors(World& world, Id<Robot> robot, double speed);
 
 /// Sends one DOF to a value, in a time that its largest speed is `velocity` [rad/s or m/s]; see

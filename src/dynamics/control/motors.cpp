@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "clench/model/dof.h"
+#include "clench/model/effort_range.h"
 
 namespace clench {
 
@@ -15,8 +16,6 @@ static constexpr double steps_ahead = 8, always_near = 0.05;
 // of what a joint is beyond its limit, this part is taken back in a step, but not faster than so
 // [rad/s or m/s]
 static constexpr double returned_part = 0.2, returned_at_most = 1;
-
-static double bound_of(double effort) { return effort > 0 ? effort : no_bound; }
 
 Gains gains_of(const World& world, Id<Robot> id, int dof, double inertia) {
   const RobotDynamics& settings = world.dynamic_settings().robot(id);
@@ -80,8 +79,26 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
 
 double feedforward_effort(const World& world, const Coordinate& c, const DynamicState& state) {
   if (c.joint >= 0) return 0;
-  const double most = bound_of(world.robot(c.robot).dofs[c.dof].max_effort);
-  return std::clamp(state.controls[c.dof_index].effort, -most, most);
+  const DofControl& control = state.controls[c.dof_index];
+  EffortRange range = effort_limits(world, c.robot, c.dof);
+  // nothing but the control of a servo makes its effort here
+  if (control.mode == ControlMode::effort && drive_of(world.robot(c.robot), c.dof).has_servo())
+    range = effort_range(world, c.robot, c.dof);
+  return std::clamp(control.effort, range.low, range.high);
+}
+
+// The part of a servo's effort, velocity feedback apart, that no control within its range makes.
+// Gains of a script replace the law of the servo, its control included.
+// rounding  of the effort [N m or N]
+static double beyond_control(const World& world, const Coordinate& c, double effort,
+                             double rounding) {
+  const DofDrive drive = drive_of(world.robot(c.robot), c.dof);
+  if (!drive.has_servo()) return 0;
+  const auto& set = world.dynamic_settings().robot(c.robot).gains;
+  if (c.dof < static_cast<int>(set.size()) && set[c.dof]) return 0;
+  const EffortRange range = drive.commanded(world.dofs(c.robot)[c.dof]);
+  const double excess = effort - std::clamp(effort, range.low, range.high);
+  return std::abs(excess) <= rounding ? 0 : excess;
 }
 
 void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& state) {
@@ -116,9 +133,9 @@ void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& stat
     const double fastest =
         dof.max_velocity > 0 ? dof.max_velocity : std::max(std::abs(dof.default_velocity), 1.0);
     speed = std::clamp(speed, -fastest, fastest);
-    if (const double most = dof.max_effort; most > 0)
-      speed = std::clamp(speed, std::min(0.0, (-most - force) / (stiffness * step)),
-                         std::max(0.0, (most - force) / (stiffness * step)));
+    const EffortRange limits = effort_limits(world, id, static_cast<int>(d));
+    speed = std::clamp(speed, std::min(0.0, (limits.low - force) / (stiffness * step)),
+                       std::max(0.0, (limits.high - force) / (stiffness * step)));
     const auto [low, high] = range_around(robot, static_cast<int>(d), x);
     speed = std::clamp(speed, (low - x) / step, (high - x) / step);
     state.dof_velocities[index] = speed;
@@ -142,7 +159,7 @@ class RowMaker {
     const double q = alone ? world_.joints(c.robot)[c.joint] : world_.dofs(c.robot)[c.dof];
     const double v =
         alone ? state_.joint_velocities[c.joint_index] : state_.dof_velocities[c.dof_index];
-    if (!alone) add_motor(c, robot, column, q);
+    if (!alone) add_motor(c, column, q);
     if (alone && !is_compliant(robot, c)) add_lock(c, column);
     const std::array<double, 2> range =
         alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max}
@@ -173,7 +190,7 @@ class RowMaker {
     out_.push_back({kind, index, number_, column, target, low, high, compliance});
   }
 
-  void add_motor(const Coordinate& c, const Robot& robot, int column, double q) {
+  void add_motor(const Coordinate& c, int column, double q) {
     const DofControl& control = state_.controls[c.dof_index];
     if (control.mode == ControlMode::effort) return;
     Gains gains = gains_of(world_, c.robot, c.dof, M_(column, column));
@@ -185,14 +202,19 @@ class RowMaker {
       target = control.trajectory ? control.trajectory->value(state_.time + h_) : control.target;
       if (control.trajectory) velocity = control.trajectory->velocity(state_.time + h_);
     }
-    const double most = bound_of(robot.dofs[c.dof].max_effort);
+    const EffortRange limits = effort_limits(world_, c.robot, c.dof);
     const double gain = h_ * (gains.kd + h_ * gains.kp);
     if (!(gain > 0)) return;
-    // both together stay within the largest effort, whatever each alone would be
-    const double given = feedforward_effort(world_, c, state_), rest = control.effort - given;
+    // both together stay within the limits, whatever each alone would be
+    const double given = feedforward_effort(world_, c, state_);
+    double rest = control.effort - given;
+    rest -=
+        beyond_control(world_, c, gains.kp * (target - q) + gains.kd * velocity + control.effort,
+                       1e-12 * (gains.kp * (std::abs(target) + std::abs(q)) +
+                                std::abs(gains.kd * velocity) + std::abs(control.effort)));
     push(RowKind::motor, static_cast<int>(c.dof_index), column,
-         h_ * (gains.kp * (target - q) + gains.kd * velocity + rest) / gain, (-most - given) * h_,
-         (most - given) * h_, 1 / gain);
+         h_ * (gains.kp * (target - q) + gains.kd * velocity + rest) / gain,
+         (limits.low - given) * h_, (limits.high - given) * h_, 1 / gain);
   }
 
   // a joint that has left its breakaway DOF is locked by its worm gear, which nothing drives back

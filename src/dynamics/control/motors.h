@@ -42,8 +42,8 @@ void add_coordinate_rows(const World& world, const Articulation& tree, int numbe
 /// [kg m^2 or kg]
 Gains gains_of(const World& world, Id<Robot> robot, int dof, double inertia);
 
-/// What a motor gives beside what its mode does, within its largest effort; 0 for a joint that no
-/// motor turns.
+/// Effort of a motor beside that of its mode, within effort_limits, and in effort mode within
+/// effort_range; 0 for a joint that has left its DOF.
 double feedforward_effort(const World& world, const Coordinate& coordinate,
                           const DynamicState& state);
 

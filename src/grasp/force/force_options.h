@@ -18,9 +18,10 @@ enum class ForceObjective {
 
 /// What the joints ask of the forces.
 struct JointDemand {
-  /// of the hand's DOFs either way, >= 0, instead of theirs [N m or N]
+  /// of the hand's DOFs, >= 0, in both directions, instead of what their drives exert [N m or N]
   std::optional<Eigen::VectorXd> limits;
-  bool unlimited = false;                       ///< motors give whatever it takes
+  /// motors exert whatever it takes, in the directions in which they exert anything
+  bool unlimited = false;
   std::optional<Eigen::VectorXd> efforts = {};  ///< what the hand's motors give [N m or N]
   /// tendons of compliant DOFs are held where they stand, and clutches of joints that have broken
   /// away give all they can

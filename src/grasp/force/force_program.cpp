@@ -112,14 +112,18 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
       if (demand.springs_only && std::isfinite(p.high[k])) p.low[k] = p.high[k];
       continue;
     }
-    if (demand.unlimited) p.high[k] = no_bound, p.low[k] = -no_bound;
+    // a motor exerts what it takes, but only in directions in which it exerts anything
+    if (demand.unlimited && p.low[k] < p.high[k]) {
+      if (p.high[k] > 0) p.high[k] = no_bound;
+      if (p.low[k] < 0) p.low[k] = -no_bound;
+    }
     if (ref.robot != grasp.hand) continue;
     if (demand.limits) p.high[k] = (*demand.limits)[ref.dof], p.low[k] = -p.high[k];
     const double sense = closing_sense(world, grasp, ref.dof);
-    if (demand.unilateral && sense > 0) p.low[k] = 0;
-    if (demand.unilateral && sense < 0) p.high[k] = 0;
-    // a tendon pulls and cannot push
-    if (demand.springs_only && dofs[ref.dof].kind == DofKind::compliant)
+    if (demand.unilateral && sense > 0) p.low[k] = std::max(0.0, p.low[k]);
+    if (demand.unilateral && sense < 0) p.high[k] = std::min(0.0, p.high[k]);
+    // a tendon pulls and cannot push; without a motor it is slack
+    if (demand.springs_only && dofs[ref.dof].kind == DofKind::compliant && p.low[k] < p.high[k])
       p.low[k] = p.high[k] =
           sense < 0 ? std::min(0.0, p.joints.tendons[k]) : std::max(0.0, p.joints.tendons[k]);
     if (demand.efforts) p.low[k] = p.high[k] = (*demand.efforts)[ref.dof];

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "clench/grasp/force/link_weight.h"
+#include "clench/model/effort_range.h"
 
 namespace clench {
 
@@ -78,8 +79,8 @@ class BalanceRows {
  private:
   void add_motors(Id<Robot> robot) {
     for (int i = 0; i < static_cast<int>(world_.robot(robot).dofs.size()); ++i) {
-      const double most = limit_or_none(world_.robot(robot).dofs[i].max_effort);
-      motors_[{robot, i}] = add_effort({robot, i}, -most, most);
+      const EffortRange range = effort_range(world_, robot, i);
+      motors_[{robot, i}] = add_effort({robot, i}, range.low, range.high);
       tendons_.push_back(tendon_effort(world_, robot, i));
     }
   }

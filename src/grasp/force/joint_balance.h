@@ -33,9 +33,9 @@ struct JointBalance {
   Eigen::VectorXd tendons;
 };
 
-/// Motors give at most max_effort either way, without limit where a model says 0. The clutch of a
-/// joint that has broken away presses the way it closed, with at most its DOF's breakaway torque,
-/// without limit where that is 0.
+/// Motors exert what effort_range allows, each direction by itself. The clutch of a joint that has
+/// broken away presses the way it closed, with at most its DOF's breakaway torque, without limit
+/// where that is 0.
 /// arms          the joints of robots that carry the hand, too
 /// link_weights  springs also hold what gravity gives to each joint
 JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms = false,

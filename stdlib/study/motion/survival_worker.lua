@@ -22,5 +22,5 @@ return function(grasp, shared)
   local options = {hand = hand, object = object}
   for key, value in pairs(shared.shake) do options[key] = value end
   local verdict = clench.study.shake(options)
-  return {values = values, survived = verdict.survived, held = verdict.held, protocol = verdict.protocol}
+  return {values = values, survived = verdict.survived, held = verdict.held, protocol = verdict.asked}
 end

@@ -1,5 +1,6 @@
 --- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
 --- goes from where the hand held it then.
+local drives = require "clench.drives"
 local on_behalf_of = require "clench.on_behalf_of"
 local share_friction = require "clench.study.motion.share_friction"
 
@@ -91,15 +92,16 @@ local function set_gains(hand, object)
   hand.gains = gains
 end
 
--- Torques of the motors that press by forces in equilibrium; nil where there are none.
+-- Torques of the motors that press by forces in equilibrium; nil where there are none, or where they need a motor that cannot pull in that direction.
 local function grip_torques(hand, object, total)
   local grasp = clench.grasp(hand, object)
   if #grasp.points < 2 then return nil end
   local found = grasp:contact_forces {objective = "max_margin", total_force = total}
   if found.status ~= "optimal" then return nil end
-  -- joints that no motor drives bear what is no force
-  for i, info in ipairs(hand.dof_info) do
-    if not info.driven and math.abs(found.joint_torques[i]) > 1e-9 * total then return nil end
+  local rounding = 1e-9 * total
+  for i, range in ipairs(hand.effort_ranges) do
+    local torque = found.joint_torques[i]
+    if torque > rounding and range[2] <= 0 or torque < -rounding and range[1] >= 0 then return nil end
   end
   return found.joint_torques
 end
@@ -108,7 +110,7 @@ end
 local function pull_tendons(hand)
   local targets, pulls = hand.dofs, false
   for i, info in ipairs(hand.dof_info) do
-    if info.kind == "compliant" and info.default_velocity ~= 0 then
+    if info.kind == "compliant" and info.can_close then
       targets[i], pulls = hand.dof_limits[i][info.default_velocity > 0 and 2 or 1], true
     end
   end
@@ -122,10 +124,10 @@ local function press(trial, job)
   local torques = by_forces and grip_torques(hand, trial.object, job.grip_force)
   share_friction(hand, trial.object, job.friction_share)
   torques = by_forces and grip_torques(hand, trial.object, job.grip_force) or torques
-  trial.grip = torques and "forces" or "close"
+  trial.grip = torques and "forces" or drives.close(hand) and "close" or "none"
   world.contact_threshold = math.min(world.contact_threshold, contact_threshold)
   if not torques then
-    hand:autograsp {dynamic = true}
+    if trial.grip == "close" then hand:autograsp {dynamic = true} end
     world:run(job.grip_seconds)
     return
   end
@@ -137,6 +139,13 @@ local function press(trial, job)
     hand:set_forces(now)
     world:run(job.grip_seconds / steps)
   end
+end
+
+-- sum of the normal forces between hand and object in the last step [N]
+local function pressing_force(world, hand, object)
+  local sum = 0
+  for _, contact in ipairs(world:contacts(hand, object)) do sum = sum + math.abs(contact.force:dot(contact.normal)) end
+  return sum
 end
 
 --- Where the object is in the hand's base.
@@ -201,6 +210,8 @@ local function new_trial(job)
   trial.held_at = trial:pose()
   trial.settled = trial:watch(math.max(job.settle, every))
   trial.contacts = #world:contacts(hand, object)
+  trial.grip_force = pressing_force(world, hand, object)
+  trial.unlimited_efforts = drives.unlimited(hand)
   trial.settled.held = trial.settled.held and trial.contacts > 0
   trial.settled.moved, trial.settled.turned = trial:displacement(first)
   trial.held_at = trial:pose()

@@ -1,4 +1,5 @@
 --- What came of moving a grasp.
+local drives = require "clench.drives"
 local verdict = {}
 
 local Verdict = {__name = "verdict"}
@@ -19,13 +20,34 @@ function Verdict:__tostring()
   return ("%s: %s"):format(self.survived and "survived" or "lost" .. where_lost(self), self.protocol)
 end
 
+local how = {forces = "by forces in equilibrium", close = "by closing motors", none = "by no motor"}
+
+-- the grip as it was asked for
+local function grip_asked(trial, job)
+  return trial.grip == "forces" and ("gripped with %.3g N of normal forces"):format(job.grip_force) or "gripped " .. how[trial.grip]
+end
+
+-- the grip as it was measured, and what was asked for where that differs
+local function grip_measured(trial, job)
+  local measured, asked = ("%.3g"):format(trial.grip_force), ("%.3g"):format(job.grip_force)
+  local text = ("gripped with %s N of normal forces"):format(measured)
+  if trial.grip ~= "forces" then return text .. " " .. how[trial.grip] end
+  return measured == asked and text or ("%s, %s N asked for"):format(text, asked)
+end
+
+local function protocol(trial, job, asked, grip)
+  local text = ("%s, %.4g kg, %s, %.3g of the friction; displaced by less than %.3g m and %.3g degrees"):format(asked, job.mass, grip,
+    job.friction_share, job.max_distance, math.deg(job.max_angle))
+  local unlimited = drives.unlimited_text(trial.unlimited_efforts)
+  return unlimited and ("%s; %s"):format(text, unlimited) or text
+end
+
 ---@param asked string  what was done, in a few words
 function verdict.new(trial, job, asked)
-  local grip = trial.grip == "forces" and ("gripped with %.3g N of normal forces"):format(job.grip_force) or "gripped by closing motors"
   return setmetatable({
-    survived = false, held = 0, settled = trial.settled, grip = trial.grip, contacts = trial.contacts, failures = 0, count = 0,
-    protocol = ("%s, %.4g kg, %s, %.3g of the friction; displaced by less than %.3g m and %.3g degrees"):format(asked, job.mass, grip,
-      job.friction_share, job.max_distance, math.deg(job.max_angle)),
+    survived = false, held = 0, settled = trial.settled, grip = trial.grip, grip_force = trial.grip_force,
+    unlimited_efforts = trial.unlimited_efforts, contacts = trial.contacts, failures = 0, count = 0,
+    protocol = protocol(trial, job, asked, grip_measured(trial, job)), asked = protocol(trial, job, asked, grip_asked(trial, job)),
   }, Verdict)
 end
 

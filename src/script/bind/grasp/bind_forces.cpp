@@ -1,6 +1,8 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/grasp/force/equilibrium.h"
+#include "clench/model/dof.h"
+#include "clench/model/effort_range.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -112,6 +114,18 @@ static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r
   if (r.certificate) set_field(L, "certificate", [&] { push_certificate(L, g, *r.certificate); });
 }
 
+// names of the motors whose limits count here but that have none
+static void push_unlimited(lua_State* L, const GraspHandle& g,
+                           const std::optional<JointDemand>& joints) {
+  if (!joints || joints->unlimited || joints->limits || joints->efforts || joints->springs_only)
+    return;
+  const World& world = world_of(L, g);
+  std::vector<std::string> names;
+  for (const int dof : unlimited_dofs(world, g.grasp.hand))
+    names.push_back(dof_name(world.robot(g.grasp.hand), dof));
+  if (!names.empty()) set_field(L, "unlimited_efforts", names);
+}
+
 // --- methods ---
 
 static int forces(lua_State* L) {
@@ -126,6 +140,7 @@ static int forces(lua_State* L) {
   options.done();
   const ForceResult r = contact_forces(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, status_name(r.status));
+  push_unlimited(L, g, asked.joints);
   if (!asked.nearest && r.status == ForceStatus::optimal) set_field(L, "objective", r.objective);
   return 1;
 }
@@ -140,6 +155,7 @@ static int largest(lua_State* L) {
   options.done();
   const ForceResult r = max_load(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, r.status == ForceStatus::unbounded ? "unlimited" : status_name(r.status));
+  push_unlimited(L, g, asked.joints);
   if (r.status == ForceStatus::optimal) set_field(L, "load", r.load_factor);
   return 1;
 }
@@ -161,6 +177,7 @@ static int balance(lua_State* L) {
   options.done();
   const Equilibrium e = equilibrium(world_of(L, g), g.grasp, asked);
   push_result(L, g, e.result, status_name(e.status));
+  push_unlimited(L, g, asked.joints);
   return 1;
 }
 
@@ -200,8 +217,8 @@ along x and y of contact.frame, force in the world's axes, margin from the edge 
 wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of
 the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates`
 and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or
-`dof`, whichever gives way.
-@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: the motors' own, or one per DOF; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, under the world's gravity; balance "nearest": the least unbalanced wrench instead
+`dof`, whichever gives way. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
+@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: true, what each motor can exert, as in hand.effort_ranges; or a list of one per DOF, for both directions; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, under the world's gravity; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
@@ -213,17 +230,17 @@ and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit
     {"max_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
 `status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
+`unlimited_efforts` as in contact_forces.
 @param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
 @return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
     {"equilibrium", guarded<balance>, R"(
 Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
-couplings, within their limits (max_effort of each DOF; none where that is 0), by springs, and by the clutches of joints
-that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least
+couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least
 wrench that is left and `certificate` says what gives way; "moving" when no contact forces balance the joints, so that a
 finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, or false for none; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, for both directions, or false for none where a motor exerts anything; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
 @return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable

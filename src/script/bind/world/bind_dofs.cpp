@@ -3,6 +3,7 @@
 #include "clench/base/convert.h"
 #include "clench/dynamics/control/closing.h"
 #include "clench/model/dof.h"
+#include "clench/model/effort_range.h"
 #include "clench/motion/drive.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/lua/getter.h"
@@ -98,12 +99,42 @@ static const char* dof_kind(DofKind kind) {
   return names[static_cast<int>(kind)];
 }
 
+static int get_effort_ranges(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  int dof = 0;
+  return push_list_of(L, robot->dofs, [&](const DofSpec&) {
+    const EffortRange range = effort_range(*robot.world, robot.id, dof++);
+    push(L, std::array{range.low, range.high});
+  });
+}
+
+static int get_max_effort(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  const auto& most = robot.world->dynamic_settings().robot(robot.id).max_effort;
+  return most ? push(L, *most) : push_nil(L);
+}
+
+static int set_max_effort(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  DynamicSettings settings = robot.world->dynamic_settings();
+  auto& most = settings.robots[robot.id].max_effort;
+  most.reset();
+  if (given(L, 2)) {
+    most = check_number(L, 2);
+    check(positive_rule.called("largest effort"), *most, subject(L));
+  }
+  robot.world->set_dynamic_settings(std::move(settings));
+  return 0;
+}
+
 static int get_dof_info(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
+  int number = 0;
   return push_list_of(L, robot->dofs, [&](const DofSpec& dof) {
     push_record(L,
                 {{"kind", dof_kind(dof.kind)},
                  {"driven", dof.driven},
+                 {"can_close", can_close(*robot.world, robot.id, number++)},
                  {"endless", bool(robot->endless[static_cast<size_t>(&dof - robot->dofs.data())])},
                  {"default_velocity", dof.default_velocity},
                  {"max_effort", dof.max_effort},
@@ -206,9 +237,26 @@ either side of where it is, only says how far it closes, and what searches try.
 What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
 of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, where known, kp, kd, damping_ratio, where
 there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m],
-driven: false of a DOF that no actuator of an MJCF file drives, and endless: true of one that no limit stops.
+driven: false of a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless:
+true of one that no limit stops. can_close: its motor can push in the direction of default_velocity. effort_ranges says what the motors can exert.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
+    {"effort_ranges", guarded<get_effort_ranges>, R"(
+Least and largest effort that the motor of each DOF can exert at rest where the DOF stands; math.huge where no limit is given,
+{0, 0} of a DOF that is not driven. Limits are max_effort of dof_info in both directions and, of MJCF files, gear, gain,
+bias, control range and force range of the actuators. Contact forces with torque_limits, verified grasps and
+the motors of world:run stay within them.
+@type number[][]  [N m or N]
+> hand.effort_ranges[1]  --> {-5.0, 5.0})"},
+    {"max_effort", guarded<get_max_effort>, R"(
+Largest effort, in both directions, of motors for which the file gives no limit; nil: unlimited.
+@type number?  [N m or N]
+> hand.max_effort  --> nil
+> hand.max_effort = 5
+> hand.max_effort  --> 5.0
+> hand.max_effort = nil
+> hand.max_effort = 0  --> error: largest effort)",
+     guarded<set_max_effort>},
     {"dof_names", getter<dof_names>, R"(
 Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
 @type string[]

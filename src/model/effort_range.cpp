@@ -1,0 +1,51 @@
+#include "clench/model/effort_range.h"
+
+#include <cmath>
+
+#include "clench/model/dof.h"
+
+namespace clench {
+
+// an end that no limit is given for
+static EffortRange limited(const World& world, Id<Robot> robot, EffortRange range) {
+  const auto& most = world.dynamic_settings().robot(robot).max_effort;
+  if (!most) return range;
+  if (std::isinf(range.low)) range.low = -*most;
+  if (std::isinf(range.high)) range.high = *most;
+  return range;
+}
+
+EffortRange effort_range(const World& world, Id<Robot> id, int dof) {
+  const Robot& robot = world.robot(id);
+  if (!robot.dofs[dof].driven) return {};
+  return limited(world, id, drive_of(robot, dof).at_rest(world.dofs(id)[dof]));
+}
+
+EffortRange effort_limits(const World& world, Id<Robot> id, int dof) {
+  return limited(world, id, drive_of(world.robot(id), dof).limits());
+}
+
+bool can_close(const World& world, Id<Robot> id, int dof) {
+  const double pace = world.robot(id).dofs[dof].default_velocity;
+  if (pace == 0) return false;
+  const Robot& robot = world.robot(id);
+  if (!robot.dofs[dof].driven) return false;
+  const DofDrive drive = drive_of(robot, dof);
+  const auto closes_at = [&](double q) {
+    const EffortRange range = drive.at_rest(q);
+    return pace > 0 ? range.high > 0 : range.low < 0;
+  };
+  const auto [low, high] = range_around(robot, dof, world.dofs(id)[dof]);
+  return closes_at(low) || closes_at(high);
+}
+
+std::vector<int> unlimited_dofs(const World& world, Id<Robot> id) {
+  std::vector<int> out;
+  for (int d = 0; d < static_cast<int>(world.robot(id).dofs.size()); ++d) {
+    const EffortRange range = effort_range(world, id, d);
+    if (std::isinf(range.low) || std::isinf(range.high)) out.push_back(d);
+  }
+  return out;
+}
+
+}  // namespace clench
