@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "clench/base/printable.h"
 #include "clench/base/text.h"
 
 namespace clench {
@@ -45,11 +46,7 @@ void check_place(const Pose& X, std::string_view subject) {
 /// Bytes of the character at i that a name may have; 0: none that it may.
 static size_t name_character(std::string_view text, size_t i) {
   const size_t size = utf8_size(text, i);
-  const auto first = static_cast<unsigned char>(text[i]);
-  if (size == 1) return first < ' ' || first == 127 ? 0 : 1;
-  // U+0080 to U+009F are controls, too
-  const bool control = size == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-  return control ? 0 : size;
+  return control_size(text, i) ? 0 : size;
 }
 
 std::string name_fault(std::string_view name) {
