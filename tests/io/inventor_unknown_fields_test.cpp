@@ -47,7 +47,6 @@ TEST_CASE("an unknown field is skipped with its value, whatever kind of value th
                           "[ ]",
                           "[ 1 2 3, \"]\" ]",
                           "[ Cube { width 5 }, DEF a Cube { } ]",
-                          "{ 1 { 2 } }",
                           "Cube { width 90 }",
                           "DEF b Cube { width 90 }",
                           "USE other",
@@ -79,6 +78,12 @@ TEST_CASE("an unknown field is skipped with its value, whatever kind of value th
       CHECK(read.warnings[0].find(": unknown field 'hints_of_mine' is skipped") !=
             std::string::npos);
     }
+}
+
+TEST_CASE("what braces follow is an unknown field where a node has no children, else a node") {
+  CHECK(read_nodes_of("Material { foo { 1 { 2 } } }\nCube { bar { 1 { 2 } } }").warnings ==
+        std::vector<std::string>{"a.iv:2: Material: unknown field 'foo' is skipped",
+                                 "a.iv:3: unknown node 'bar' is skipped"});
 }
 
 TEST_CASE("several unknown fields are named each, with what may have been meant") {

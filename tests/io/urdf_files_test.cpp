@@ -1,6 +1,7 @@
 // Mesh files that a URDF names, however it spells the name.
 #include "clench/io/urdf/urdf_files.h"
 
+#include "clench/base/error.h"
 #include "clench/base/text.h"
 #include "temporary.h"
 #include "told_robot.h"
