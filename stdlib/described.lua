@@ -1,6 +1,7 @@
 -- stdlib/described.lua
 --- A value as an error message shows it, on one short line: 3, 'abc', a table of 2, nothing.
 local module_name = require "clench.module_name"
+local printable = require "clench.printable"
 
 ---@param value any
 ---@return string
@@ -12,7 +13,7 @@ return function(value)
     return whole and ("%d"):format(whole) or ("%.10g"):format(value)
   end
   if type(value) == "string" then
-    local text = value:gsub("%c", "?")
+    local text = printable(value)
     return #text > 40 and "'" .. text:sub(1, 37) .. "...'" or "'" .. text .. "'"
   end
   if value == nil then return "nothing" end

@@ -4,6 +4,7 @@
 ---@return string
 local type, tostring, next, rawlen, rawget = type, tostring, next, rawlen, rawget
 local getmetatable, format, find, concat, sort = debug.getmetatable, string.format, string.find, table.concat, table.sort
+local printable = require "clench.printable"
 local pcall, tointeger, max = pcall, math.tointeger, math.max
 
 local function text_of(value)
@@ -77,4 +78,4 @@ function show(value, width, depth, path)
   return text_of(value)
 end
 
-return function(value, width) return show(value, width or 400, 0, {}) end
+return function(value, width) return printable(show(value, width or 400, 0, {}), "\n\t") end

@@ -141,12 +141,15 @@ end
 ---@return {low: number, high: number}
 --- > i = clench.stats.interval(8, 10)
 --- > i.low < 0.5 and i.high > 0.9  --> true
+--- > clench.stats.interval(8)  --> error: stats.interval: trials: expected a whole number >= 0, got nothing
 function stats.interval(successes, trials)
-  for name, n in pairs {successes = successes, trials = trials} do
-    if not math.tointeger(n) or n < 0 then
+  local function check_count(name, n)
+    if type(n) ~= "number" or not math.tointeger(n) or n < 0 then
       fail("interval", "%s: expected a whole number >= 0, got %s", name, described(n))
     end
   end
+  check_count("successes", successes)
+  check_count("trials", trials)
   if trials == 0 or successes > trials then
     fail("interval", "expected at least one trial, and no more successes than trials, got %d of %d", successes, trials)
   end

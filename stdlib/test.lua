@@ -1,6 +1,8 @@
 --- Tests as claims: `test("a ring of contacts balances", function(t) t.close(sum, 0, 1e-12) end)`. Each runs where it
 --- stands; `clench test` counts them, file by file.
+local described = require "clench.described"
 local error_text = require "clench.host.error_text"
+local raise = require "clench.raise"
 local show = require "clench.show"
 local test = {passed = 0, failed = 0, skipped = 0}
 
@@ -181,7 +183,7 @@ end
 
 --- runs a file of tests, for `clench test`; returns how many passed, failed, were skipped
 function test.run_file(path)
-  if type(path) ~= "string" then error(("test.run_file: expected the path of a file of tests, got %s"):format(type(path)), 2) end
+  if type(path) ~= "string" then raise("test.run_file: path: expected a name, got " .. described(path)) end
   package.loaded.test = test
   -- a file that ends the program would hide the tests after it
   local exit <close> = setmetatable({exit = os.exit}, {__close = function(saved) os.exit = saved.exit end})

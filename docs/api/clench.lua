@@ -676,7 +676,7 @@ function energy:within(low, high) end
 ---A chain of simulated annealing, made by `clench.annealing`.
 ---@class annealing
 ---@field best {energy: number, step: integer, pose: pose, dofs: number[], values: table}[] # The best states met, no two alike: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables by name.
----@field state table # Where the chain is, as `best` says it.
+---@field state table # Where the chain is, as `best` has it; its energy is infinite where it begins in collision.
 ---@field values table # Values of its variables by name.
 ---@field energy number # Of the state that the chain is at; infinite where it begins in collision.
 ---@field first_energy number # Of the state that it began with.
@@ -824,7 +824,7 @@ local world_control = {}
 ---@return table handle # `remove()` ends it
 function world_control:on_step(fn, options) end
 
----Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run.
+---Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
 ---@param fn function
 ---@return table handle # `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
 function world_control:spawn(fn) end
@@ -1200,8 +1200,9 @@ function clench.files.save_arrays(path, arrays) end
 
 ---The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
 ---@param path string # .npz
+---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return table<string, number[]|number[][]|string[]>
-function clench.files.arrays(path) end
+function clench.files.arrays(path, options) end
 
 ---Writes pictures of one size as an animated GIF of up to 256 colours that plays again and again.
 ---@param path string

@@ -16,6 +16,7 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/kept_terminal.h"
+#include "clench/base/printable.h"
 
 namespace clench {
 
@@ -58,7 +59,7 @@ static void list_words(const std::vector<std::string>& words) {
   std::fputc('\n', stdout);
   for (size_t i = 0; i < words.size(); ++i) {
     const bool last = (i + 1) % columns == 0 || i + 1 == words.size();
-    std::fprintf(stdout, "%-*s%s", last ? 0 : static_cast<int>(widest), words[i].c_str(),
+    std::fprintf(stdout, "%-*s%s", last ? 0 : static_cast<int>(widest), printable(words[i]).c_str(),
                  last ? "\n" : "");
   }
   std::fflush(stdout);

@@ -15,6 +15,7 @@
 
 #include "clench/app/verbs.h"
 #include "clench/base/error.h"
+#include "clench/base/printable.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasp_files.h"
@@ -211,8 +212,8 @@ static const CLI::App& verb_of(const CLI::App& app) {
 static int refuse(const CLI::App& app, const std::string& why) {
   const CLI::App& verb = verb_of(app);
   const std::string name = &verb == &app ? "clench" : "clench " + verb.get_name();
-  std::fprintf(stderr, "%s: %s\nRun %s --help for more information.\n", name.c_str(), why.c_str(),
-               name.c_str());
+  std::fprintf(stderr, "%s: %s\nRun %s --help for more information.\n", name.c_str(),
+               printable(why, "\n\t").c_str(), name.c_str());
   return 2;
 }
 
@@ -417,7 +418,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fputs("clench: not enough memory\n", stderr);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "clench: %s\n", e.what());
+    std::fprintf(stderr, "clench: %s\n", clench::printable(e.what(), "\n\t").c_str());
   }
   return 1;
 }

@@ -8,6 +8,7 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/verbs.h"
+#include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 
 namespace clench {
@@ -48,18 +49,18 @@ static Count run_test_file(const fs::path& file, const std::string& confine, boo
 int run_tests(const std::string& path, const std::string& confine, bool quiet) {
   std::error_code error;
   if (!fs::exists(path, error)) {
-    std::fprintf(stderr, "clench test: no such file or folder: '%s'\n", path.c_str());
+    std::fprintf(stderr, "clench test: no such file or folder: '%s'\n", printable(path).c_str());
     return 1;
   }
   const auto files = test_files(path);
   if (files.empty()) {
-    std::fprintf(stderr, "clench test: no *_test.lua in '%s'\n", path.c_str());
+    std::fprintf(stderr, "clench test: no *_test.lua in '%s'\n", printable(path).c_str());
     return 1;
   }
   catch_interrupts();
   Count all;
   for (const auto& file : files) {
-    if (!quiet) std::printf("%s\n", file.c_str());
+    if (!quiet) std::printf("%s\n", printable(file.string()).c_str());
     const Count one = run_test_file(file, confine, quiet);
     all.passed += one.passed, all.failed += one.failed, all.skipped += one.skipped;
     all.interrupted = one.interrupted;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "clench/base/file.h"
+#include "clench/base/printable.h"
 
 namespace clench {
 
@@ -172,9 +173,7 @@ std::string text_of(std::u32string_view letters) {
 }
 
 std::string excerpt(std::string_view text) {
-  std::string out(text.substr(0, max_excerpt));
-  for (char& c : out)
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+  const std::string out = printable(text.substr(0, max_excerpt));
   return text.size() > max_excerpt ? out + "..." : out;
 }
 

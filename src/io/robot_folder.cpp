@@ -7,6 +7,7 @@
 #include "clench/base/error.h"
 #include "clench/base/hash.h"
 #include "clench/io/graspit/eigengrasps.h"
+#include "clench/io/text/confine.h"
 
 namespace clench {
 
@@ -40,7 +41,8 @@ RobotFolder::RobotFolder(const fs::path& path, const WriteOptions& options)
       file_(path.filename().string()),
       stem_(own_stem(path.stem().string())),
       own_(stem_ + '_' + plain(path.extension().string().substr(1))),
-      warn_(options.warn) {}
+      warn_(options.warn),
+      confine_(options.confine) {}
 
 std::string RobotFolder::add(const std::string& folder, const std::string& part,
                              const std::string& ending, const std::string& text) {
@@ -130,7 +132,10 @@ std::string RobotFolder::glove(const GloveCalibration& glove) {
 // --- writing ---
 
 void RobotFolder::write_parts() {
-  for (const auto& [name, text] : texts_) written_.write(path_.parent_path() / name, text);
+  for (const auto& [name, text] : texts_) {
+    check_target(path_.parent_path() / name, confine_);
+    written_.write(path_.parent_path() / name, text);
+  }
   texts_.clear();
 }
 

@@ -49,6 +49,7 @@ class RobotFolder {
   std::string file_;
   std::string stem_, own_;  // of its name; the same with its ending
   std::function<void(const std::string&)> warn_;
+  std::filesystem::path confine_;
   std::map<std::string, std::string> texts_;  // name in the folder, from the robot's on, to text
   std::map<std::string, std::string> names_;  // by folder, ending and text
   FileSet written_;

@@ -153,7 +153,11 @@ fs::path SavedFiles::write_beside(const std::string& name, const std::vector<Bes
   const fs::path own = folder_ / fmt::format("{}_files", path_.stem().string()) /
                        fmt::format("{:08x}", static_cast<uint32_t>(hash.value()));
   const std::string stem = file_stem(name);
-  for (const Beside& file : files) beside_.write(own / (stem + file.ending), file.text);
+  for (const Beside& file : files) {
+    const fs::path path = own / (stem + file.ending);
+    check_target(path, reading_.confine);
+    beside_.write(path, file.text);
+  }
   return own / (stem + files.front().ending);
 }
 

@@ -1,7 +1,9 @@
 #include "clench/spec/valid.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "clench/base/printable.h"
 #include "clench/base/text.h"
 
 namespace clench {
@@ -45,11 +47,7 @@ void check_place(const Pose& X, std::string_view subject) {
 /// Bytes of the character at i that a name may have; 0: none that it may.
 static size_t name_character(std::string_view text, size_t i) {
   const size_t size = utf8_size(text, i);
-  const auto first = static_cast<unsigned char>(text[i]);
-  if (size == 1) return first < ' ' || first == 127 ? 0 : 1;
-  // U+0080 to U+009F are controls, too
-  const bool control = size == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-  return control ? 0 : size;
+  return control_size(text, i) ? 0 : size;
 }
 
 std::string name_fault(std::string_view name) {
@@ -73,7 +71,8 @@ void check_name(std::string_view name, std::string_view subject) {
 std::string repaired_name(std::string_view name) {
   std::string out;
   for (size_t i = 0; i < name.size();) {
-    const size_t size = name_character(name, i), length = size ? size : 1;
+    const size_t size = name_character(name, i),
+                 length = size ? size : std::max<size_t>(control_size(name, i), 1);
     if (out.size() + length > max_name_length) break;
     size ? out += name.substr(i, size) : out += '?';
     i += length;

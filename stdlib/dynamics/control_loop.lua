@@ -1,7 +1,9 @@
 --- The run of a world in which scripts take part: functions, then tasks, then a step, then listeners and observers.
 local error_text = require "clench.host.error_text"
 local error_value = require "clench.error_value"
+local described = require "clench.described"
 local raise = require "clench.raise"
+local task_order = require "clench.dynamics.task_order"
 
 local tiny = 1e-9  -- parts of a period, and seconds, that are rounding
 
@@ -99,8 +101,15 @@ local function go_on(handle, world)
     if handle.status == "waiting" then handle.status = "done" end
     return
   end
-  -- a yield of its own waits for the next step
-  handle.order = type(order) == "table" and order.seconds and order or {seconds = 0}
+  -- a yield of nothing waits for the next step
+  if order ~= nil and getmetatable(order) ~= task_order then
+    handle.status = "failed"
+    local at = debug.getinfo(handle.thread, 1, "Sl")
+    error(setmetatable({place = at and ("%s:%d: "):format(at.short_src, at.currentline) or "", kind = "input",
+      sentence = ("%s: expected task.wait, task.wait_step, task.wait_until or a yield of nothing, got a yield of %s"):format(
+        handle.name, described(order))}, error_value), 0)
+  end
+  handle.order = order or {seconds = 0}
   handle.order.begun = world.time
 end
 

@@ -1,11 +1,12 @@
 --- What takes part in a world's runs: functions called at steps, tasks and listeners, each in the order in which it came.
+local class = require "clench.class"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local task_order = require "clench.dynamics.task_order"
 local hooks = {}
 
-local Handle = {__name = "handle"}
-Handle.__index = Handle
+local Handle = class "handle"
 
 function Handle:__tostring() return ("%s (%s)"):format(self.name, self.status) end
 
@@ -50,7 +51,7 @@ local function new_task(handle)
   local task = {}
   local function pause(what, order)
     if coroutine.running() ~= handle.thread then raise(("task.%s: expected to be called in the task's own function"):format(what)) end
-    return coroutine.yield(order)
+    return coroutine.yield(setmetatable(order, task_order))
   end
   local function check_time(what, seconds)
     if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then

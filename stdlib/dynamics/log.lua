@@ -1,4 +1,5 @@
 --- What quantities are while a world runs, as rows.
+local class = require "clench.class"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
@@ -95,8 +96,7 @@ local function parts_of(name, value)
   return parts, names
 end
 
-local Log = {__name = "log"}
-Log.__index = Log
+local Log = class "log"
 
 function Log:__tostring() return ("log of %d rows, %d columns"):format(#self.rows, #self.columns) end
 

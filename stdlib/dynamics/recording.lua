@@ -1,10 +1,11 @@
 --- How a world ran, for films: its states at a rate of its time.
+local class = require "clench.class"
+local optional_table = require "clench.optional_table"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
 
-local Recording = {__name = "recording"}
-Recording.__index = Recording
+local Recording = class "recording"
 
 function Recording:__tostring() return ("recording of %d frames at %g Hz"):format(#self.times, self.rate) end
 
@@ -14,6 +15,7 @@ function Recording:remove() self.handle:remove() end
 --- Calls with a copy of the world as it was at each frame in turn.
 ---@param visit fun(world: world, frame: integer, time: number)
 function Recording:each(visit)
+  if type(visit) ~= "function" then raise("recording:each: expected a function, got " .. described(visit)) end
   local world = self.world:clone()
   for i, moment in ipairs(self.moments) do
     world:restore(moment)
@@ -36,7 +38,7 @@ function Recording:save(path, options)
   end
   if #self.times == 0 then raise "recording:save: it holds nothing yet: the world has not run since it began" end
   local write = require("clench.dynamics.film_" .. writers[ending])
-  return write(self, path, ending, options or {})
+  return write(self, path, ending, optional_table("recording:save", options))
 end
 
 return function(hooks, set, options, world)

@@ -4,7 +4,11 @@ local described = require "clench.described"
 local name_list = require "clench.name_list"
 local in_utf8 = require "clench.in_utf8"
 local columns = require "clench.host.columns"
+local printable = require "clench.printable"
 local check = {}
+
+-- a line of names from a file
+local function say(text) print(printable(text)) end
 
 -- numbers with their unit, as people say them
 local function quantity(x, unit)
@@ -63,15 +67,15 @@ function print_kind.body(body)
   columns({body_row(body)}, "  ")
   local mesh = body.mesh
   local length = mesh and math.max(table.unpack(mesh.size)) or 0
-  print(("  centre of mass %s m"):format(vector(body.center_of_mass, "%.4g", length)))
+  say(("  centre of mass %s m"):format(vector(body.center_of_mass, "%.4g", length)))
   local moment = math.max(body.inertia[1][1], body.inertia[2][2], body.inertia[3][3])
   for i = 1, 3 do
-    print((i == 1 and "  inertia        " or "                 ") .. vector(body.inertia[i], "%10.3g", moment) .. " kg m^2")
+    say((i == 1 and "  inertia        " or "                 ") .. vector(body.inertia[i], "%10.3g", moment) .. " kg m^2")
   end
-  if body.mesh and body.mesh.volume then print(("  volume         %.4g m^3, area %.4g m^2"):format(body.mesh.volume, body.mesh.area)) end
-  if body.elastic_modulus then print(("  elastic        %.3g Pa"):format(body.elastic_modulus)) end
-  if body.primitives then print("  for planners   " .. counted(body.primitives)) end
-  if body.tracker then print(("  kept, without effect: position sensor %d"):format(body.tracker)) end
+  if body.mesh and body.mesh.volume then say(("  volume         %.4g m^3, area %.4g m^2"):format(body.mesh.volume, body.mesh.area)) end
+  if body.elastic_modulus then say(("  elastic        %.3g Pa"):format(body.elastic_modulus)) end
+  if body.primitives then say("  for planners   " .. counted(body.primitives)) end
+  if body.tracker then say(("  kept, without effect: position sensor %d"):format(body.tracker)) end
 end
 
 -- efforts of a DOF's motor
@@ -88,7 +92,7 @@ function print_kind.robot(robot)
   for _, chain in ipairs(robot.chains) do
     for _, link in ipairs(chain.links) do links[#links + 1] = body_row(link) end
   end
-  print("  " .. table.concat({several(#robot.dofs, "DOF"), several(#robot.chains, "chain"), several(#links - 1, "link"),
+  say("  " .. table.concat({several(#robot.dofs, "DOF"), several(#robot.chains, "chain"), several(#links - 1, "link"),
     several(robot.eigengrasps, "eigengrasp"), several(robot.virtual_contacts, "virtual contact"),
     robot.actuators > 0 and several(robot.actuators, "actuator") or nil}, ", "))
   columns(links, "  ")
@@ -109,9 +113,9 @@ function print_kind.robot(robot)
     end
   end
   columns(rows, "  ")
-  print(("  approaches along %s, approach point %s m, in its base"):format(vector(robot.approach.direction, "%.3g"),
+  say(("  approaches along %s, approach point %s m, in its base"):format(vector(robot.approach.direction, "%.3g"),
     vector(robot.approach.point, "%.3f")))
-  if robot.kept then print("  kept, without effect: " .. kept_words(robot.kept)) end
+  if robot.kept then say("  kept, without effect: " .. kept_words(robot.kept)) end
 end
 
 function print_kind.world(world)
@@ -123,54 +127,54 @@ function print_kind.world(world)
                        robot.parent and "mounted on " .. robot.parent or "stands by itself"}
   end
   columns(rows, "  ")
-  if world.keyframes[1] then print("  keyframes " .. name_list(world.keyframes)) end
+  if world.keyframes[1] then say("  keyframes " .. name_list(world.keyframes)) end
   for _, robot in ipairs(world.robots) do
     if world.is_scene then  -- no other file tells its parts
-      print(("  %s:"):format(robot.name))
+      say(("  %s:"):format(robot.name))
       print_kind.robot(robot)
     elseif robot.kept then
-      print(("  %s: kept, without effect: %s"):format(robot.name, kept_words(robot.kept)))
+      say(("  %s: kept, without effect: %s"):format(robot.name, kept_words(robot.kept)))
     end
   end
-  for _, pair in ipairs(world.overlaps) do print(("  %s and %s overlap"):format(pair[1], pair[2])) end
-  if world.more_overlaps then print "  more bodies overlap" end
+  for _, pair in ipairs(world.overlaps) do say(("  %s and %s overlap"):format(pair[1], pair[2])) end
+  if world.more_overlaps then say "  more bodies overlap" end
 end
 
-function print_kind.eigengrasps(set) print(("  %d of %d DOFs"):format(set.count, set.dofs)) end
+function print_kind.eigengrasps(set) say(("  %d of %d DOFs"):format(set.count, set.dofs)) end
 
-print_kind["virtual contacts"] = function(set) print(("  %d of %s"):format(set.count, set.robot)) end
+print_kind["virtual contacts"] = function(set) say(("  %d of %s"):format(set.count, set.robot)) end
 
 print_kind["object contacts"] = function(list)
-  print(("  %d%s"):format(list.count, list.placed and "" or ", without their points"))
+  say(("  %d%s"):format(list.count, list.placed and "" or ", without their points"))
 end
 
-print_kind["pre-grasps"] = function(list) print(("  %d"):format(list.count)) end
+print_kind["pre-grasps"] = function(list) say(("  %d"):format(list.count)) end
 
 print_kind["planned grasps"] = function(list)
-  print(("  %d in %s%s"):format(list.count, several(list.runs, "run"), list.best and (", the best of quality %.4g"):format(list.best) or ""))
+  say(("  %d in %s%s"):format(list.count, several(list.runs, "run"), list.best and (", the best of quality %.4g"):format(list.best) or ""))
 end
 
 print_kind.grasps = function(list)
-  print(("  %d%s%s"):format(list.count, list.of[1] and ": " .. name_list(list.of) or "",
+  say(("  %d%s%s"):format(list.count, list.of[1] and ": " .. name_list(list.of) or "",
                             list.best_epsilon and ("; the largest epsilon %.4g"):format(list.best_epsilon) or ""))
 end
 
-print_kind["glove calibration"] = function(glove) print(("  %d sensors for %d DOFs"):format(glove.sensors, glove.dofs)) end
+print_kind["glove calibration"] = function(glove) say(("  %d sensors for %d DOFs"):format(glove.sensors, glove.dofs)) end
 
 print_kind["glove poses"] = function(list)
-  print(("  %d, of up to %d sensors and %d joints"):format(list.count, list.sensors, list.joints))
+  say(("  %d, of up to %d sensors and %d joints"):format(list.count, list.sensors, list.joints))
 end
 
 local nouns = {body = "a body", robot = "a robot", world = "a world", ["glove calibration"] = "a glove calibration"}
 
 local function print_report(r)
   local noun = nouns[r.kind] or r.kind
-  print(("%s: %s"):format(r.file, r.parsed and noun or noun and ("not %s that can be read"):format(noun) or "not read"))
+  say(("%s: %s"):format(r.file, r.parsed and noun or noun and ("not %s that can be read"):format(noun) or "not read"))
   if r.parsed then print_kind[r.kind](r.parsed) end
   for _, list in ipairs {"inferred", "repaired", "ignored", "suspicious"} do
-    for _, sentence in ipairs(r[list]) do print(("  %s: %s"):format(list, sentence)) end
+    for _, sentence in ipairs(r[list]) do say(("  %s: %s"):format(list, sentence)) end
   end
-  if r.error then print("  error: " .. r.error) end
+  if r.error then print("  error: " .. printable(r.error, "\n")) end
 end
 
 --- Prints what was parsed from each file.

@@ -1,3 +1,5 @@
+local printable = require "clench.printable"
+
 --- Rows of text in columns, the first row above the others, for a terminal.
 ---@param rows string[][]
 ---@param indent string  before each row
@@ -9,6 +11,6 @@ return function(rows, indent)
   for _, row in ipairs(rows) do
     local cells = {}
     for i, cell in ipairs(row) do cells[i] = i < #row and cell .. (" "):rep(widths[i] - (utf8.len(cell) or #cell)) or cell end
-    print((indent .. table.concat(cells, "  ")):gsub("%s+$", "") .. "")
+    print(printable((indent .. table.concat(cells, "  ")):gsub("%s+$", "") .. ""))
   end
 end

@@ -1,4 +1,5 @@
 --- What an error says, whatever its value: one that cannot be printed is an error still.
+local printable = require "clench.printable"
 local show = require "clench.show"
 local type, pcall, tostring, rawget = type, pcall, tostring, rawget
 local getmetatable, format, sub = debug.getmetatable, string.format, string.sub
@@ -19,7 +20,7 @@ end
 ---@param value any
 ---@return string
 return function(value)
-  local text = words_of(value)
+  local text = printable(words_of(value), "\n\t")
   if #text <= longest then return text end
   return format("%s... (%d characters)", sub(text, 1, longest), #text)
 end

@@ -2,6 +2,7 @@
 local columns = require "clench.host.columns"
 local error_text = require "clench.host.error_text"
 local in_utf8 = require "clench.in_utf8"
+local printable = require "clench.printable"
 local plan_files = require "clench.host.plan_files"
 local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
@@ -9,8 +10,7 @@ local report_rows = require "clench.plan.report_rows"
 local plan = {}
 local job = {}  -- what `search` leaves for `finish`
 
--- names are hostile: a terminal obeys control characters
-local function printable(text) return (in_utf8(text):gsub("%c", function(c) return c == "\n" and c or "?" end)) end
+local function shown(text) return printable(in_utf8(text), "\n") end
 
 local function fail(text) error({usage = text}, 0) end
 
@@ -89,7 +89,7 @@ end
 
 local function tell(problem)
   io.stdout:flush()
-  io.stderr:write("clench plan: ", problem, "\n")
+  io.stderr:write("clench plan: ", shown(problem), "\n")
 end
 
 local function sentence(problem)
@@ -132,10 +132,10 @@ local function finish(how)
   local grasps = run.grasps
   job.files:save(grasps)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
-  print(printable(title) .. (how == "finish" and "" or ": " .. how))
+  print(shown(title) .. (how == "finish" and "" or ": " .. how))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
   local words = tostring(run.report)
-  print(printable(words))
+  print(shown(words))
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
   return #grasps

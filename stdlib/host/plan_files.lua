@@ -1,10 +1,13 @@
 --- The files that `clench plan` writes: grasps while it runs, and in the end the list, the sheet and the page.
 local find_three = require "clench.page.three"
 local in_utf8 = require "clench.in_utf8"
+local printable = require "clench.printable"
 local report_rows = require "clench.plan.report_rows"
 
 local Files = {}
 Files.__index = Files
+
+local function shown(text) return printable(in_utf8(text)) end
 
 local function fail(text, ...) error({usage = text:format(...)}, 0) end
 
@@ -83,14 +86,14 @@ end
 
 local function write_sheet(path, hand, object, grasps)
   draw_sheet(hand, object, grasps):save(path)
-  print(("%s: %d pictures"):format(in_utf8(path), math.min(#grasps, on_sheet)))
+  print(("%s: %d pictures"):format(shown(path), math.min(#grasps, on_sheet)))
 end
 
 local function write_page(path, hand, object, grasps, words)
   local html, notes = require "clench.plan.report_page"(hand, object, grasps, words)
   clench.files.save_text(path, html)
-  print(("%s: a page of %.1f MB"):format(in_utf8(path), #html / 1e6))
-  for _, note in ipairs(notes) do print("  " .. in_utf8(note)) end
+  print(("%s: a page of %.1f MB"):format(shown(path), #html / 1e6))
+  for _, note in ipairs(notes) do print("  " .. shown(note)) end
 end
 
 --- The contact sheet and the page, where they are asked for and there is something to show; each also when the other fails.

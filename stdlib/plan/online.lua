@@ -1,3 +1,4 @@
+local class = require "clench.class"
 local on_behalf_of = require "clench.on_behalf_of"
 local new_job = require "clench.plan.job"
 local closing = require "clench.plan.closing"
@@ -7,8 +8,7 @@ local best_states = {size = 20, distance = 0.4}
 local near_object = {behind = 0.03, before = 0.2}  -- how far the search looks along the approach [m]
 local max_solutions = 10                                    -- solutions that are kept
 
-local Online = {}
-Online.__index = Online
+local Online = class "planner"
 
 -- how far a grasp is from where the hand is now: 45 degrees count as much as 50 mm aside
 local function closeness(X_WH_now, X_WH_grasp)

@@ -5,6 +5,7 @@ local batch = require "clench.plan.batch"
 local starts = require "clench.plan.starts"
 local opposition = require "clench.plan.opposition"
 local described = require "clench.described"
+local primitive_source = require "clench.plan.primitive_source"
 local primitive_starts = require "clench.plan.primitive_starts"
 
 -- DOFs that closing does not move spread the fingers: not at all to oppose the thumb, by a third of their way around
@@ -60,27 +61,34 @@ local function check_primitive(read, place, p)
   for _, axis in ipairs(is_box and {"x", "y", "z"} or {}) do check_size(read, ("%s: size.%s"):format(place, axis), p.size[axis]) end
 end
 
-local function read_primitives(read)
-  local given = read:raw "primitives"
-  if type(given) == "string" then given = on_behalf_of(read.subject, clench.files.primitives, given) end
+-- the list, and what it was taken from
+local function read_primitives(read, object)
+  local given, root = read:raw "primitives", read:raw "root"
+  if root ~= nil and type(root) ~= "string" then read:expected("root", "a folder", root) end
+  if given == nil then return primitive_source(read, object, root) end
+  local source = "list"
+  if type(given) == "string" then
+    source, given = given, on_behalf_of(read.subject, clench.files.primitives, given, {root = root})
+  end
   if type(given) ~= "table" or #given == 0 then
     read:expected("primitives", "a file, or a list {kind =, pose =, size = or radius =, height =}", given)
   end
   for i, p in ipairs(given) do check_primitive(read, ("primitives[%d]"):format(i), p) end
-  return given
+  return given, source
 end
 
 --- An object as boxes, spheres, cylinders and cones, each approached from all sides (Miller, Knoop, Christensen and Allen
 --- 2003): the hand comes to the first touch, closes, and where that holds nothing once more from a step further back.
----@param options {hand: robot, object: body, primitives: string|table, density?: integer, preshapes?: table, thumb?: vec3, rule?: string, seconds?: number, threads?: integer, count?: integer, on_grasp?: function, grasp?: table, world?: world, max_effort?: number}  primitives: a file of clench.files.primitives, or such a list; density: 2; preshapes: {opposing = dofs, circle = dofs}, otherwise derived; thumb: where it is, across the approach, in the frame of the hand's base; rule: "corrected" (default), or "graspit" with the original's sizes of boxes and limits; max_effort: of motors without a limit [N m or N]
+---@param options {hand: robot, object: body, primitives?: string|table, root?: string, density?: integer, preshapes?: table, thumb?: vec3, rule?: string, seconds?: number, threads?: integer, count?: integer, on_grasp?: function, grasp?: table, world?: world, max_effort?: number}  primitives: a file of clench.files.primitives, or such a list; by default primitives/<name>.iv beside the object's file or below root/models/objects, else the primitives in its own file, else its bounding box: report.primitives says which; density: 2; preshapes: {opposing = dofs, circle = dofs}, otherwise derived; thumb: where it is, across the approach, in the frame of the hand's base; rule: "corrected" (default), or "graspit" with the original's sizes of boxes and limits; max_effort: of motors without a limit [N m or N]
 ---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
 --- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
 --- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12
---- > clench.plan.primitive {hand = hand, object = flask}  --> error: primitives must be a file, or a list
+--- > clench.plan.primitive {hand = hand, object = flask, density = 1}.report.primitives:match "[^/]*/[^/]*$"  --> primitives/flask.iv
+--- > clench.plan.primitive {hand = hand, object = flask, primitives = {}}  --> error: primitives must be a file, or a list
 return function(options)
   local own = {}
   local job = new_job("plan.primitive", options, function(read, job)
-    own.primitives = read_primitives(read)
+    own.primitives, own.source = read_primitives(read, options.object)
     own.density = read:count("density", 2, 1, 100)
     own.rule = read:raw "rule" or "corrected"
     if own.rule ~= "corrected" and own.rule ~= "graspit" then read:expected("rule", "'corrected' or 'graspit'", own.rule) end
@@ -99,7 +107,7 @@ return function(options)
     if not at then return end
     return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
   end
-  local told = {planner = "plan.primitive"}
+  local told = {planner = "plan.primitive", primitives = own.source}
   if #list == 0 then
     told.no_start = ("no primitive is of a size that a hand can grasp: thumb and fingers span at most %g mm"):format(1000 * max_span)
   end

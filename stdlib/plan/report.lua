@@ -1,23 +1,22 @@
 --- What a planner did: counts by reason, best energy over its steps, and, where nothing was found, why.
+local class = require "clench.class"
 local drives = require "clench.drives"
 local facing = require "clench.plan.facing"
+local optional_table = require "clench.optional_table"
 local starts = require "clench.plan.starts"
 local touch = require "clench.plan.touch"
 local verification = require "clench.plan.verification"
-local Report = {__name = "report"}
+local Report = class "report"
 
 --- the best energy over the steps, as a figure
-local methods = {}
-function methods:chart(options)
+function Report:chart(options)
   local steps, best = {}, {}
   for i, point in ipairs(self.trace) do steps[i], best[i] = point[1], point[2] end
   local drawing = {title = self.planner, x_label = "step", y_label = "best energy",
                    lines = {{x = steps, y = best}}}
-  for key, value in pairs(options or {}) do drawing[key] = value end
+  for key, value in pairs(optional_table("report:chart", options)) do drawing[key] = value end
   return clench.plot(drawing)
 end
-
-Report.__index = methods
 
 local function add(lines, format, ...) lines[#lines + 1] = format:format(...) end
 
@@ -44,6 +43,7 @@ end
 function Report:__tostring()
   local lines = {("%s: %d grasps"):format(self.planner, self.grasps)}
   tell_steps(lines, self)
+  if self.primitives then add(lines, "primitives: %s", self.primitives) end
   tell_candidates(lines, self)
   if self.shaken then add(lines, "%d of %d grasps that were shaken survived", self.survived, self.shaken) end
   if self.found > self.grasps + self.alike then

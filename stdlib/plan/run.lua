@@ -1,10 +1,10 @@
 --- What a planner gives: grasps, best first, and a report.
+local class = require "clench.class"
 local report = require "clench.plan.report"
 local reach = require "clench.plan.reach"
 local distinct = require "clench.plan.distinct"
 
-local Run = {__name = "run"}
-Run.__index = Run
+local Run = class "run"
 function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring(self.report)) end
 
 ---@param job table

@@ -1,11 +1,11 @@
 -- stdlib/plan/start.lua
 local clock = clench.clock
+local class = require "clench.class"
 local described = require "clench.described"
 local raise = require "clench.raise"
 local running = require "clench.plan.running"
 
-local Search = {__name = "search"}
-Search.__index = Search
+local Search = class "search"
 
 function Search:__tostring()
   return ("%s, %s after %.3g s"):format(self.planner, self.done and "done" or "paused", self.elapsed)

@@ -1,6 +1,8 @@
 -- stdlib/study/compare.lua
+local class = require "clench.class"
 local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
+local optional_table = require "clench.optional_table"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local higher_is_better = require "clench.study.higher_is_better"
@@ -47,8 +49,7 @@ local function best_of(values, higher_is_better)
   return best
 end
 
-local Comparison = {}
-Comparison.__index = Comparison
+local Comparison = class "comparison"
 
 --- one panel per measure, one column per grasp
 function Comparison:chart(options)
@@ -60,7 +61,7 @@ function Comparison:chart(options)
     series[i] = {name = name, values = values, higher_is_better = larger[name]}
   end
   local drawing = {series = series, labels = self.labels}
-  for key, value in pairs(options or {}) do
+  for key, value in pairs(optional_table("comparison:chart", options)) do
     if key == "series" or key == "labels" then raise("study.compare: chart: unknown key '" .. key .. "'") end
     drawing[key] = value
   end

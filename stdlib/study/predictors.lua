@@ -1,6 +1,8 @@
+local class = require "clench.class"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
+local optional_table = require "clench.optional_table"
 local higher_is_better = require "clench.study.higher_is_better"
 local roc = require "clench.study.motion.roc"
 
@@ -8,11 +10,10 @@ local roc = require "clench.study.motion.roc"
 local own = {contacts = true, load_margin = true}
 local usual = {"epsilon", "volume", "load_margin", "contacts", "min_singular_value", "gravity_effort"}
 
-local Predictors = {__name = "predictors"}
-Predictors.__index = Predictors
+local Predictors = class "predictors"
 
 local function add_options(drawing, options, subject)
-  for key, value in pairs(options or {}) do
+  for key, value in pairs(optional_table("predictors:" .. subject, options)) do
     if key == "series" or key == "labels" then raise(("study.predictors: %s: unknown key '%s'"):format(subject, key)) end
     drawing[key] = value
   end

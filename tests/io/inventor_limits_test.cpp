@@ -71,7 +71,9 @@ TEST_CASE("integers and words of any length are told by their first forty charac
   CHECK(refusal(iv + "Cube { width " + digits + " }") ==
         "a.iv:2: Cube: width: expected a finite number that fits 32 bits, got '" +
             digits.substr(0, 40) + "...'");
-  CHECK(refusal(iv + "Cube { " + word + " 3 }") == "a.iv:2: Cube: unknown field '" + head + "...'");
+  CHECK(refusal(iv + "Cube { " + word + " }") == "a.iv:2: Cube: unknown field '" + head + "...'");
+  CHECK(read_text_as_body(iv + "Cube { " + word + " 3 }").warnings ==
+        "a.iv:2: Cube: unknown field '" + head + "...' is skipped\n");
   CHECK(refusal(iv + "RotationXYZ { axis " + word + " }") ==
         "a.iv:2: RotationXYZ: axis: expected one of X, Y, Z, got '" + head + "...'");
   CHECK(refusal(iv + "USE " + word) ==

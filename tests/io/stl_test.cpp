@@ -42,12 +42,62 @@ TEST_CASE("what is wrong in an ascii STL file is told by line") {
   refused(start + "vertex 1 nan 0", "6: expected three numbers after vertex, got 'nan'");
   refused(start + "vertx 1 1 0", "6: expected 'vertex' or 'endloop', got 'vertx'");
   refused(start + "vertex 1 1 0\nendloop\nendsolid", "8: expected 'endfacet', got 'endsolid'");
-  refused(start + "vertex 1 1 0\nendloop\nendfacet\n",
-          "8: expected facet or endsolid, got the end of the file");
+  refused(start + "vertex 1 1 0\nendloop\nendfacet\nend",
+          "9: expected 'facet' or 'endsolid', got 'end'");
   refused("solid\nfacet 0 0 1", "2: expected 'normal' after facet");
   refused("solid\nface normal", "2: expected 'facet' or 'endsolid', got 'face'");
   refused("solid\nendsolid\nmore", "3: expected 'solid', got 'more'");
   refused("solid\nendsolid", " expected triangles, got none");
+}
+
+TEST_CASE("what surrounds the facets of an ascii STL file may be missing, or more than expected") {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
+      "endfacet\n";
+  struct Case {
+    std::string text;
+    size_t triangles;
+    std::vector<std::string> warnings;
+  };
+  const std::string ended = "expected 'endsolid', got the end of the file; the solid ends here";
+  const std::string solid = "solid\n" + facet + "endsolid\n";
+  const Case cases[] = {
+      {"solid a\n" + facet, 1, {"q.stl:8: " + ended}},
+      {"solid a\n" + facet + facet + "\n\n", 2, {"q.stl:15: " + ended}},
+      {"solid a\n" + facet + "solid b\n" + facet + "endsolid b",
+       2,
+       {"q.stl:9: expected 'endsolid', got 'solid'; the solid ends here"}},
+      {facet + "endsolid", 1, {"q.stl:1: expected 'solid', got 'facet'; the solid begins here"}},
+      {solid + std::string(5, '\0'), 1, {}},
+      {solid + std::string(512, '\0'), 1, {}},
+      {solid + "\x1A", 1, {}},
+      {"\n \t\r\n\n" + solid, 1, {}},
+      {"\xEF\xBB\xBF" + solid, 1, {}},
+      {"# made by hand\n#\n" + solid, 1, {}},
+      {"\xEF\xBB\xBF\n#" + std::string(3000, '-') + "\n" + solid, 1, {}},
+      {"// made by\n; a program\n" + solid, 1, {"q.stl:1: the text before 'solid' is not used"}},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    Warnings warnings;
+    // a lone triangle is no solid: of that nothing is said here
+    CHECK(read_stl_text(c.text, warnings.options()).shape->mesh().triangles.size() == c.triangles);
+    CHECK(warnings.list == c.warnings);
+  }
+}
+
+TEST_CASE("a binary STL file may begin as an ascii one does") {
+  std::string content = binary_stl(box(1, 1, 1));
+  for (const std::string start : {"solid", "solid a facet", "\nsolid", "# solid\nsolid b"}) {
+    content.replace(0, start.size(), start);
+    CHECK(read_stl_text(content).shape->mesh().triangles.size() == 12);
+    Warnings warnings;
+    CHECK(read_stl_text(content + std::string(7, '\0'), warnings.options())
+              .shape->mesh()
+              .triangles.size() == 12);
+    CHECK(warnings.list ==
+          std::vector<std::string>{"q.stl: 7 bytes after the last facet are not used"});
+  }
 }
 
 TEST_CASE("what is wrong in a binary STL file is told by facet") {

@@ -218,7 +218,9 @@ TEST_CASE("parallel work that is interrupted tells what is done before the error
   CHECK(!result.ok);
   CHECK(says(result.error, "interrupted"));
   const auto told = state.run_code(
-      "for i = 2, 5 do assert(told[i] == i, told[i]) end assert(told[1].error)", "=test");
+      "for i = 2, 5 do assert(told[i] == i, told[i]) end assert(told[1].kind == 'stopped', "
+      "told[1].error)",
+      "=test");
   CHECK_MESSAGE(told.ok, told.error);
 }
 

@@ -30,7 +30,8 @@ class FaceLister {
   const InventorNode* part(const char* field, std::string_view type) const;
   void set_points(std::span<const float> numbers, int width);
   InventorVector point(int i) const;
-  bool strips() const { return shape_.type->name.ends_with("StripSet"); }
+  bool swaps() const { return shape_.type->name == "IndexedTriangleMesh"; }
+  bool strips() const { return shape_.type->name.ends_with("StripSet") || swaps(); }
   void add(std::span<const int> corners, int color);
 
   const InventorNode& shape_;
@@ -98,6 +99,8 @@ void FaceLister::add(std::span<const int> corners, int color) {
   for (size_t i = 0; i + 2 < corners.size() && i + step <= corners.size(); ++i) {
     corners_.clear();
     for (size_t k = 0; k < step; ++k) corners_.push_back(point(corners[i + k]));
+    // a swap repeats a corner
+    if (swaps() && (corners[i] == corners[i + 2] || corners[i + 1] == corners[i + 2])) continue;
     if (strips() && i % 2 == 1) std::swap(corners_[0], corners_[1]);
     surface_.add(corners_, color);
   }
@@ -115,6 +118,10 @@ void FaceLister::list_indexed(const std::vector<int32_t>& color_indices) {
       add(face, color);
       face.clear();
       ++faces;
+      continue;
+    }
+    if (index == -2 && swaps() && face.size() >= 2) {
+      face.push_back(face[face.size() - 2]);
       continue;
     }
     if (index < 0 || index >= point_count_)

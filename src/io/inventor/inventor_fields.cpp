@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/inventor/inventor_parser.h"
 
@@ -37,22 +38,80 @@ void InventorParser::skip_connection(const InventorType& type, const InventorFie
   const InventorToken sign = tokens_.peek();
   if (!sign.is("=")) return;
   tokens_.next();
-  const InventorToken first = word("a node after '='");
-  if (first.is("USE")) {
-    word("a name after USE");
-  } else {
-    if (first.is("DEF")) define(word("a name after DEF"), {});
-    if (first.is("DEF")) word("a node type after DEF and a name");
-    if (!tokens_.peek().opens('{'))
-      tokens_.refuse(sign.line, "expected '{{' after the node type, got {}", tokens_.peek().told());
-    skip_brackets();
-  }
+  skip_node(word("a node after '='"));
   const InventorToken behind = tokens_.peek();
   if (behind.kind == InventorToken::word && behind.text.starts_with('.') &&
       tokens_.next().text == ".")
     word("a field after '.'");
   if (field.content != InventorField::unused)
     warn(sign.line, fmt::format("{}: {} is connected, which is not used", type.name, field.name));
+}
+
+void InventorParser::skip_node(const InventorToken& first) {
+  if (first.is("USE")) {
+    word("a name after USE");
+    return;
+  }
+  InventorToken type = first;
+  if (first.is("DEF")) {
+    define(word("a name after DEF"), {});
+    type = word("a node type after DEF and a name");
+  }
+  const InventorToken bracket = tokens_.peek();
+  if (!bracket.opens('{'))
+    tokens_.refuse(first.line, "expected '{{' after the node type, got {}", bracket.told());
+  check_nested(type, bracket);
+  skip_brackets();
+}
+
+// --- fields that a type does not have ---
+
+static bool begins_number(const InventorToken& token) {
+  return token.kind == InventorToken::word &&
+         std::string_view("0123456789+-.").find(token.text[0]) != std::string_view::npos;
+}
+
+static bool begins_name(const InventorToken& token) {
+  const char c = token.text.empty() ? ' ' : token.text[0];
+  return token.kind == InventorToken::word &&
+         ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_');
+}
+
+bool InventorParser::skip_unknown_value() {
+  const InventorToken first = tokens_.peek();
+  if (first.is("=") || first.is("~")) return true;
+  if (first.kind == InventorToken::open) {
+    skip_brackets();
+    return true;
+  }
+  if (first.kind != InventorToken::word && first.kind != InventorToken::string) return false;
+  if (begins_number(first)) {
+    while (begins_number(tokens_.peek())) tokens_.next();
+    return true;
+  }
+  tokens_.next();
+  if (first.kind == InventorToken::string) return true;
+  if (first.text.starts_with('(')) {
+    // (SIDES | TOP)
+    for (InventorToken last = first; !last.text.ends_with(')');) last = word("a word or ')'");
+  } else if (first.is("IS")) {
+    word("a name after IS");
+  } else if (starts_node(first, tokens_.peek())) {
+    skip_node(first);
+  }
+  return true;
+}
+
+void InventorParser::skip_unknown_field(const InventorType& type, const InventorToken& name) {
+  std::vector<std::string> known;
+  for (const auto& f : type.fields) known.emplace_back(f.name);
+  const std::string sentence = fmt::format("{}: unknown field {}", type.name, in_quotes(name.text)),
+                    meant = did_you_mean(name.text.substr(0, 40), known);
+  if (!begins_name(name) || !skip_unknown_value())
+    tokens_.refuse(name.line, "{}{}", sentence, meant);
+  skip_connection(type, {});
+  count_value();  // so that these, too, have an end
+  warn(name.line, fmt::format("{} is skipped{}", sentence, meant));
 }
 
 InventorValue InventorParser::value(const InventorType& type, const InventorField& field) {

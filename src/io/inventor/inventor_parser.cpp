@@ -246,10 +246,7 @@ void InventorParser::body(InventorNode& node) {
     } else if (takes_nodes && starts_node(token, behind)) {
       if (const InventorNode* child = this->node(token, &type)) node.children.push_back(child);
     } else {
-      std::vector<std::string> names;
-      for (const auto& f : type.fields) names.emplace_back(f.name);
-      tokens_.refuse(token.line, "{}: unknown field {}{}", type.name, in_quotes(token.text),
-                     did_you_mean(token.text.substr(0, 40), names));
+      skip_unknown_field(type, token);
     }
   }
 }

@@ -85,6 +85,12 @@ class InventorParser {
 
   void field(InventorNode& node, const InventorField& field);
   void skip_connection(const InventorType& type, const InventorField& field);
+  /// Warns of a field that the type does not have, and steps over its value.
+  void skip_unknown_field(const InventorType& type, const InventorToken& name);
+  /// Steps over one value by its syntax alone.   returns  false when no value follows
+  bool skip_unknown_value();
+  /// Steps over a node, or over the name of one.
+  void skip_node(const InventorToken& first);
   InventorValue value(const InventorType& type, const InventorField& field);
   template <class Take>
   void list(const InventorField& field, Take take);

@@ -35,6 +35,7 @@ constexpr std::string_view
 
 constexpr TypeText read_types[] = {
     {K::group, "Group", ""},
+    {K::separator, "LayerGroup", separator_fields},  // of Inventor 1
     {K::separator,
      "Separator Annotation Selection ExtSelection LocateHighlight WWWAnchor ShadowGroup",
      separator_fields},
@@ -75,7 +76,9 @@ constexpr TypeText read_types[] = {
     {K::binding, "MaterialBinding",
      "value:w(OVERALL|PER_PART|PER_PART_INDEXED|PER_FACE|PER_FACE_INDEXED|PER_VERTEX|"
      "PER_VERTEX_INDEXED|DEFAULT|NONE)=OVERALL"},
+    // hints: of Inventor 1, in place of the next three; the first four words set none of them
     {K::hints, "ShapeHints",
+     "hints:W(NONE|SURFACE|UNORDERED|CONCAVE|SOLID|ORDERED|CONVEX)= "
      "vertexOrdering:w(UNKNOWN_ORDERING|CLOCKWISE|COUNTERCLOCKWISE)=UNKNOWN_ORDERING shapeType "
      "faceType:w(UNKNOWN_FACE_TYPE|CONVEX)=CONVEX creaseAngle"},
     {K::coordinates, "Coordinate3", "point:F3=0,0,0"},
@@ -102,7 +105,9 @@ constexpr TypeText read_types[] = {
      "beginCap:b=1 endCap:b=1 ccw:b=1 convex:b=1 crossSection:F2=1,1,1,-1,-1,-1,-1,1,1,1 "
      "orientation:F4=0,0,1,0 scale:F2=1,1 spine:F3=0,0,0,0,1,0 solid creaseAngle"},
     {K::listed_faces, "FaceSet TriangleStripSet", listed_fields},
-    {K::indexed_faces, "IndexedFaceSet IndexedTriangleStripSet", indexed_fields},
+    // IndexedTriangleMesh: of Inventor 1, a strip in which -2 swaps the last two corners
+    {K::indexed_faces, "IndexedFaceSet IndexedTriangleStripSet IndexedTriangleMesh",
+     indexed_fields},
     {K::quad_mesh, "QuadMesh",
      "vertexProperty:n startIndex:i=0 verticesPerColumn:i=1 verticesPerRow:i=1"},
     {K::vrml_faces, "VRMLIndexedFaceSet",

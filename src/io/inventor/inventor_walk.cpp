@@ -264,6 +264,9 @@ bool InventorWalker::set_property(const InventorNode& node, InventorState& state
     case K::hints:
       state.clockwise = node.word("vertexOrdering") == "CLOCKWISE";
       state.convex = node.word("faceType") == "CONVEX";
+      // given together, the later fields of Inventor 2 are not used: files of version 1 have none
+      if (const auto& old = node.words("hints"); !old.empty())
+        state.clockwise = false, state.convex = std::ranges::count(old, "CONVEX") > 0;
       return true;
     case K::coordinates:
       state.coordinates = &node;

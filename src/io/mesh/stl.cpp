@@ -1,5 +1,6 @@
 #include "clench/io/mesh/mesh_readers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,13 +19,33 @@ size_t facet_count(std::string_view bytes) {
   return reader.next<uint32_t>();
 }
 
-/// Binary files may begin with "solid", too; then their size or what follows tells.
+/// The text without bytes of value 0 and blanks at its end, with which some programs fill a block.
+std::string_view ascii_part(std::string_view bytes) {
+  const size_t last = bytes.find_last_not_of(std::string_view("\0 \t\r\n\v\f\x1A", 8));
+  return bytes.substr(0, last == std::string_view::npos ? 0 : last + 1);
+}
+
+bool begins_solid(std::string_view word) { return word == "solid" || word == "facet"; }
+
+/// Does a line near the start begin a solid? Some programs write their names before it.
+bool has_solid_line(std::string_view text) {
+  constexpr size_t max_preface = 10'000;  // bytes
+  text = without_mark(text).substr(0, max_preface);
+  while (!text.empty()) {
+    const size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    if (begins_solid(lower_case(trim(text.substr(0, end)).substr(0, 5)))) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+/// Binary files may begin with "solid", too; then their size or the bytes of value 0 decide.
 bool is_ascii(std::string_view bytes) {
-  if (lower_case(trim(without_mark(bytes.substr(0, 200))).substr(0, 5)) != "solid") return false;
   if (bytes.size() >= header_bytes &&
       bytes.size() == header_bytes + facet_bytes * facet_count(bytes))
     return false;
-  return bytes.substr(0, 1000).find('\0') == std::string_view::npos;
+  const std::string_view text = ascii_part(bytes);
+  return has_solid_line(text) && text.substr(0, 1000).find('\0') == std::string_view::npos;
 }
 
 void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& corners,
@@ -64,28 +85,54 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
   add_facet(builder, corners, words.line());
 }
 
-void read_ascii(WordReader& words, GeometryBuilder& builder) {
-  // one solid, or several
-  for (bool first = true;; first = false) {
-    const std::string word = lower_case(words.word_anywhere());
-    if (word.empty() && !first) return;
-    if (word != "solid") words.fail("expected 'solid', got {}", in_quotes(word));
-    words.rest();  // its name
-    for (;;) {
-      const std::string next = expect(words, "facet or endsolid");
-      if (next == "endsolid") break;
-      if (next != "facet") words.fail("expected 'facet' or 'endsolid', got {}", in_quotes(next));
-      // the normal, which some programs write as no number
-      if (lower_case(words.word_anywhere()) != "normal")
-        words.fail("expected 'normal' after facet");
-      for (int i = 0; i < 3; ++i) expect(words, "a normal");
-      expect_word(words, "outer");
-      expect_word(words, "loop");
-      read_loop(words, builder);
-      expect_word(words, "endfacet");
-    }
+void read_facet(WordReader& words, GeometryBuilder& builder) {
+  // the normal, which some programs write as no number
+  if (lower_case(words.word_anywhere()) != "normal") words.fail("expected 'normal' after facet");
+  for (int i = 0; i < 3; ++i) expect(words, "a normal");
+  expect_word(words, "outer");
+  expect_word(words, "loop");
+  read_loop(words, builder);
+  expect_word(words, "endfacet");
+}
+
+/// Steps over the lines before the first solid.
+std::string first_solid(const MeshInput& input, WordReader& words) {
+  std::string word = lower_case(words.word_anywhere());
+  if (begins_solid(word) || word.empty()) return word;
+  input.warn(fmt::format("{}: the text before 'solid' is not used", words.place()));
+  while (!begins_solid(word) && !word.empty()) {
     words.rest();
+    word = lower_case(words.word_anywhere());
   }
+  return word;
+}
+
+/// One solid or several; the lines around their facets may be missing.
+void read_ascii(const MeshInput& input, WordReader& words, GeometryBuilder& builder) {
+  const auto repair = [&](const char* missing, const std::string& word, const char* done) {
+    input.options.repaired(
+        fmt::format("{}: expected '{}', got {}; the solid {} here", words.place(), missing,
+                    word.empty() ? "the end of the file" : in_quotes(word), done));
+  };
+  bool open = false;
+  std::string word = first_solid(input, words);
+  if (word == "facet") repair("solid", word, "begins"), open = true;
+  for (; !word.empty(); word = lower_case(words.word_anywhere())) {
+    if (word == "solid") {
+      if (open) repair("endsolid", word, "ends");
+      open = true;
+      words.rest();  // its name
+    } else if (word == "endsolid" && open) {
+      open = false;
+      words.rest();
+    } else if (word == "facet" && open) {
+      read_facet(words, builder);
+    } else {
+      words.fail("expected {}, got {}", open ? "'facet' or 'endsolid'" : "'solid'",
+                 in_quotes(word));
+    }
+  }
+  if (open) repair("endsolid", "", "ends");
 }
 
 void read_binary(const MeshInput& input, GeometryBuilder& builder) {
@@ -125,9 +172,9 @@ void read_binary(const MeshInput& input, GeometryBuilder& builder) {
 bool read_stl(const MeshInput& input, GeometryBuilder& builder) {
   if (is_ascii(input.bytes)) {
     builder.report.format = "ascii STL";
-    const std::string text = plain_text(input.bytes);
+    const std::string text = plain_text(std::string(ascii_part(input.bytes)));
     WordReader words(input.file(), text);
-    read_ascii(words, builder);
+    read_ascii(input, words, builder);
   } else {
     builder.report.format = "binary STL";
     read_binary(input, builder);

@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <vector>
 
+#include "clench/base/error.h"
+
 namespace clench {
 
 namespace fs = std::filesystem;
 
+static bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
 /// Where a path leads, whether anything is there or not; empty when links lead in a circle.
-static fs::path resolved(const fs::path& path) {
+/// visit(link)  sees where each link on the way lies
+template <class Visit>
+static fs::path resolved(const fs::path& path, Visit visit) {
   constexpr int link_limit = 40;  // as many as the system follows
   std::error_code code;
   std::vector<fs::path> rest;  // the next part last
@@ -28,22 +37,43 @@ static fs::path resolved(const fs::path& path) {
     }
     const fs::path next = out / part;  // "/" leads back to the root
     const fs::path target = fs::read_symlink(next, code);
-    if (code)
+    if (code) {
       out = next;
-    else if (++links > link_limit)
+    } else if (++links > link_limit) {
       return {};
-    else
+    } else {
+      visit(next);
       add(target);
+    }
   }
   return out;
+}
+
+static fs::path resolved(const fs::path& path) {
+  return resolved(path, [](const fs::path&) {});
 }
 
 bool lies_within(const fs::path& path, const fs::path& folder) {
   if (folder.empty()) return true;
   const fs::path at = resolved(path), home = resolved(folder);
   // of a folder that cannot be told nothing is known to lie in
-  return !home.empty() &&
-         std::mismatch(home.begin(), home.end(), at.begin(), at.end()).first == home.end();
+  return !home.empty() && is_below(at, home);
+}
+
+bool leads_out(const fs::path& path, const fs::path& folder) {
+  if (folder.empty()) return false;
+  const fs::path home = resolved(folder);
+  bool through = false;
+  const fs::path at =
+      resolved(path, [&](const fs::path& link) { through = through || is_below(link, home); });
+  return through && !is_below(at, home);
+}
+
+void check_target(const fs::path& file, const fs::path& confine) {
+  if (leads_out(file, confine))
+    fail(ErrorKind::file,
+         "{}: a link leads out of {}, to which reading is confined; nothing is written",
+         file.generic_string(), confine.generic_string());
 }
 
 }  // namespace clench

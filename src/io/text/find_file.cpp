@@ -5,50 +5,19 @@
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/io/text/any_case.h"
 #include "clench/io/text/confine.h"
 
 namespace clench {
 
 namespace fs = std::filesystem;
 
-/// Names in a folder, in a fixed order.
-static std::vector<std::string> entries(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code code;
-  for (fs::directory_iterator it(folder.empty() ? "." : folder, code), end; !code && it != end;
-       it.increment(code))
-    names.push_back(it->path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-/// The path itself, or the one that differs in case only; else empty.
-static fs::path exact_or_case(const fs::path& path) {
-  std::error_code code;
-  if (fs::exists(path, code)) return path;
-  fs::path found;
-  for (const auto& part : path) {
-    fs::path next = found.empty() ? part : found / part;
-    if (!fs::exists(next, code)) {
-      next.clear();
-      for (const auto& name : entries(found))
-        if (lower_case(name) == lower_case(part.string())) {
-          next = found / name;
-          break;
-        }
-      if (next.empty()) return {};
-    }
-    found = next;
-  }
-  return found;
-}
-
 /// A near name in the folder where the file should be, of the first place that has such a folder.
 static std::string suggestion(const std::vector<fs::path>& places, const ReadOptions& options) {
   for (const auto& place : places) {
     const fs::path folder = exact_or_case(place.parent_path().empty() ? "." : place.parent_path());
     if (folder.empty() || !lies_within(folder, options.confine)) continue;
-    const std::string near = did_you_mean(place.filename().string(), entries(folder));
+    const std::string near = did_you_mean(place.filename().string(), names_in_folder(folder));
     if (!near.empty()) return near;
   }
   return "";
@@ -94,8 +63,7 @@ void fail_outside(const std::string& name, const ReadOptions& options) {
 }
 
 fs::path find_file(const std::string& name, const fs::path& referrer, const ReadOptions& options) {
-  std::string slashed = name;
-  std::replace(slashed.begin(), slashed.end(), '\\', '/');
+  const std::string slashed = with_slashes(name);
   if (trim(name).empty()) fail(ErrorKind::file, "expected the name of a file, got nothing");
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail(ErrorKind::file, "no such file: {}", in_quotes(name));
@@ -109,7 +77,7 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   for (const auto& place : places)
     if (is_readable(place, options)) return place;
   for (const auto& place : places)
-    if (const fs::path found = exact_or_case(place); is_readable(found, options)) return found;
+    if (const fs::path found = find_in_any_case(place, options); !found.empty()) return found;
   std::error_code code;
   for (const auto& place : places)
     if (const fs::path found = exact_or_case(place);

@@ -54,6 +54,8 @@ class UrdfReader {
   Pose read_origin(const XmlElement& element);
   void read_joint_names(const XmlElement& element);
   int link_of(const XmlElement& joint, const char* end) const;
+  void find_still_joints();
+  Pose read_joint_origin(const FileJoint& from);
   void order_links();
   TreeJoint read_joint(const FileJoint& from);
   void read_axis(const FileJoint& from, TreeJoint& joint);
@@ -73,7 +75,8 @@ class UrdfReader {
   std::vector<LinkPieces> pieces_;
   std::map<std::string, int> link_numbers_;
   std::vector<FileJoint> joints_;
-  std::set<std::string> names_;  // of joints
+  std::set<std::string> names_;          // of joints
+  std::map<std::string, double> still_;  // joints that never move, where they stand [rad or m]
   size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
@@ -298,6 +301,46 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
   joints_.push_back(std::move(joint));
 }
 
+/// Fixed, floating and planar joints, and those that mimic one of them.
+void UrdfReader::find_still_joints() {
+  for (const FileJoint& joint : joints_)
+    if (joint.type == "fixed" || joint.type == "floating" || joint.type == "planar")
+      still_[joint.name] = 0;
+  // followers of followers are found round by round
+  for (bool found = true; found;) {
+    found = false;
+    for (const FileJoint& joint : joints_) {
+      const XmlElement mimic = joint.element.child("mimic");
+      if (!mimic || still_.contains(joint.name)) continue;
+      const auto leader = still_.find(mimic.attribute("joint").value_or(""));
+      if (leader == still_.end()) continue;
+      const XmlValues values(mimic);
+      const double value =
+          values.number("multiplier", 1) * leader->second + values.number("offset", 0);
+      if (!std::isfinite(value))
+        mimic.fail("joint '{}': expected a finite position, got {}", excerpt(joint.name), value);
+      repairs_.add("still mimic",
+                   fmt::format("{}: joint '{}' mimics '{}', which does not move; it is fixed at "
+                               "{:.6g} {}",
+                               mimic.place(), excerpt(joint.name), excerpt(leader->first), value,
+                               joint.type == "prismatic" ? "m" : "rad"));
+      still_[joint.name] = value;
+      found = true;
+    }
+  }
+}
+
+/// Where the joint's link stands in its parent; for one that moves, before it does.
+Pose UrdfReader::read_joint_origin(const FileJoint& from) {
+  const Pose origin = read_origin(from.element);
+  const auto still = still_.find(from.name);
+  if (still == still_.end() || still->second == 0) return origin;
+  TreeJoint joint;
+  joint.kind = from.type == "prismatic" ? JointKind::prismatic : JointKind::revolute;
+  read_axis(from, joint);
+  return origin * joint_pose(joint, still->second);
+}
+
 /// Links from the root on, each after its parent, branches in the file's order.
 void UrdfReader::order_links() {
   if (links_.empty()) xml_.root().fail("robot: expected links, got none");
@@ -324,7 +367,7 @@ void UrdfReader::order_links() {
     TreeLink link = std::move(links_[step.link]);
     link.parent = step.parent;
     if (step.joint) {
-      link.X_PL = read_origin(step.joint->element);
+      link.X_PL = read_joint_origin(*step.joint);
       // joints keep the file's order: its numbers stand for the places
       if (const auto found = joint_numbers_.find(step.joint->name); found != joint_numbers_.end())
         link.joints.push_back(found->second);
@@ -404,15 +447,22 @@ void UrdfReader::read_mimics() {
     if (!mimic) continue;
     const auto self = joint_numbers_.find(from.name);
     if (self == joint_numbers_.end()) {
-      warn(mimic, fmt::format("joint '{}' does not move, and mimics nothing", excerpt(from.name)));
+      if (from.type == "fixed" || from.type == "floating" || from.type == "planar")
+        warn(mimic,
+             fmt::format("joint '{}' does not move, and mimics nothing", excerpt(from.name)));
       continue;
     }
     const XmlValues values(mimic);
     const std::string name = values.text("joint");
     const auto leader = joint_numbers_.find(name);
-    if (leader == joint_numbers_.end())
-      mimic.fail("joint '{}': mimic: no joint that moves is called {}{}", excerpt(from.name),
-                 in_quotes(name), did_you_mean(name, names_in(joint_numbers_)));
+    if (leader == joint_numbers_.end()) {
+      repairs_.add("mimic of none",
+                   fmt::format("{}: joint '{}': mimic: no joint is called {}{}; it moves "
+                               "independently",
+                               mimic.place(), excerpt(from.name), in_quotes(name),
+                               did_you_mean(name, names_in(joint_numbers_))));
+      continue;
+    }
     TreeJoint& joint = tree_.joints[self->second];
     joint.leader = leader->second;
     joint.ratio = values.number("multiplier", 1);
@@ -442,11 +492,12 @@ RobotSpec UrdfReader::read() {
   const auto own = root.children("clench");
   if (own.size() > 1) own[1].fail("robot: expected one <clench>, got another");
   for (const auto& child : root.children("joint")) read_joint_names(child);
+  find_still_joints();
   for (const FileJoint& joint : joints_) {
     if (joint.type == "floating" || joint.type == "planar")
       warn(joint.element, fmt::format("joint '{}' is {}; its link stays where the file puts it",
                                       excerpt(joint.name), joint.type));
-    else if (joint.type != "fixed") {
+    else if (!still_.contains(joint.name)) {
       joint_numbers_[joint.name] = static_cast<int>(tree_.joints.size());
       tree_.joints.push_back(read_joint(joint));
     }

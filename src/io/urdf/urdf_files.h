@@ -10,7 +10,8 @@ namespace clench {
 
 /// The file that `name` means in the robot file `referrer`. A package is looked up in
 /// options.packages, then guessed: a folder of its name beside the referrer or above it, else the
-/// nearest folder above the referrer in which the rest of the name is found (a note tells).
+/// nearest folder above the referrer in which the rest of the name is found (a note says which).
+/// Back-slashes count as slashes, and names that differ only in case are found after exact ones.
 /// throws  Error "no package 'shadow' ...", and what find_file throws
 std::filesystem::path find_robot_file(const std::string& name,
                                       const std::filesystem::path& referrer,

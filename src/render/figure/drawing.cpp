@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "clench/base/printable.h"
 #include "clench/base/text.h"
 #include "clench/render/figure/canvas.h"
 
@@ -38,10 +39,12 @@ std::string hex(const Drawing::Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
-// what XML allows of a text
+// what XML allows of a text, and a reader shows rather than obeys
 std::string escaped(const std::string& text) {
+  std::u32string letters = letters_of(text);
+  std::erase_if(letters, [](char32_t c) { return c == 0xFFFE || c == 0xFFFF; });
   std::string out;
-  for (const char c : text_of(letters_of(text))) {
+  for (const char c : printable(text_of(letters), "\n")) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')

@@ -138,7 +138,12 @@ TaskError take_error(lua_State* L) {
   lua_pushcfunction(L, guarded<tell_error>);
   lua_insert(L, -2);
   TaskError out;
+  // nothing interrupts what says why: an item that was stopped has words, too
+  const lua_Hook hook = lua_gethook(L);
+  const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
+  lua_sethook(L, nullptr, 0, 0);
   if (lua_pcall(L, 1, 2, 0) == LUA_OK) out = {words(-2), words(-1)};
+  lua_sethook(L, hook, mask, count);
   if (out.words.empty()) out.words = "an error without words";
   lua_settop(L, top);
   return out;

@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "clench/base/error.h"
+#include "clench/base/printable.h"
 #include "clench/base/watched.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/host/modules.h"
@@ -41,7 +42,7 @@ void State::warn(void* state, const char* text, int to_be_continued) {
   if (m.warning.empty() && !to_be_continued && *text == '@') return;  // a control message
   m.warning += text;
   if (to_be_continued) return;
-  if (!m.quiet) fmt::print(stderr, "clench: warning: {}\n", m.warning);
+  if (!m.quiet) fmt::print(stderr, "clench: warning: {}\n", printable(m.warning, "\n\t"));
   m.warning.clear();
 }
 
@@ -243,7 +244,7 @@ State::Result State::finish(int status, int base) {
     if (result.ok)
       result.values.push_back(std::move(value));
     else
-      result.error = std::move(value);
+      result.error = printable(value, "\n\t");
   }
   lua_settop(L_, base);
   return result;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "clench/base/printable.h"
 #include "clench/base/progress.h"
 #include "clench/base/text.h"
 #include "clench/script/lua/entry.h"
@@ -77,9 +78,7 @@ struct Message {
     }
     char* end = std::ranges::copy(first, text).out;
     if (!last.empty()) end = std::ranges::copy(last, std::strcpy(end, "...") + 3).out;
-    std::replace_if(
-        text, end, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, '?');
-    *end = 0;
+    *make_printable(text, end) = 0;
   }
   // of what is no sentence of ours, such as the standard library's
   void copy(lua_State* L, std::string_view what) {

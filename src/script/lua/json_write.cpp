@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clench/base/printable.h"
 #include "clench/base/text.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
@@ -72,6 +73,8 @@ class Writer {
         out += "\"\\bfnrt"[short_form];
       } else if (size == 1 && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)) {
         out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+      } else if (control_size(text, i)) {
+        out += fmt::format("\\u{:04x}", static_cast<uint32_t>(letters_of(text.substr(i, size))[0]));
       } else {
         out += text.substr(i, size);
       }

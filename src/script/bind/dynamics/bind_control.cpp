@@ -54,7 +54,7 @@ not to its clones or snapshots.
 Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when
 `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives
 false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were
-spawned; an error in one ends the run.
+spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
 @param fn function
 @return table handle  `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
 > task = world:spawn(function(task) task.wait(0.02) seen = world.time end)

@@ -1,6 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/io/grasp_files.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -36,7 +37,7 @@ static int grasps_add(lua_State* L) {
 
 static int grasps_save(lua_State* L) {
   const auto& list = self<GraspList>(L);
-  const std::string path = check_string(L, 2, "path");
+  const std::string path = check_output(L, 2);
   std::vector<GraspSpec> specs;
   for (const GraspHandle& handle : list.grasps) specs.push_back(handle.grasp);
   Table options(L, 3);

@@ -3,12 +3,13 @@
 #include "clench/base/file.h"
 #include "clench/render/figure/gif.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/lua/guard.h"
 
 namespace clench {
 
 static int save_gif(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1);
   if (!lua_istable(L, 2)) fail_expected({L, {}, "pictures"}, "a list of pictures", 2);
   std::vector<Picture> frames;
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, 2)); ++i) {

@@ -5,6 +5,7 @@
 #include "clench/render/figure/plot.h"
 #include "clench/render/figure/sheet.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -88,7 +89,7 @@ static int make_plot(lua_State* L) {
 
 static int plot_save(lua_State* L) {
   const auto& plot = self<PlotHandle>(L);
-  const std::string path = check_string(L, 2, "path");
+  const std::string path = check_output(L, 2);
   if (path.ends_with(".svg"))
     write_file(path, svg_text(*plot.drawing));
   else if (path.ends_with(".png"))

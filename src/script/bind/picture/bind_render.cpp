@@ -4,6 +4,7 @@
 #include "clench/render/renderer.h"
 #include "clench/scene/force_arrows.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
@@ -191,7 +192,7 @@ static int render_draw(lua_State* L) {
 
 static int render_save(lua_State* L) {
   const Picture& picture = self<Picture>(L);
-  const std::string path = check_string(L, 2, "path");
+  const std::string path = check_output(L, 2);
   if (!path.ends_with(".png"))
     fail("{}: expected a name that ends in .png, got '{}'", subject(L), path);
   save_png(picture, path);

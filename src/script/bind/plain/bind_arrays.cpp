@@ -2,8 +2,11 @@
 #include "clench/base/text.h"
 #include "clench/io/grasps/npz.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/output.h"
+#include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 
@@ -43,7 +46,7 @@ static NpyArray read_array(lua_State* L, int index, const std::string& subject) 
 }
 
 static int save_arrays(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1);
   if (!lua_istable(L, 2)) fail_expected({L, {}, "arrays"}, "a table of names and lists", 2);
   std::map<std::string, NpyArray> arrays;
   each_named(L, 2, {L, {}, "arrays"}, "names", [&](const std::string& name, int i, const What&) {
@@ -58,7 +61,10 @@ static int save_arrays(lua_State* L) {
 
 static int arrays(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
-  const auto found = read_npz(path, read_bytes(path));
+  Table options(L, 2);
+  const ReadOptions reading = read_options(L, options);
+  options.done();
+  const auto found = read_npz(path, read_bytes(find_file(path, {}, reading)));
   push_list(L, 0, static_cast<int>(found.size()));
   for (const auto& [name, array] : found) {
     push(L, name);
@@ -91,6 +97,7 @@ Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` 
     {"arrays", guarded<arrays>, R"(
 The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
 @param path string  .npz
+@param options? {root?: string, confine?: string, strict?: boolean}
 @return table<string, number[]|number[][]|string[]>
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}, place = {{1, 2, 3}, {4, 5, 6}}})
 > clench.files.arrays "build/arrays.npz".place[2][3]  --> 6.0

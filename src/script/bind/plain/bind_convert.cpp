@@ -2,6 +2,8 @@
 
 #include "clench/base/text.h"
 #include "clench/io/convert.h"
+#include "clench/io/text/confine.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
 #include "clench/script/lua/guard.h"
@@ -11,9 +13,10 @@
 namespace clench {
 
 static int convert(lua_State* L) {
-  const std::string from = check_string(L, 1, "from"), to = check_string(L, 2, "to");
+  const std::string from = check_string(L, 1, "from"), to = check_output(L, 2, "to");
   Table options(L, 3);
   ReadOptions reading = read_options(L, options);
+  check_target(to, reading.confine);
   const auto found = find_file(from, {}, reading);
   std::error_code code;
   if (std::filesystem::equivalent(found, to, code))

@@ -10,6 +10,7 @@
 #include "clench/io/graspit/inventor_primitives.h"
 #include "clench/io/graspit/virtual_contacts.h"
 #include "clench/io/text/csv.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -30,7 +31,7 @@ static Value read_with(lua_State* L, Value (*read)(const fs::path&, const ReadOp
 }
 
 static int save_text(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1);
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
   write_file(path, string_at(L, 2));
   return 0;
@@ -118,7 +119,7 @@ static Eigen::Vector3d read_direction(Table& item, const char* key) {
 }
 
 static int save_object_contacts(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1);
   std::vector<ObjectContact> list;
   each_table(L, [&](Table& item) {
     ObjectContact contact{.X_OC = item.pose("frame"),
@@ -158,7 +159,7 @@ static int push(lua_State* L, const Pregrasp& p) {
 static int pregrasps(lua_State* L) { return push(L, read_with(L, read_pregrasps)); }
 
 static int save_pregrasps(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1);
   std::vector<Pregrasp> list;
   each_table(L, [&](Table& item) {
     list.push_back({.point = item.vec3("point"),

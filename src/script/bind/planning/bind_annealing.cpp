@@ -132,7 +132,7 @@ int run_all(lua_State* L) {
 }
 
 int push_search_state(lua_State* L, const Annealing& search, const FoundState& found) {
-  return push_record(L, {{"energy", found.energy},
+  return push_record(L, {{"energy", [&] { push_unbounded(L, found.energy); }},
                          {"step", static_cast<double>(found.step)},
                          {"pose", found.state.X_RH},
                          {"dofs", found.state.dofs},
@@ -238,7 +238,7 @@ by name.
 > search:run(20)
 > #search.best >= 1, #search.best[1].dofs  --> true, 12)"},
     {"state", guarded<get_state>, R"(
-Where the chain is, as `best` says it.
+Where the chain is, as `best` has it; its energy is infinite where it begins in collision.
 @type table
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
 > search.state.energy == search.energy  --> true)"},

@@ -1,6 +1,7 @@
 #include "clench/script/bind/bind.h"
 
 #include "clench/io/graspit/eigengrasps.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -110,7 +111,7 @@ static int dofs(lua_State* L) {
 
 static int eigengrasps_save(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
-  write_eigengrasps(handle.value(), check_string(L, 2, "path"),
+  write_eigengrasps(handle.value(), check_output(L, 2),
                     [L](const std::string& message) { log_warning(L, message); });
   return 0;
 }

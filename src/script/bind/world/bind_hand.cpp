@@ -8,6 +8,7 @@
 #include "clench/io/graspit/virtual_contacts.h"
 #include "clench/model/dof.h"
 #include "clench/motion/virtual_contacts.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -176,7 +177,7 @@ static int save_virtual_contacts(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const auto set =
       contact_set(robot->name, robot->chains, virtual_contacts(*robot.world, robot.id));
-  write_virtual_contacts(set, check_string(L, 2, "path"));
+  write_virtual_contacts(set, check_output(L, 2));
   return 0;
 }
 

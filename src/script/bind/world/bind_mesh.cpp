@@ -6,6 +6,7 @@
 
 #include "clench/base/watched.h"
 #include "clench/io/mesh/write_mesh.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -75,7 +76,7 @@ static int sample(lua_State* L) {
 }
 
 static int mesh_save(lua_State* L) {
-  write_mesh(shape_of(L).mesh(), check_string(L, 2, "path"));
+  write_mesh(shape_of(L).mesh(), check_output(L, 2));
   return 0;
 }
 

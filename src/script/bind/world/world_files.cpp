@@ -8,6 +8,7 @@
 #include "clench/model/describe_world.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/guard.h"
@@ -181,11 +182,12 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
 
 int save_world(lua_State* L) {
   const WorldPtr world = self<WorldHandle>(L).world;
-  const fs::path path = check_string(L, 2, "path");
+  const fs::path path = check_output(L, 2);
   Table options(L, 3);
   const SavingOptions saving{.root = options.string("root", ""),
                              .confine = read_confine(L, options)};
   options.done();
+  check_target(path, saving.confine);
   save_world(L, *world, path, saving);
   return 0;
 }

@@ -1,0 +1,13 @@
+// Files that scripts name to be written.
+#pragma once
+#include <string>
+
+struct lua_State;
+
+namespace clench {
+
+/// Argument i, a file to be written; checked as check_target does with the folder that the state was
+/// given.
+std::string check_output(lua_State* L, int i, const char* name = "path");
+
+}  // namespace clench

@@ -1,0 +1,23 @@
+--- A class of the standard library, whose methods are defined on it: each checks that it is called with a colon, on a value of the class.
+local raise = require "clench.raise"
+local described = require "clench.described"
+local getmetatable, rawset, type = debug.getmetatable, rawset, type
+
+---@param name string  "recording", for messages
+---@return table # a metatable; its own __index
+return function(name)
+  local class = {__name = name}
+  class.__index = class
+  return setmetatable(class, {__newindex = function(_, key, value)
+    if type(value) == "function" then
+      local method = value
+      function value(self, ...)
+        if getmetatable(self) ~= class then
+          raise(("%s:%s: expected a %s before the colon, got %s; use %s:%s(...)"):format(name, key, name, described(self), name, key))
+        end
+        return method(self, ...)
+      end
+    end
+    rawset(class, key, value)
+  end})
+end

@@ -1,0 +1,156 @@
+-- Tries every entry of the API that opens a file, in a process whose reading is confined: clench run --confine IN confined_entries.lua IN OUT.
+-- IN holds `link`, a link to the folder OUT; OUT holds `file`. An entry whose documentation speaks of files must be listed here.
+local inside, outside = ...
+local doc = require "clench.host.doc"
+
+local anywhere = {confine = "/"}
+local world = clench.world()
+local hand = world:add_robot("models/hands/barrett/barrett.cfg", anywhere)
+local arm = world:add_robot("models/arms/puma560/puma560.cfg", anywhere)
+local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
+local picture = clench.render(world, {size = {16, 16}, quality = "draft"})
+local recording, log = world:record(), world:log {quantities = {"energy"}}
+world:run(0.1)
+
+-- reads the path; `[{key}]`: as that option
+local readers = {
+  ["clench.file_kind"] = clench.file_kind,
+  ["clench.convert"] = function(path) clench.convert(path, inside .. "/x.obj") end,
+  ["clench.load"] = clench.load,
+  ["clench.load{folder}"] = function(path) clench.load(inside .. "/names_file.urdf", {folder = path:match "^(.*)/"}) end,
+  ["clench.load{package}"] = function(path) clench.load(inside .. "/names_package.urdf", {package = path:match "^(.*)/"}) end,
+  ["clench.load{eigengrasps}"] = function(path) clench.load(inside .. "/plain.urdf", {eigengrasps = path}) end,
+  ["clench.load{virtual_contacts}"] = function(path) clench.load(inside .. "/plain.urdf", {virtual_contacts = path}) end,
+  ["clench.grasps"] = clench.grasps,
+  ["clench.csv.read"] = clench.csv.read,
+  ["clench.plan.primitive{primitives}"] = function(path) clench.plan.primitive {hand = hand, object = box, primitives = path} end,
+  ["clench.report.of"] = function(path)
+    local r = clench.report.of(path)
+    if r.error then error(r.error, 0) end
+  end,
+  ["clench.report.of{folder}"] = function(path)
+    local r = clench.report.of(inside .. "/names_file.urdf", {folder = path:match "^(.*)/"})
+    if r.error then error(r.error, 0) end
+  end,
+  ["clench.report.of{package}"] = function(path)
+    local r = clench.report.of(inside .. "/names_package.urdf", {package = path:match "^(.*)/"})
+    if r.error then error(r.error, 0) end
+  end,
+  ["world:add_object"] = function(path) world:add_object(path) end,
+  ["world:add_obstacle"] = function(path) world:add_obstacle(path) end,
+  ["world:add_robot"] = function(path) world:add_robot(path) end,
+  ["world:add_robot{folder}"] = function(path) world:add_robot(inside .. "/names_file.urdf", {folder = path:match "^(.*)/"}) end,
+  ["world:add_robot{package}"] = function(path) world:add_robot(inside .. "/names_package.urdf", {package = path:match "^(.*)/"}) end,
+  ["world:add_robot{eigengrasps}"] = function(path) world:add_robot(inside .. "/plain.urdf", {eigengrasps = path}) end,
+  ["world:add_robot{virtual_contacts}"] = function(path) world:add_robot(inside .. "/plain.urdf", {virtual_contacts = path}) end,
+  ["robot:mount_on{adapter}"] = function(path) hand:mount_on(arm, {adapter = path}) end,
+}
+for _, name in ipairs {"eigengrasps", "virtual_contacts", "object_contacts", "primitives", "pregrasps", "read_text", "glove_calibration",
+                       "glove_poses", "arrays"} do
+  readers["clench.files." .. name] = clench.files[name]
+end
+
+-- writes to the path
+local writers = {
+  ["clench.convert"] = function(path) clench.convert(inside .. "/flask.iv", path .. ".obj") end,
+  ["clench.files.save_text"] = function(path) clench.files.save_text(path, "text") end,
+  ["clench.files.save_arrays"] = function(path) clench.files.save_arrays(path, {a = {1}}) end,
+  ["clench.files.save_object_contacts"] = function(path) clench.files.save_object_contacts(path, {}) end,
+  ["clench.files.save_pregrasps"] = function(path) clench.files.save_pregrasps(path, {}) end,
+  ["clench.files.save_gif"] = function(path) clench.files.save_gif(path, {picture}) end,
+  ["clench.csv.write"] = function(path) clench.csv.write(path, {{a = 1}}) end,
+  ["world:save"] = function(path) clench.world():save(path .. ".wld") end,
+  ["mesh:save"] = function(path) box.mesh:save(path .. ".obj") end,
+  ["hand:save_virtual_contacts"] = function(path) hand:save_virtual_contacts(path .. ".vgr") end,
+  ["eigengrasps:save"] = function(path) hand.eigengrasps:save(path .. ".egr") end,
+  ["picture:save"] = function(path) picture:save(path .. ".png") end,
+  ["plot:save"] = function(path) clench.plot {series = {{x = {0, 1}, y = {0, 1}}}}:save(path .. ".svg") end,
+  ["grasps:save"] = function(path) clench.grasps():save(path .. ".jsonl") end,
+  ["log:save"] = function(path) log:save(path .. ".csv") end,
+  ["recording:save"] = function(path) recording:save(path .. ".gif", {size = {16, 16}}) end,
+  -- what is written beside a file, in a folder that is a link
+  ["clench.convert{beside}"] = function(path)
+    clench.convert(inside .. "/flask.iv", path:match "^(.*)/link/" .. "/linked.xml")
+  end,
+}
+
+-- entries that speak of files, and open none
+local neither = {
+  ["clench.render"] = "options of pictures",
+  ["clench.catalog"] = "reads the folders of its own models",
+  ["clench.shapes.tube"] = "its path is a line in space",
+  ["clench.study.compare"] = "grasps that came from files",
+  ["motion:weld"] = "its `to` is a body",
+}
+
+-- --- what there is ---
+
+local file_keys = {folder = true, package = true, eigengrasps = true, virtual_contacts = true, adapter = true, primitives = true}
+local function looks_like_files(param)
+  local words = " " .. param.name .. " " .. (param.text or "") .. " "
+  return param.type:find "string" and (words:find "%f[%a]paths?%f[%A]" or words:find "%f[%a]files?%f[%A]")
+    or param.name:find "^path" or param.type:find "confine%?" or param.name == "to" and param.type == "string"
+end
+
+local listed, unlisted = {}, {}
+for _, list in ipairs {readers, writers, neither} do
+  for name in pairs(list) do listed[name] = true end
+end
+local found = {}
+local function look(name, text)
+  for _, param in ipairs(doc.parse(text).params) do
+    if looks_like_files(param) then
+      found[name] = true
+      if not listed[name] and not listed[name .. "{primitives}"] and not listed[name .. "{adapter}"] then unlisted[#unlisted + 1] = name end
+      for key in param.type:gmatch "([%w_]+)%??: " do
+        if file_keys[key] and not listed[name .. "{" .. key .. "}"] then unlisted[#unlisted + 1] = name .. "{" .. key .. "}" end
+      end
+    end
+  end
+end
+local all = clench.entries()
+for _, library in ipairs(all.libraries) do
+  for _, entry in ipairs(library.functions) do look(library.name .. "." .. entry.name, entry.doc) end
+end
+for _, class in ipairs(all.classes) do
+  for _, entry in ipairs(class.methods) do look(class.name .. ":" .. entry.name, entry.doc) end
+end
+for _, entry in ipairs(doc.packed_functions(all.files)) do look("clench." .. entry.name, entry.doc) end
+table.sort(unlisted)
+assert(#unlisted == 0, "entries that open files are not tried here: " .. table.concat(unlisted, ", "))
+local count = 0
+for _ in pairs(found) do count = count + 1 end
+assert(count > 25, count)
+
+-- --- reading ---
+
+local paths = {outside .. "/file", inside .. "/../out/file", inside .. "/link/file", inside .. "/linked", outside .. "/none"}
+for name, read in pairs(readers) do
+  for _, path in ipairs(paths) do
+    -- a folder that is given is a place where names are looked up, not one that may be left
+    local given = name:find "[{]folder" or name:find "[{]package"
+    if not (given and path:find "linked$") then
+      local ok, message = pcall(read, path)
+      message = tostring(message)
+      local says = message:find("lies outside of", 1, true) or given and (message:find("no such file", 1, true) or message:find("no package", 1, true))
+      assert(not ok and says, ("%s read '%s': %s"):format(name, path, message))
+    end
+  end
+end
+
+-- a world in Lua is a program
+local ok, message = pcall(clench.load, inside .. "/world.lua")
+assert(not ok and message:find "a world in Lua is a program", message)
+
+-- --- writing: never through a link that lies inside ---
+
+for name, write in pairs(writers) do
+  local failed, why = pcall(write, inside .. "/link/" .. name:gsub("%W", "_"))
+  assert(not failed and tostring(why):find("a link leads out of", 1, true), ("%s wrote through a link: %s"):format(name, tostring(why)))
+  if not name:find "{" then
+    -- where the script itself names a place, it may write
+    local done, problem = pcall(write, outside .. "/written/" .. name:gsub("%W", "_"))
+    assert(done, ("%s: %s"):format(name, tostring(problem)))
+  end
+end
+print "all confined"
