@@ -538,7 +538,7 @@ function grasp:apply(world, options) end
 ---@return boolean
 function grasp:is_force_closure() end
 
----Its wrench space about the object's centre of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others; in some of the coordinates "fx" to "tz". The same options give the same space, which keeps what it has found.
+---Its wrench space about the object's centre of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others; in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
 ---@param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
 ---@return wrench_space
 function grasp:wrench_space(options) end
@@ -781,7 +781,7 @@ function world_queries:contacts(a, b) end
 ---@class world_dynamics: world_control
 ---@field time number # How long it has run. [s]
 ---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
----@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same contacts by another library; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
+---@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
 ---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to 1e-9 m/s, or 1e-8 m/s of what rests), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
 local world_dynamics = {}
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/watched.h"
+
 namespace clench {
 
 // a joint this near its place in the DOF follows it again: rounding [rad or m]
@@ -47,6 +49,7 @@ double lever(const Drive& drive, int joint, Id<Body> id) {
 
 // bound of the relative speed of two bodies: the joints that move one of them and not the other
 double pair_speed(const Drive& drive, const JointSpeeds& speeds, Id<Body> a, Id<Body> b) {
+  check_stop();
   double sum = 0;
   for (int j = 0; j < static_cast<int>(speeds.size()); ++j) {
     if (speeds[j] == 0) continue;

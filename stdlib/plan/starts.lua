@@ -17,12 +17,12 @@ local many_links = 64  -- of so many, moving one DOF at a time takes too long: i
 
 -- All DOFs move back together, by the smallest part of their ranges that leaves fewest collisions.
 local function freed_together(hand, dofs, count)
-  local best = dofs
+  local best, limits = dofs, hand.dof_limits
   for part = 0.1, 0.9, 0.1 do
     if count == 0 then break end
     local moved = {}
     for i, value in ipairs(dofs) do
-      local low, high = table.unpack(hand.dof_limits[i])
+      local low, high = table.unpack(limits[i])
       local far = math.abs(value - low) > math.abs(value - high) and low or high
       moved[i] = high - low < math.huge and value + part * (far - value) or value
     end
