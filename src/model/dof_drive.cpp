@@ -9,12 +9,12 @@ namespace {
 
 constexpr double none = DriveTerm::none;
 
-EffortRange ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+EffortRange spanned(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
 // the range times a factor, without infinity times 0
 EffortRange scaled(const EffortRange& range, double factor) {
   if (factor == 0) return {};
-  return ordered(range.low * factor, range.high * factor);
+  return spanned(range.low * factor, range.high * factor);
 }
 
 EffortRange clamped(const EffortRange& range, const std::array<double, 2>& bounds) {
