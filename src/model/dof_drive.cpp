@@ -9,12 +9,12 @@ namespace {
 
 constexpr double none = DriveTerm::none;
 
-EffortRange ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+EffortRange spanned(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
 // the range times a factor, without infinity times 0
 EffortRange scaled(const EffortRange& range, double factor) {
   if (factor == 0) return {};
-  return ordered(range.low * factor, range.high * factor);
+  return spanned(range.low * factor, range.high * factor);
 }
 
 EffortRange clamped(const EffortRange& range, const std::array<double, 2>& bounds) {
@@ -56,13 +56,19 @@ bool exerts_nothing(const ActuatorSpec& actuator) {
   return actuator.gear == 0 || (actuator.gain == 0 && no_bias) || actuator.kind == "damper";
 }
 
+// from the smaller to the larger, whatever the order of a spec; without bounds where there are none
+std::array<double, 2> bounds_of(const std::optional<std::array<double, 2>>& range) {
+  if (!range) return {-none, none};
+  return {std::min((*range)[0], (*range)[1]), std::max((*range)[0], (*range)[1])};
+}
+
 // An actuator on a tendon, whose coefficients are known by the largest effort that they give the DOF
 // alone: they count as positive, so that a range on one side of 0 stays there.
 DriveTerm on_tendon(const ActuatorSpec& actuator, double max_effort) {
   DriveTerm law;
   if (actuator.law_known) law.gain = actuator.gain, law.bias = actuator.bias;
-  if (actuator.law_known && actuator.control_range) law.control = *actuator.control_range;
-  if (actuator.force_range) law.force = *actuator.force_range;
+  if (actuator.law_known) law.control = bounds_of(actuator.control_range);
+  law.force = bounds_of(actuator.force_range);
   const EffortRange range = law.is_servo() ? range_of(law.force) : by_control(law, 0);
   const double most = std::max(-range.low, range.high);
   if (range.is_zero()) return {.reach = 0};
@@ -86,11 +92,11 @@ DriveTerm term_of(const Robot& robot, const ActuatorSpec& actuator) {
   }
   if (actuator.joint.empty()) return on_tendon(actuator, robot.dofs[actuator.dof].max_effort);
   term.reach = actuator.gear * ratio_of(robot, actuator.joint, actuator.dof);
-  if (actuator.force_range) term.force = *actuator.force_range;
+  term.force = bounds_of(actuator.force_range);
   if (!actuator.law_known) return term;
   term.gain = actuator.gain;
   term.bias = actuator.bias;
-  if (actuator.control_range) term.control = *actuator.control_range;
+  term.control = bounds_of(actuator.control_range);
   return term;
 }
 

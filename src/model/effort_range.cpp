@@ -1,5 +1,6 @@
 #include "clench/model/effort_range.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "clench/model/dof.h"
@@ -10,8 +11,8 @@ namespace clench {
 static EffortRange limited(const World& world, Id<Robot> robot, EffortRange range) {
   const auto& most = world.dynamic_settings().robot(robot).max_effort;
   if (!most) return range;
-  if (std::isinf(range.low)) range.low = -*most;
-  if (std::isinf(range.high)) range.high = *most;
+  if (std::isinf(range.low)) range.low = std::min(-*most, range.high);
+  if (std::isinf(range.high)) range.high = std::max(*most, range.low);
   return range;
 }
 

@@ -258,12 +258,12 @@ test("what a world that has run does not take along is told", function(t)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.lua") end), {})
   t.equal(clench.load(folder .. "/dynamic.lua").robots[1].floating, true)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.wld") end)[1],
-    "world:save: settings of dynamics beside the time step are not saved: engine, friction cone, gains, floating bases, breakaway, " ..
+    "world:save: settings of dynamics beside the time step are not saved: engine, friction cone, gains, max_effort, floating bases, breakaway, " ..
     "gravity compensation, belts, welds")
   world.robots[1].gravity_compensation = false
   world:run(0.01)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.lua") end),
-    {"world:save: settings of dynamics beside the time step and floating bases are not saved: engine, friction cone, gains, breakaway, " ..
+    {"world:save: settings of dynamics beside the time step and floating bases are not saved: engine, friction cone, gains, max_effort, breakaway, " ..
      "gravity compensation, belts, welds",
      "world:save: the time, velocities and targets of motors of a world that has run are not saved"})
 end)

@@ -167,8 +167,8 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
     if (script && world.dynamic_settings().robot(id).floating) kept.robots[id].floating = true;
   if (world.dynamic_settings() != kept)
     log_warning(L, fmt::format("{}: settings of dynamics beside the time step{} are not saved: "
-                               "engine, friction cone, gains, {}breakaway, gravity compensation, "
-                               "belts, welds",
+                               "engine, friction cone, gains, max_effort, {}breakaway, gravity "
+                               "compensation, belts, welds",
                                subject(L), script ? " and floating bases" : "",
                                script ? "" : "floating bases, "));
   if (world.time() > 0)
