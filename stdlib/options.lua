@@ -113,6 +113,13 @@ function Options:flag(name)
   return value == true
 end
 
+--- a function; nil when it was not given
+function Options:callback(name)
+  local value = self:raw(name)
+  if value ~= nil and type(value) ~= "function" then self:expected(name, "a function", value) end
+  return value
+end
+
 --- refuses keys that nobody read, the first in order of their names
 function Options:done()
   local strange = {}

@@ -70,6 +70,10 @@ return function(recording, path, _, options)
   if type(title) ~= "string" then read:expected("title", "a text", title) end
   local speed = read:positive("speed", 1)
   local places = read:raw "three"
+  if places ~= nil and type(places) ~= "table" then read:expected("three", "a list of files", places) end
+  for i, path in ipairs(places or {}) do
+    if type(path) ~= "string" then read:expected(("three[%d]"):format(i), "the name of a file", path) end
+  end
   read:done()
   local three, missing = find_three(places)
   if not three then raise("recording:save: " .. missing) end

@@ -22,7 +22,7 @@ return function(options)
     own.width = read:positive("width", 0.2, 10)
     own.standoff = read:positive("standoff", 0.1, 10)
     own.distance = read:not_negative("distance", 0.1)
-    own.on_grasp = read:raw "on_grasp"
+    own.on_grasp = read:callback "on_grasp"
   end)
   if not opposition.thumb(job.hand) then
     require "clench.raise" "plan.antipodal: hand: expected one of two fingers or more"

@@ -94,8 +94,9 @@ return function(options)
     if own.rule ~= "corrected" and own.rule ~= "graspit" then read:expected("rule", "'corrected' or 'graspit'", own.rule) end
     own.preshapes = read_preshapes(read, options.hand)
     own.thumb = read:raw "thumb"
+    if own.thumb ~= nil and described(own.thumb) ~= "a vec3" then own.thumb = clench.vec3(table.unpack(read:point "thumb")) end
     own.count = read:count("count", 1000000, 1, 1000000)
-    own.on_grasp = read:raw "on_grasp"
+    own.on_grasp = read:callback "on_grasp"
   end)
   local hand = job.hand
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)

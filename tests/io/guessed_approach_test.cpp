@@ -9,6 +9,7 @@
 #include "temporary.h"
 
 using namespace clench;
+using clench::test::TemporaryFolder;
 using Eigen::Vector3d;
 
 namespace {

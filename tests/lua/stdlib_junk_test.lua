@@ -119,16 +119,30 @@ test("mistakes are told with the caller's line", function(t)
     world:run(0.05)
     recording:save("x.gif", 5)
   end)
+  fails("recording:save: three must be a list of files, got 5", function() recording:save("x.html", {three = 5}) end)
+  fails("recording:save: three[1] must be the name of a file, got 5", function() recording:save("x.html", {three = {5}}) end)
+  local list = {{kind = "sphere", pose = clench.pose {}, radius = 0.02}}
+  for _, planner in ipairs {"sample", "random", "antipodal", "primitive"} do
+    fails(("plan.%s: on_grasp must be a function, got 5"):format(planner), function()
+      clench.plan[planner] {hand = hand, object = object, on_grasp = 5, primitives = planner == "primitive" and list or nil}
+    end)
+  end
+  fails("plan.primitive: thumb must be a point {x, y, z}, got 5", function()
+    clench.plan.primitive {hand = hand, object = object, primitives = list, thumb = 5}
+  end)
   fails("test.run_file: path: expected a name, got true", function() test.run_file(true) end)
 end)
 
 test("a task that yields a value ends the run with the task's line", function(t)
   local other = clench.world {}
   for _, value in ipairs {5, "x", true, {}, {seconds = 1}, {seconds = math.huge}} do
+    local line
     local task = other:spawn(function()
+      line = debug.getinfo(1, "l").currentline + 1
       coroutine.yield(value)
     end)
-    t.fails(function() other:run(0.1) end, "stdlib_junk_test.lua:129: task of world:spawn: expected task.wait, task.wait_step, task.wait_until or a yield of nothing, got a yield of ")
+    local message = t.fails(function() other:run(0.1) end, ": task of world:spawn: expected task.wait, task.wait_step, task.wait_until or a yield of nothing, got a yield of ")
+    t.ok(message:find(("stdlib_junk_test.lua:%d: task"):format(line), 1, true), message)
     t.equal(task.status, "failed")
   end
   local times = {}
