@@ -70,7 +70,8 @@ class GameTableau {
     for (int j = 0; j < columns_; ++j) {
       if (!(table_[j][enters] > nothing)) continue;
       const double ratio = table_[j][count] / table_[j][enters];
-      if (ratio < least || (ratio == least && basis_[j] < basis_[leaves])) least = ratio, leaves = j;
+      if (ratio < least || (ratio == least && basis_[j] < basis_[leaves]))
+        least = ratio, leaves = j;
     }
     if (leaves < 0) return false;
     pivot(leaves, enters);
