@@ -2,7 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
+#include <algorithm>
+#include <map>
 
 #include "clench/base/error.h"
 #include "clench/geometry/query/triangle.h"
@@ -37,17 +38,20 @@ Mesh prism(double radius, double height, int sides) {
 /// the same surface, each triangle cut into four
 Mesh finer(const Mesh& mesh) {
   Mesh out;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto c = mesh.corners(static_cast<int>(i));
-    const std::array<Vector3d, 6> p = {c[0], c[1], c[2], (c[0] + c[1]) / 2, (c[1] + c[2]) / 2,
-                                       (c[2] + c[0]) / 2};
-    const int at = static_cast<int>(out.vertices.size());
-    out.vertices.insert(out.vertices.end(), p.begin(), p.end());
-    for (const Triangle& t :
-         {Triangle{0, 3, 5}, Triangle{3, 1, 4}, Triangle{5, 4, 2}, Triangle{3, 4, 5}})
-      out.triangles.push_back({at + t[0], at + t[1], at + t[2]});
+  out.vertices = mesh.vertices;
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int i, int j) {
+    const auto [at, added] =
+        middles.try_emplace(std::minmax(i, j), static_cast<int>(out.vertices.size()));
+    if (added) out.vertices.push_back((mesh.vertices[i] + mesh.vertices[j]) / 2);
+    return at->second;
+  };
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const int ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
+    for (const Triangle& t : {Triangle{i, ij, ki}, {ij, j, jk}, {ki, jk, k}, {ij, jk, ki}})
+      out.triangles.push_back(t);
   }
-  return weld(out);
+  return out;
 }
 
 /// distance to the surface, by all triangles
@@ -77,18 +81,19 @@ const PenetrationOptions by_default;
 double tolerance(double depth) { return by_default.absolute + by_default.relative * depth; }
 
 /// What holds of any answer: its point is in both, and as deep as it says.
-void check_point(const Penetration& found, const Mesh& a, const Mesh& b) {
-  if (found.depth == 0) return;
-  CHECK(brute_distance(a, found.point) == doctest::Approx(found.depth).epsilon(1e-9));
-  CHECK(std::abs(winding(a, found.point)) > 0.5);
-  const double inside = std::abs(winding(b, found.point)) > 0.5;
-  CHECK((inside || brute_distance(b, found.point) < 1e-9));
+/// buried  some faces of a are: the nearest is no bound
+void check_point(const Penetration& found, const Mesh& a, const Mesh& b, bool buried = false) {
   CHECK(found.bound >= found.depth);
   CHECK(found.bound <= found.depth + tolerance(found.depth));
+  if (found.depth == 0) return;
+  if (!buried) CHECK(brute_distance(a, found.point) == doctest::Approx(found.depth).epsilon(1e-9));
+  CHECK(std::abs(winding(a, found.point)) > 0.5);
+  const bool inside = std::abs(winding(b, found.point)) > 0.5;
+  CHECK((inside || brute_distance(b, found.point) < 1e-9));
 }
 
 /// that of two meshes in one frame, within the tolerance below `expected`
-void check_depth(const Mesh& a, const Mesh& b, double expected) {
+void check_depth(const Mesh& a, const Mesh& b, double expected, bool buried = false) {
   Random random(7);
   const Pose X_WA = random_pose(random, 1);
   const Pose places[] = {{}, X_WA};
@@ -99,7 +104,7 @@ void check_depth(const Mesh& a, const Mesh& b, double expected) {
       const Penetration found = penetration(*Shape::make(own_a), *Shape::make(own_b), X.inverse());
       CHECK(found.depth <= expected + 1e-12);
       CHECK(found.depth >= expected - tolerance(expected));
-      check_point(found, own_a, moved(own_b, X.inverse()));
+      check_point(found, own_a, moved(own_b, X.inverse()), buried);
     }
 }
 
@@ -139,8 +144,8 @@ TEST_CASE("balls: concentric, apart, and one just inside the other") {
   const double inscribed = brute_distance(large, {0, 0, 0});
   check_depth(large, small, inscribed);
   check_depth(small, large, brute_distance(small, {0, 0, 0}));
-  const Penetration beside = penetration(*Shape::make(large), *Shape::make(small),
-                                         Pose::translation({0.055, 0, 0}));
+  const Penetration beside =
+      penetration(*Shape::make(large), *Shape::make(small), Pose::translation({0.055, 0, 0}));
   CHECK(beside.depth > 0.0045);
   CHECK(beside.depth <= 0.005);
   CHECK(penetration(*Shape::make(large), *Shape::make(small), Pose::translation({0.061, 0, 0}))
@@ -158,19 +163,20 @@ TEST_CASE("a hollow is outside: the depth in a shell is at most half its thickne
 TEST_CASE("faces buried in a union of parts are no surface") {
   const Mesh bar = box(0.01, 0.01, 0.2);
   // parts that overlap, that adjoin, and one within another
-  const Mesh overlapping = joined(placed(box(0.06, 0.06, 0.06), -0.01, 0, 0),
-                                  placed(box(0.06, 0.06, 0.06), 0.01, 0, 0));
-  check_depth(overlapping, bar, 0.03);
-  check_depth(overlapping, placed(bar, 0, 0.03, 0), 0.005);
+  const Mesh overlapping =
+      joined(placed(box(0.06, 0.06, 0.06), -0.01, 0, 0), placed(box(0.06, 0.06, 0.06), 0.01, 0, 0));
+  check_depth(overlapping, bar, 0.03, true);
+  check_depth(overlapping, placed(bar, 0, 0.03, 0), 0.005, true);
   check_depth(joined(placed(box(0.03, 0.06, 0.06), -0.015, 0, 0),
                      placed(box(0.03, 0.06, 0.06), 0.015, 0, 0)),
-              bar, 0.03);
+              bar, 0.03, true);
   check_depth(joined(placed(box(0.03, 0.02, 0.06), -0.015, 0, 0),
                      placed(box(0.03, 0.06, 0.06), 0.015, 0, 0)),
-              placed(bar, -0.004, 0, 0), std::hypot(0.01, 0.001));
-  check_depth(joined(box(0.06, 0.06, 0.06), box(0.02, 0.02, 0.02)), bar, 0.03);
+              placed(bar, -0.004, 0, 0), std::hypot(0.01, 0.001), true);
+  check_depth(joined(box(0.06, 0.06, 0.06), box(0.02, 0.02, 0.02)), bar, 0.03, true);
   // a cross of two beams: the deepest point is as far from its four inner edges
-  check_depth(joined(box(0.06, 0.02, 0.06), box(0.02, 0.06, 0.06)), bar, std::hypot(0.01, 0.01));
+  check_depth(joined(box(0.06, 0.02, 0.06), box(0.02, 0.06, 0.06)), bar, std::hypot(0.01, 0.01),
+              true);
 }
 
 TEST_CASE("random bodies: no sampled point is deeper, and the point found is as deep as it says") {
@@ -192,7 +198,7 @@ TEST_CASE("there is a depth where solids overlap, however little, and none where
   Random random(5);
   const Mesh a = potato(random, 0.05, 6), b = potato(random, 0.03, 6);
   const auto shape_a = Shape::make(a), shape_b = Shape::make(b);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 15; ++i) {
     // along a line until they touch, then a little farther
     const Eigen::Quaterniond turn = random_turn(random);
     const Vector3d along = random_direction(random);
@@ -207,6 +213,7 @@ TEST_CASE("there is a depth where solids overlap, however little, and none where
       const Penetration found = penetration(*shape_a, *shape_b, at(in - deep));
       CHECK(found.depth > 0);
       CHECK(found.depth < 1.01 * deep + 1e-12);
+      CHECK(found.bound < found.depth + tolerance(found.depth));
     }
   }
 }
@@ -262,8 +269,9 @@ TEST_CASE("tolerances must be above 0, and a watcher ends the search") {
     void show(double, std::string_view) override {}
   };
   const auto watcher = std::make_shared<Silent>();
-  const auto round = Shape::make(ball(1, 20, 40));
-  const PenetrationOptions watched{.relative = 1e-9, .progress = Progress(watcher)};
+  Random random(1);
+  const auto round = Shape::make(potato(random));
+  const PenetrationOptions watched{.relative = 1e-6, .progress = Progress(watcher)};
   const Pose X = Pose::translation({0.5, 0.2, 0.1});
   const double depth = penetration(*round, *round, X, watched).depth;
   watcher->stop();
@@ -275,16 +283,15 @@ TEST_CASE("tolerances must be above 0, and a watcher ends the search") {
 TEST_CASE("real meshes: no sampled point of a finger is deeper in a scan") {
   REQUIRE_SHARED();
   Random random(9);
-  for (const char* name : {"011_banana.obj", "065-c_cups.obj", "048_hammer.obj"}) {
+  for (const char* name : {"011_banana.obj", "065-c_cups.obj"}) {
     const auto scan = Shape::make(read_obj(shared() / "data" / "ycb" / name));
     const auto finger = Shape::make(prism(0.008, 0.06, 24));
-    for (int i = 0; i < 3; ++i) {
-      const Vector3d& p =
-          scan->mesh().vertices[random.bits() % scan->mesh().vertices.size()];
+    for (int i = 0; i < 2; ++i) {
+      const Vector3d& p = scan->mesh().vertices[random.bits() % scan->mesh().vertices.size()];
       const Pose X{random_turn(random), p};
       const Penetration found = penetration(*scan, *finger, X);
       CHECK((found.depth > 0 || !scan->closed()));
-      for (int k = 0; k < 1000; ++k) {
+      for (int k = 0; k < 500; ++k) {
         const Vector3d q_B = random_pose(random, 0.03).position;
         const Vector3d q = X * q_B;
         if (contains(*finger, q_B) && contains(*scan, q))

@@ -11,8 +11,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-Ball ball_about(Simplex corners) {
-  Ball out{Vector3d::Zero()};
+Sphere sphere_about(Simplex corners) {
+  Sphere out{Vector3d::Zero()};
   for (const Vector3d& p : corners) out.centre += p;
   out.centre /= static_cast<double>(corners.size());
   for (const Vector3d& p : corners) out.radius = std::max(out.radius, (p - out.centre).norm());
@@ -25,8 +25,8 @@ DepthField::DepthField(const Shape& solid, const Progress& progress)
       surface_(exposed_.shape ? *exposed_.shape : solid) {}
 
 Probe DepthField::probe(const Vector3d& p, int seed) const {
-  const ClosestPoint near = closest_point(surface_, p, seed);
-  return {near.distance, near.triangle, contains(solid_, p)};
+  const ClosestPoint near = nearest(p, seed);
+  return {near.distance, near.triangle, holds(p)};
 }
 
 Slope slope_of(const Shape& shape, int triangle) {
@@ -95,7 +95,10 @@ static double least_along(const Vector3d& u, const Vector3d& p, const Corners& c
   return std::max(least, along * height - in_plane * radius);
 }
 
-void DepthField::find_near(const Ball& ball, const Probe& centre, NearTriangles& out) const {
+// triangles of which is_convex judges all pairs
+static constexpr int few_triangles = 20;
+
+void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const {
   const double rounding = rounding_of(solid_.bounds(), ball.centre);
   out.count = 0;
   out.reach = centre.deepest(2 * ball.radius) + rounding;
@@ -112,13 +115,22 @@ void DepthField::find_near(const Ball& ball, const Probe& centre, NearTriangles&
   });
   out.complete = count <= NearTriangles::most;
   out.count = out.complete ? count : 0;
+  if (out.count > few_triangles) return;
+  // exactly, for is_convex
+  const auto end = out.triangles.begin() + out.count;
+  out.count =
+      static_cast<int>(std::remove_if(out.triangles.begin(), end,
+                                      [&](int triangle) {
+                                        const Corners c = surface_.mesh().corners(triangle);
+                                        return point_triangle(ball.centre, c).distance > out.reach;
+                                      }) -
+                       out.triangles.begin());
 }
 
 // The corners of all lie in the half-spaces of all; then what is outside one of these has no
 // surface in it and adjoins the outer side of a triangle.
 bool DepthField::is_convex(const NearTriangles& near) const {
-  constexpr int few = 20;
-  if (!near.complete || near.count > few) return false;
+  if (!near.complete || near.count == 0 || near.count > few_triangles) return false;
   const double rounding = 1e-12 * solid_.radius();
   for (const int i : near.list()) {
     const Slope& s = slope(i);
@@ -137,12 +149,13 @@ bool DepthField::is_convex(const NearTriangles& near) const {
 // q: the surface there is a graph over the plane perpendicular to u, with the solid above it, and
 // the vertical projection w of x on its tangent cone at q has (x - q) . (w - q) <= 0, since q is no
 // farther from x than the points of the cone.
-bool DepthField::rises(Simplex corners, const Ball& ball, const NearTriangles& near) const {
+bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles& near) const {
   if (!near.complete) return false;
   const double rounding = rounding_of(solid_.bounds(), ball.centre);
   Vector3d u = Vector3d::Zero();
-  for (const int i : near.list()) u += slope(i).inward;
-  constexpr int most_turns = 12;
+  std::array<Slope, NearTriangles::most> slopes;
+  for (int i = 0; i < near.count; ++i) u += (slopes[i] = slope(near.triangles[i])).inward;
+  constexpr int most_turns = 6;
   for (int turn = 0; turn < most_turns; ++turn) {
     if (!(u.norm() > 1e-6)) return near.count == 0;
     u.normalize();
@@ -151,17 +164,16 @@ bool DepthField::rises(Simplex corners, const Ball& ball, const NearTriangles& n
     for (const Vector3d& p : corners) behind = std::max(behind, u.dot(ball.centre - p));
     double least = std::numeric_limits<double>::infinity();
     int worst = -1;
-    for (const int i : near.list()) {
-      const double rise = u.dot(slope(i).inward) - slope(i).error;
-      if (rise > 0 || rise >= least ||
-          least_along(u, ball.centre, surface_.mesh().corners(i), near.reach) > behind + rounding)
-        continue;
-      least = rise, worst = i;
+    for (int i = 0; i < near.count; ++i) {
+      const double rise = u.dot(slopes[i].inward) - slopes[i].error;
+      if (rise > 0 || rise >= least) continue;
+      const Corners c = surface_.mesh().corners(near.triangles[i]);
+      if (least_along(u, ball.centre, c, near.reach) <= behind + rounding) least = rise, worst = i;
     }
     if (worst < 0) return true;
-    const Vector3d away =
-        ball.centre - point_triangle(ball.centre, surface_.mesh().corners(worst)).q;
-    const Vector3d& inward = slope(worst).inward;
+    const Corners c = surface_.mesh().corners(near.triangles[worst]);
+    const Vector3d away = ball.centre - point_triangle(ball.centre, c).q;
+    const Vector3d& inward = slopes[worst].inward;
     u += inward.isZero(0) ? Vector3d(away.stableNormalized()) : inward;
   }
   return false;

@@ -13,13 +13,8 @@ namespace clench {
 /// Corners of a triangle (3) or a tetrahedron (4).
 using Simplex = std::span<const Eigen::Vector3d>;
 
-/// A sphere that holds something.
-struct Ball {
-  Eigen::Vector3d centre;
-  double radius = 0;
-};
-
-Ball ball_about(Simplex corners);
+/// Holds them.
+Sphere sphere_about(Simplex corners);
 
 /// A point against a solid.
 struct Probe {
@@ -41,7 +36,7 @@ Slope slope_of(const Shape& shape, int triangle);
 
 /// Triangles of a surface on which the nearest points lie of all points of a ball that are inside.
 struct NearTriangles {
-  static constexpr int most = 512;
+  static constexpr int most = 256;
   std::array<int, most> triangles;
   int count = 0;
   bool complete = false;  ///< false: not looked for, or more than fit
@@ -61,16 +56,20 @@ class DepthField {
   int triangle_of_solid(int triangle) const {
     return exposed_.shape ? exposed_.triangles[triangle] : triangle;
   }
-  /// seed  a triangle likely to be near, -1 for none
+  /// Surface point nearest to p.   seed  a triangle likely to be near, -1 for none
+  ClosestPoint nearest(const Eigen::Vector3d& p, int seed = -1) const {
+    return closest_point(surface_, p, seed);
+  }
+  bool holds(const Eigen::Vector3d& p) const { return contains(solid_, p); }
   Probe probe(const Eigen::Vector3d& p, int seed = -1) const;
   /// centre  the probe of the ball's centre
-  void find_near(const Ball& ball, const Probe& centre, NearTriangles& out) const;
+  void find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const;
   /// Within reach, is the solid an intersection of half-spaces, those of the near triangles? The
   /// depth is then the least distance from their planes.
   bool is_convex(const NearTriangles& near) const;
   /// Is it certain that the depth has no local maximum in the simplex? True where it increases
   /// along one direction all over the part of the simplex inside.
-  bool rises(Simplex corners, const Ball& ball, const NearTriangles& near) const;
+  bool rises(Simplex corners, const Sphere& ball, const NearTriangles& near) const;
 
   /// Values at the corners whose linear interpolation is nowhere in the simplex below the depth.
   GameRow row(int triangle, Simplex corners) const;

@@ -63,9 +63,7 @@ class CutTriangle {
   const Vector3d& normal() const { return normal_; }
 
  private:
-  Vector2d flat(const Vector3d& p) const {
-    return {x_.dot(p - origin_), y_.dot(p - origin_)};
-  }
+  Vector2d flat(const Vector3d& p) const { return {x_.dot(p - origin_), y_.dot(p - origin_)}; }
 
   void cut_along(const Segment& segment) {
     constexpr size_t many = 4096;  // pieces: where there are more, some stay uncut

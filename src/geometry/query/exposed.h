@@ -9,8 +9,8 @@ namespace clench {
 
 /// The faces of a closed shape that separate its inside from its outside.
 struct ExposedSurface {
-  ShapePtr shape;                    ///< null: all faces do, and the shape itself serves
-  std::vector<int> triangles;        ///< of the shape given, that those of `shape` are parts of
+  ShapePtr shape;              ///< null: all faces do, and the shape itself serves
+  std::vector<int> triangles;  ///< of the shape given, that those of `shape` are parts of
 };
 
 /// Cuts off what lies within other parts of the shape, and faces on which two parts adjoin. A part

@@ -59,9 +59,6 @@ class DeepestPoint {
       Region region = queue_.top();
       if (!matters(region.bound)) break;
       queue_.pop();
-#ifdef PB
- ++g_steps; ++g_kind[(int)region.kind];
-#endif
       region.kind == Region::Kind::group ? open_group(region) : halve(region);
     }
     if (!queue_.empty()) left_out_ = std::max(left_out_, queue_.top().bound);
@@ -86,18 +83,21 @@ class DeepestPoint {
     queue_.push(std::move(region));
   }
 
-  // the depth at a point of b
-  void offer(const Vector3d& p, const Probe& probe) {
-    if (!probe.inside || !(probe.distance > std::max(best_.depth, placement_.rounding()))) return;
-    best_.depth = probe.distance;
+  bool improves(double distance) const {
+    return distance > std::max(best_.depth, placement_.rounding());
+  }
+  // A point inside both, with the surface point of a nearest to it.
+  void take(const Vector3d& p, double distance, int triangle) {
+    if (!improves(distance)) return;
+    best_.depth = distance;
     best_.point = p;
-    best_.triangle = field_.triangle_of_solid(probe.triangle);
+    best_.triangle = field_.triangle_of_solid(triangle);
   }
 
   // --- crossings ---
 
-  // Points of triangles of b amid those where triangles of a pass through: inside, however little
-  // the surfaces cross.
+  // Of triangles of b that cross the surface of a: their corners, and the middle of the points where
+  // edges pass through. Some of these are inside, however little the surfaces cross.
   void add_crossings() {
     constexpr int most_pairs = 4096;
     std::map<int, std::pair<Vector3d, int>> sums;  // by triangle of b
@@ -111,10 +111,13 @@ class DeepestPoint {
       }
       return ++pairs == most_pairs;
     });
+    const auto try_point = [&](const Vector3d& p) {
+      const ClosestPoint near = field_.nearest(p);
+      if (improves(near.distance) && field_.holds(p)) take(p, near.distance, near.triangle);
+    };
     for (const auto& [triangle, points] : sums) {
-      if (points.second == 0) continue;
-      const Vector3d middle = points.first / points.second;
-      offer(middle, field_.probe(middle, -1));
+      for (const int v : b_.mesh().triangles[triangle]) try_point(vertices_[v]);
+      if (points.second > 0) try_point(points.first / points.second);
     }
   }
 
@@ -184,8 +187,7 @@ class DeepestPoint {
 
   void add_triangle(int triangle, double bound, int seed) {
     Region piece{.kind = Region::Kind::surface, .bound = bound, .nearest = seed};
-    for (int k = 0; k < 3; ++k)
-      piece.points[k] = vertices_[b_.mesh().triangles[triangle][k]];
+    for (int k = 0; k < 3; ++k) piece.points[k] = vertices_[b_.mesh().triangles[triangle][k]];
     add_simplex(std::move(piece));
   }
 
@@ -213,7 +215,7 @@ class DeepestPoint {
   bool holds(const Vector3d& p) const { return contains(b_, placement_.to_b(p)); }
 
   // Is no point of the ball in b? Tells also whether all of them are.
-  bool is_beside(const Ball& ball, bool& held) const {
+  bool is_beside(const Sphere& ball, bool& held) const {
     const Vector3d p_B = placement_.to_b(ball.centre);
     const Vector3d from = p_B - Vector3d::Map(b_.tree().centre());
     bool crossed = false;
@@ -248,18 +250,19 @@ class DeepestPoint {
 
   void add_simplex(Region region) {
     const bool solid = region.kind == Region::Kind::solid;
-    const Ball ball = ball_about(region.corners());
+    const Sphere ball = sphere_about(region.corners());
     const Probe centre = field_.probe(ball.centre, region.nearest);
     region.nearest = centre.triangle;
     region.bound = std::min(region.bound, centre.deepest(ball.radius));
-    if (!solid) offer(ball.centre, centre);
+    if (!solid && centre.inside) take(ball.centre, centre.distance, centre.triangle);
     if (!matters(region.bound)) return push(std::move(region));
     field_.find_near(ball, centre, near_);
     // maxima on the surface of b are looked for there
     if (solid) {
       if (field_.rises(region.corners(), ball, near_)) return;
       if (!region.held && is_beside(ball, region.held)) return;
-      if (region.held || holds(ball.centre)) offer(ball.centre, centre);
+      if (centre.inside && improves(centre.distance) && (region.held || holds(ball.centre)))
+        take(ball.centre, centre.distance, centre.triangle);
     }
     tighten(region, centre);
     push(std::move(region));
@@ -290,7 +293,9 @@ class DeepestPoint {
     constexpr int most_cuts = 10;
     const std::span<Vector3d> corners = region.corners();
     Rows rows;
-    const auto add = [&](int triangle) { return rows.add(field_.row(triangle, corners), triangle); };
+    const auto add = [&](int triangle) {
+      return rows.add(field_.row(triangle, corners), triangle);
+    };
     const bool convex = field_.is_convex(near_);
     if (convex) {
       for (const int triangle : near_.list())
@@ -311,13 +316,15 @@ class DeepestPoint {
       if (!matters(region.bound)) return;
       Vector3d p = Vector3d::Zero();
       for (size_t j = 0; j < corners.size(); ++j) p += game.columns[j] * corners[j];
-      const Probe probe = field_.probe(p, region.nearest);
+      const ClosestPoint near = field_.nearest(p, region.nearest);
       bool cuts = false;
-      if (region.kind == Region::Kind::surface || region.held || holds(p))
-        offer(p, probe);
-      else if (b_.convex())
+      const bool known = region.kind == Region::Kind::surface || region.held;
+      if (known || ((b_.convex() || improves(near.distance)) && holds(p))) {
+        if (improves(near.distance) && field_.holds(p)) take(p, near.distance, near.triangle);
+      } else if (b_.convex()) {
         cuts = rows.add(wall(region, first, p), -1);
-      if (probe.distance < game.value && add(probe.triangle)) cuts = true;
+      }
+      if (near.distance < game.value && add(near.triangle)) cuts = true;
       if (!cuts) return;
     }
   }
@@ -333,7 +340,7 @@ class DeepestPoint {
     const Slope slope = slope_of(b_, triangle);
     if (slope.error > 1e-8) return row;
     const Vector3d on_plane = b_.mesh().corners(triangle)[0];
-    const double per_length = steep * bound / ball_about(corners).radius;
+    const double per_length = steep * bound / sphere_about(corners).radius;
     const double error = slope.error * b_.radius() + placement_.rounding();
     for (size_t j = 0; j < corners.size(); ++j)
       row[j] += per_length * (slope.inward.dot(placement_.to_b(corners[j]) - on_plane) + error);
@@ -355,7 +362,7 @@ class DeepestPoint {
   std::vector<Vector3d> vertices_;  // of b
   std::vector<int> triangles_;      // of b that may be inside a
   std::priority_queue<Region, std::vector<Region>, Deeper> queue_;
-  NearTriangles near_;              // of the simplex at hand
+  NearTriangles near_;  // of the simplex at hand
   int count_ = 0;
   double left_out_ = 0;  // no region left out is deeper [m]
   Penetration best_;
@@ -366,8 +373,7 @@ class DeepestPoint {
 Penetration penetration(const Shape& a, const Shape& b, const Pose& X_AB,
                         const PenetrationOptions& options) {
   if (!(options.absolute > 0 && options.relative > 0))
-    fail("penetration: expected tolerances > 0, got {} and {}", options.absolute,
-         options.relative);
+    fail("penetration: expected tolerances > 0, got {} and {}", options.absolute, options.relative);
   if (!a.closed() || !colliding(a, b, X_AB)) return {};
   return DeepestPoint(a, b, X_AB, options).find();
 }
