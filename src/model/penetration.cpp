@@ -16,9 +16,8 @@ static BodyPenetration pair_penetration(const World& world, Id<Body> body, Id<Bo
     return {std::numeric_limits<double>::infinity(), world.pose(other) * found.p_a, body, other};
   }
   const Id<Body> solid = theirs.closed() ? other : body, guest = theirs.closed() ? body : other;
-  const Penetration found =
-      penetration(*world.body(solid).shape, *world.body(guest).shape,
-                  relative_pose(world, solid, guest), options);
+  const Penetration found = penetration(*world.body(solid).shape, *world.body(guest).shape,
+                                        relative_pose(world, solid, guest), options);
   return {found.depth, world.pose(solid) * found.point, body, other};
 }
 

@@ -15,8 +15,7 @@ double clearance(const World& world, Id<Robot> hand, Id<Body> object) {
   return distance(world, parts, others).distance;
 }
 
-double penetration(const World& world, Id<Robot> hand, Id<Body> object,
-                   const Progress& progress) {
+double penetration(const World& world, Id<Robot> hand, Id<Body> object, const Progress& progress) {
   return penetration(world, world.bodies_of(hand), std::span(&object, 1), {.progress = progress})
       .depth;
 }

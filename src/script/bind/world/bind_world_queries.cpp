@@ -111,8 +111,8 @@ Least distance of two things, 0 when they collide, with the closest points in th
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
     {"penetration", guarded<measure_penetration>, R"(
 Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the
-world frame. It is at most 1 um + 0.1 % below the true one, and 0 only where the two do not overlap or just touch. Inside of an
-open mesh is nothing: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite where they cross.
+world frame. It is at most 1 um + 0.1 % below the true one, and 0 only where the two do not overlap or just touch. Nothing is
+inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite where they cross.
 @param a body|robot
 @param b body|robot
 @return number depth  [m]
