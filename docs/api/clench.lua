@@ -771,6 +771,13 @@ function world_queries:colliding(a, b) end
 ---@return vec3 on_b
 function world_queries:distance(a, b) end
 
+---Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the world frame. It is at most 1 um + 0.1 % below the true one, and 0 only where the two do not overlap or just touch. Nothing is inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite where they cross.
+---@param a body|robot
+---@param b body|robot
+---@return number depth # [m]
+---@return vec3? point # the deepest one; none where nothing overlaps
+function world_queries:penetration(a, b) end
+
 ---Where surfaces touch: everywhere, on one entity, or of `a` on `b`. After a step all that pressed in it are among them; a ball touches as a sphere, outside its facets.
 ---@param a? body|robot
 ---@param b? body|robot
@@ -1274,8 +1281,8 @@ function clench.energy.clearance(options) end
 ---@return energy
 function clench.energy.reach(options) end
 
----How deep the hand is in what it collides with, by points on its bodies, summed over the pairs [mm]; 0 only where nothing collides. A search with this term and `collisions = false` may cross states that collide.
----@param options {hand: robot, points?: integer} # 64 on each body
+---Depth of the hand in what it collides with, as `world:penetration` gives it, up to 1 %, summed over the pairs of bodies [mm]; 0 only where nothing collides. A search with this term and `collisions = false` may cross states that collide.
+---@param options {hand: robot}
 ---@return energy
 function clench.energy.penetration(options) end
 

@@ -44,7 +44,7 @@ TEST_CASE("clearance is the distance to the nearest thing that is not grasped") 
   CHECK(clearance(p.world, p.hand, p.object) == 0);
 }
 
-TEST_CASE("penetration is how deep the deepest corner lies") {
+TEST_CASE("penetration is the depth of the deepest point of the hand in the object") {
   Place p = hand_and_cube();
   CHECK(penetration(p.world, p.hand, p.object) == 0);
   // from below into the hand's base, whose corners lie within the cube's outline
@@ -54,4 +54,18 @@ TEST_CASE("penetration is how deep the deepest corner lies") {
     p.world.set_pose(p.object, Pose::translation({0, low - 0.05 + depth, 0}));
     CHECK(penetration(p.world, p.hand, p.object) == doctest::Approx(depth).epsilon(1e-9));
   }
+}
+
+TEST_CASE("penetration sees overlaps without a corner inside, and pairs that are switched off") {
+  Place p = hand_and_cube();
+  const Id<Body> base = p.world.robot(p.hand).base;
+  const Bounds box_B = p.world.body(base).shape->bounds();
+  // a plate right through the hand's base
+  const double thickness = box_B.size().minCoeff() / 4;
+  const auto plate = p.world.add_body(body_spec("plate", box(10, 10, thickness)), BodyKind::object,
+                                      p.world.pose(base) * Pose::translation(box_B.centre()));
+  CHECK(penetration(p.world, p.hand, plate) == doctest::Approx(thickness / 2).epsilon(2e-3));
+  p.world.set_collision(false, base, plate);
+  CHECK(penetration(p.world, p.hand, plate) == doctest::Approx(thickness / 2).epsilon(2e-3));
+  CHECK(penetration(p.world, p.hand, p.object) == 0);
 }

@@ -1,6 +1,6 @@
 #include "clench/grasp/measure/clearance.h"
 
-#include <algorithm>
+#include "clench/model/penetration.h"
 
 namespace clench {
 
@@ -15,34 +15,9 @@ double clearance(const World& world, Id<Robot> hand, Id<Body> object) {
   return distance(world, parts, others).distance;
 }
 
-namespace {
-
-// the deepest of a's corners inside b
-double deepest_corner(const Body& a, const Body& b, const Pose& X_BA) {
-  double deepest = 0;
-  for (const Eigen::Vector3d& p_A : a.shape->mesh().vertices) {
-    const Eigen::Vector3d p = X_BA * p_A;
-    // most corners are outside the other's box
-    if ((p.array() < b.shape->bounds().low.array()).any() ||
-        (p.array() > b.shape->bounds().high.array()).any() || !contains(*b.shape, p))
-      continue;
-    deepest = std::max(deepest, closest_point(*b.shape, p).distance);
-  }
-  return deepest;
-}
-
-}  // namespace
-
-double penetration(const World& world, Id<Robot> hand, Id<Body> object) {
-  const auto parts = world.bodies_of(hand);
-  double deepest = 0;
-  for (const auto& [a, b] : colliding_pairs(world, parts, std::span(&object, 1))) {
-    const Body &one = world.body(a), &other = world.body(b);
-    const Pose X_BA = world.pose(b).inverse() * world.pose(a);
-    deepest = std::max(
-        {deepest, deepest_corner(one, other, X_BA), deepest_corner(other, one, X_BA.inverse())});
-  }
-  return deepest;
+double penetration(const World& world, Id<Robot> hand, Id<Body> object, const Progress& progress) {
+  return penetration(world, world.bodies_of(hand), std::span(&object, 1), {.progress = progress})
+      .depth;
 }
 
 }  // namespace clench

@@ -1,4 +1,4 @@
-// How far a hand is from everything but what it grasps, and how deep it is in what it grasps.
+// Distance of a hand from all but the object that it grasps, and its depth inside that object.
 #pragma once
 #include "clench/model/find.h"
 
@@ -8,9 +8,9 @@ namespace clench {
 /// they collide, infinite when there is nothing else [m]. Switched-off pairs are measured too.
 double clearance(const World& world, Id<Robot> hand, Id<Body> object);
 
-/// The deepest that a corner of one lies inside the other, over the bodies of the hand that collide
-/// with the object [m]; 0 when none does, or where only edges cross. A lower bound of how far they
-/// must move to part. Open meshes hold no corners.
-double penetration(const World& world, Id<Robot> hand, Id<Body> object);
+/// The largest distance, from the object's surface, of a point of the hand inside the object [m], as
+/// in clench/model/penetration.h: at most 1 um + 0.1 % below the true one, 0 without an overlap.
+double penetration(const World& world, Id<Robot> hand, Id<Body> object,
+                   const Progress& progress = {});
 
 }  // namespace clench

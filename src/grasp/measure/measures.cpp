@@ -297,9 +297,13 @@ const Measure all_measures[] = {
     {"clearance", "of the hand from obstacles and other objects; infinite where there are none",
      ">= 0", "m", true, "distance of meshes",
      [](MeasuredGrasp& g) { return clearance(g.world(), g.grasp().hand, g.grasp().object); }},
-    {"penetration", "of hand and object: how deep the deepest corner of one lies in the other",
-     ">= 0", "m", false, "distance of meshes",
-     [](MeasuredGrasp& g) { return penetration(g.world(), g.grasp().hand, g.grasp().object); }},
+    {"penetration",
+     "largest distance from the object's surface of a point of the hand inside the object, up to 1 "
+     "um + 0.1 %; infinite where two open meshes cross",
+     ">= 0", "m", false, "branch and bound over meshes",
+     [](MeasuredGrasp& g) {
+       return penetration(g.world(), g.grasp().hand, g.grasp().object, g.progress());
+     }},
     {"contact_robustness",
      "radius of the ball of disturbing wrenches that leave every contact force in its cone and "
      "below 10 N, while they hold the weight; contacts yield 1 m/N, joints do not",

@@ -1,0 +1,36 @@
+// Depth of the overlap of two shapes.
+#pragma once
+#include "clench/base/progress.h"
+#include "clench/geometry/query/queries.h"
+
+namespace clench {
+
+struct PenetrationOptions {
+  /// The depth found is at most absolute + relative * depth below the true one, both > 0. Nothing
+  /// that overlaps by more than rounding has depth 0 for want of `absolute` [m]: while no point is
+  /// found inside, 1e-5 of the smaller radius counts where that is less.
+  double absolute = 1e-6, relative = 1e-3;
+  Progress progress = {};
+};
+
+struct Penetration {
+  double depth = 0;  ///< distance of `point` from the surface of a [m]; 0 without an overlap
+  double bound = 0;  ///< no point is deeper; at least depth [m]
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< in both, in the frame of a
+  int triangle = -1;                                ///< of a, nearest to that point; -1 for none
+};
+
+/// The largest distance from the surface of a, over the points of b that lie inside a. Points of b
+/// are those of its surface and, where it is closed, of its solid; inside is as in contains, so
+/// that nothing is inside an open mesh. Shapes that only touch have depth 0.
+///
+/// The depth is that of a point found, and lies below the true one by the tolerance of the options
+/// at most.   throws Stopped
+///
+/// method  Branch and bound over the triangles of b, and over tetrahedra of space for maxima in its
+///         interior. The bound on a simplex is the value of a game: the distance from one triangle
+///         of a is convex, so any mixture of such distances is largest at a corner.
+Penetration penetration(const Shape& a, const Shape& b, const Pose& X_AB,
+                        const PenetrationOptions& options = {});
+
+}  // namespace clench

@@ -1,0 +1,302 @@
+#include "clench/geometry/query/penetration.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "clench/base/error.h"
+#include "clench/geometry/query/triangle.h"
+#include "support/meshes.h"
+#include "support/shared.h"
+
+using namespace clench;
+using namespace clench::test;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Closed prism about z, whose corners lie on a cylinder.
+Mesh prism(double radius, double height, int sides) {
+  Mesh m;
+  for (const double z : {-height / 2, height / 2})
+    for (int i = 0; i < sides; ++i) {
+      const double t = 2 * std::numbers::pi * i / sides;
+      m.vertices.push_back({radius * std::cos(t), radius * std::sin(t), z});
+    }
+  for (int i = 0; i < sides; ++i) {
+    const int j = (i + 1) % sides;
+    m.triangles.push_back({i, j, j + sides});
+    m.triangles.push_back({i, j + sides, i + sides});
+    if (i == 0 || j == 0) continue;
+    m.triangles.push_back({0, j, i});
+    m.triangles.push_back({sides, i + sides, j + sides});
+  }
+  return m;
+}
+
+/// the same surface, each triangle cut into four
+Mesh finer(const Mesh& mesh) {
+  Mesh out;
+  out.vertices = mesh.vertices;
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int i, int j) {
+    const auto [at, added] =
+        middles.try_emplace(std::minmax(i, j), static_cast<int>(out.vertices.size()));
+    if (added) out.vertices.push_back((mesh.vertices[i] + mesh.vertices[j]) / 2);
+    return at->second;
+  };
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const int ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
+    for (const Triangle& t : {Triangle{i, ij, ki}, {ij, j, jk}, {ki, jk, k}, {ij, jk, ki}})
+      out.triangles.push_back(t);
+  }
+  return out;
+}
+
+/// distance to the surface, by all triangles
+double brute_distance(const Mesh& mesh, const Vector3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < mesh.triangles.size(); ++i)
+    least = std::min(least, point_triangle(p, mesh.corners(static_cast<int>(i))).distance);
+  return least;
+}
+
+/// the deepest of random points of both solids, by winding numbers: never above the depth
+double sampled_depth(Random& random, const Mesh& a, const Mesh& b, int count) {
+  const Bounds box_a = a.bounds(), box_b = b.bounds();
+  const Vector3d low = box_a.low.cwiseMax(box_b.low), high = box_a.high.cwiseMin(box_b.high);
+  double deepest = 0;
+  for (int i = 0; i < count; ++i) {
+    Vector3d p;
+    for (int k = 0; k < 3; ++k) p[k] = random.uniform(low[k], high[k]);
+    if (std::abs(winding(a, p)) < 0.5 || std::abs(winding(b, p)) < 0.5) continue;
+    deepest = std::max(deepest, brute_distance(a, p));
+  }
+  return deepest;
+}
+
+const PenetrationOptions by_default;
+
+double tolerance(double depth) { return by_default.absolute + by_default.relative * depth; }
+
+/// What holds of any answer: its point is in both, and as deep as it says.
+/// buried  some faces of a are: the nearest is no bound
+void check_point(const Penetration& found, const Mesh& a, const Mesh& b, bool buried = false) {
+  CHECK(found.bound >= found.depth);
+  CHECK(found.bound <= found.depth + tolerance(found.depth));
+  if (found.depth == 0) return;
+  if (!buried) CHECK(brute_distance(a, found.point) == doctest::Approx(found.depth).epsilon(1e-9));
+  CHECK(std::abs(winding(a, found.point)) > 0.5);
+  const bool inside = std::abs(winding(b, found.point)) > 0.5;
+  CHECK((inside || brute_distance(b, found.point) < 1e-9));
+}
+
+/// that of two meshes in one frame, within the tolerance below `expected`
+void check_depth(const Mesh& a, const Mesh& b, double expected, bool buried = false) {
+  Random random(7);
+  const Pose X_WA = random_pose(random, 1);
+  const Pose places[] = {{}, X_WA};
+  for (const Pose& X : places)
+    for (const bool fine : {false, true}) {
+      const Mesh own_a = moved(fine ? finer(a) : a, X.inverse());
+      const Mesh own_b = fine ? finer(b) : b;
+      const Penetration found = penetration(*Shape::make(own_a), *Shape::make(own_b), X.inverse());
+      CHECK(found.depth <= expected + 1e-12);
+      CHECK(found.depth >= expected - tolerance(expected));
+      check_point(found, own_a, moved(own_b, X.inverse()), buried);
+    }
+}
+
+Mesh placed(const Mesh& mesh, double x, double y, double z) {
+  return moved(mesh, Pose::translation({x, y, z}));
+}
+
+}  // namespace
+
+TEST_CASE("the depth of two boxes is that of the deepest point of one in the other") {
+  const Mesh cube = box(0.06, 0.06, 0.06), bar = box(0.01, 0.01, 0.1);
+  // corners inside, and none: side faces in one plane, a bar through the cube, a plate, crossed bars
+  check_depth(cube, placed(bar, 0.001, 0.002, 0.077), 0.003);
+  check_depth(cube, placed(cube, 0.05, 0, 0), 0.01);
+  check_depth(cube, placed(cube, 0.05, 0.02, 0.01), 0.01);
+  check_depth(cube, bar, 0.03);
+  check_depth(box(0.06, 0.06, 0.005), bar, 0.0025);
+  check_depth(placed(box(0.1, 0.01, 0.01), 0, 0.008, 0), bar, 0.002);
+  check_depth(bar, cube, 0.005);
+  // one within the other
+  check_depth(cube, placed(box(0.01, 0.01, 0.01), 0.02, 0, 0), 0.015);
+  check_depth(placed(box(0.01, 0.01, 0.01), 0.02, 0, 0), cube, 0.005);
+  check_depth(cube, cube, 0.03);
+}
+
+TEST_CASE("the depth in a prism is at most the radius of its inscribed cylinder") {
+  const Mesh cylinder = prism(0.03, 0.08, 48), bar = box(0.1, 0.01, 0.01);
+  const double inscribed = 0.03 * std::cos(std::numbers::pi / 48);
+  check_depth(cylinder, bar, inscribed);
+  // beside the axis, by the planes of a face
+  check_depth(prism(0.03, 0.08, 4), placed(bar, 0, 0, 0.038), 0.007);
+  check_depth(bar, cylinder, 0.005);
+}
+
+TEST_CASE("balls: concentric, apart, and one just inside the other") {
+  const Mesh large = ball(0.05, 12, 24), small = ball(0.01, 8, 16);
+  const double inscribed = brute_distance(large, {0, 0, 0});
+  check_depth(large, small, inscribed);
+  check_depth(small, large, brute_distance(small, {0, 0, 0}));
+  const Penetration beside =
+      penetration(*Shape::make(large), *Shape::make(small), Pose::translation({0.055, 0, 0}));
+  CHECK(beside.depth > 0.0045);
+  CHECK(beside.depth <= 0.005);
+  CHECK(penetration(*Shape::make(large), *Shape::make(small), Pose::translation({0.061, 0, 0}))
+            .depth == 0);
+}
+
+TEST_CASE("a hollow is outside: the depth in a shell is at most half its thickness") {
+  const Mesh shell = joined(box(0.1, 0.1, 0.1), inverted(box(0.08, 0.08, 0.08)));
+  check_depth(shell, placed(box(0.02, 0.02, 0.05), 0, 0, 0.05), 0.005);
+  check_depth(shell, placed(box(0.02, 0.02, 0.05), 0, 0, 0.066), 0.005);
+  check_depth(shell, placed(box(0.02, 0.02, 0.05), 0, 0, 0.073), 0.002);
+  CHECK(penetration(*Shape::make(shell), *Shape::make(box(0.02, 0.02, 0.05)), {}).depth == 0);
+}
+
+TEST_CASE("faces buried in a union of parts are no surface") {
+  const Mesh bar = box(0.01, 0.01, 0.2);
+  // parts that overlap, that adjoin, and one within another
+  const Mesh overlapping =
+      joined(placed(box(0.06, 0.06, 0.06), -0.01, 0, 0), placed(box(0.06, 0.06, 0.06), 0.01, 0, 0));
+  check_depth(overlapping, bar, 0.03, true);
+  check_depth(overlapping, placed(bar, 0, 0.03, 0), 0.005, true);
+  check_depth(joined(placed(box(0.03, 0.06, 0.06), -0.015, 0, 0),
+                     placed(box(0.03, 0.06, 0.06), 0.015, 0, 0)),
+              bar, 0.03, true);
+  check_depth(joined(placed(box(0.03, 0.02, 0.06), -0.015, 0, 0),
+                     placed(box(0.03, 0.06, 0.06), 0.015, 0, 0)),
+              placed(bar, -0.004, 0, 0), std::hypot(0.01, 0.001), true);
+  check_depth(joined(box(0.06, 0.06, 0.06), box(0.02, 0.02, 0.02)), bar, 0.03, true);
+  // a cross of two beams: the deepest point is as far from its four inner edges
+  check_depth(joined(box(0.06, 0.02, 0.06), box(0.02, 0.06, 0.06)), bar, std::hypot(0.01, 0.01),
+              true);
+}
+
+TEST_CASE("random bodies: no sampled point is deeper, and the point found is as deep as it says") {
+  Random random(3);
+  for (int i = 0; i < 30; ++i) {
+    const Mesh a = potato(random, 0.05, 5), b = potato(random, i % 2 ? 0.05 : 0.02, 5);
+    const Pose X_AB = random_pose(random, 0.06);
+    const Mesh b_A = moved(b, X_AB);
+    const Penetration found = penetration(*Shape::make(a), *Shape::make(b), X_AB);
+    check_point(found, a, b_A);
+    const double sampled = sampled_depth(random, a, b_A, 1000);
+    CHECK(sampled <= found.bound + 1e-12);
+    CHECK(sampled <= found.depth + tolerance(found.depth));
+    if (sampled > 0) CHECK(found.depth > 0);
+  }
+}
+
+TEST_CASE("there is a depth where solids overlap, however little, and none where they touch") {
+  Random random(5);
+  const Mesh a = potato(random, 0.05, 6), b = potato(random, 0.03, 6);
+  const auto shape_a = Shape::make(a), shape_b = Shape::make(b);
+  for (int i = 0; i < 15; ++i) {
+    // along a line until they touch, then a little farther
+    const Eigen::Quaterniond turn = random_turn(random);
+    const Vector3d along = random_direction(random);
+    const auto at = [&](double s) { return Pose{turn, s * along}; };
+    double in = 0, out = 0.2;
+    while (out - in > 1e-15) {
+      const double middle = (in + out) / 2;
+      (colliding(*shape_a, *shape_b, at(middle)) ? in : out) = middle;
+    }
+    CHECK(penetration(*shape_a, *shape_b, at(out)).depth == 0);
+    for (const double deep : {1e-3, 1e-5, 1e-7, 1e-9}) {
+      const Penetration found = penetration(*shape_a, *shape_b, at(in - deep));
+      CHECK(found.depth > 0);
+      CHECK(found.depth < 1.01 * deep + 1e-12);
+      CHECK(found.bound < found.depth + tolerance(found.depth));
+    }
+  }
+}
+
+TEST_CASE("faces, edges and corners that touch have no depth") {
+  const auto cube = Shape::make(box(0.06, 0.06, 0.06)), bar = Shape::make(box(0.01, 0.01, 0.1));
+  Random random(6);
+  for (const Vector3d& p : {Vector3d(0, 0, 0.08), Vector3d(0.035, 0, 0), Vector3d(0.035, 0.035, 0),
+                            Vector3d(0.035, 0.01, 0.08), Vector3d(0.035, 0.035, 0.08)}) {
+    CHECK(penetration(*cube, *bar, Pose::translation(p)).depth == 0);
+    CHECK(penetration(*bar, *cube, Pose::translation(-p)).depth == 0);
+  }
+  // a mesh that is not convex takes no planes for bounds
+  const auto shell = Shape::make(joined(box(0.06, 0.06, 0.06), inverted(box(0.04, 0.04, 0.04))));
+  CHECK(penetration(*shell, *bar, Pose::translation({0.002, 0.001, 0.08})).depth == 0);
+}
+
+TEST_CASE("open meshes: nothing is inside one, and of one the surface counts") {
+  Mesh open = box(0.06, 0.06, 0.06);
+  open.triangles.pop_back();
+  const auto cup = Shape::make(open), bar = Shape::make(box(0.01, 0.01, 0.1));
+  CHECK(penetration(*cup, *bar, {}).depth == 0);
+  // its bottom crosses the bar; the solid that it would hold does not count
+  CHECK(penetration(*bar, *cup, {}).depth == doctest::Approx(0.005).epsilon(1e-3));
+  Mesh sheet = box(0.06, 0.06, 0.06);
+  sheet.triangles = {sheet.triangles[0], sheet.triangles[1]};
+  const Penetration found =
+      penetration(*bar, *Shape::make(sheet), Pose::translation({0, 0, 0.077}));
+  CHECK(found.depth == doctest::Approx(0.003).epsilon(1e-6));
+}
+
+TEST_CASE("meshes of a micrometre and of a kilometre have depths that scale") {
+  Random random(8);
+  const Mesh a = potato(random, 1, 5), b = potato(random, 0.5, 5);
+  const Pose X{random_turn(random), {0.6, 0.5, 0.3}};
+  const double depth = penetration(*Shape::make(a), *Shape::make(b), X).depth;
+  REQUIRE(depth > 0.1);
+  for (const double size : {1e-5, 1e3}) {
+    const Penetration found =
+        penetration(*Shape::make(scaled(a, size)), *Shape::make(scaled(b, size)),
+                    {X.rotation, size * X.position}, {.absolute = 1e-6 * size});
+    CHECK(found.depth / size == doctest::Approx(depth).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("tolerances must be above 0, and a watcher ends the search") {
+  const auto cube = Shape::make(box(1, 1, 1));
+  CHECK_THROWS_WITH_AS(penetration(*cube, *cube, {}, {.absolute = 0}),
+                       "penetration: expected tolerances > 0, got 0 and 0.001", Error);
+  CHECK_THROWS_WITH_AS(penetration(*cube, *cube, {}, {.relative = -1}),
+                       "penetration: expected tolerances > 0, got 1e-06 and -1", Error);
+  struct Silent : Watcher {
+    void show(double, std::string_view) override {}
+  };
+  const auto watcher = std::make_shared<Silent>();
+  Random random(1);
+  const auto round = Shape::make(potato(random));
+  const PenetrationOptions watched{.relative = 1e-6, .progress = Progress(watcher)};
+  const Pose X = Pose::translation({0.5, 0.2, 0.1});
+  const double depth = penetration(*round, *round, X, watched).depth;
+  watcher->stop();
+  CHECK_THROWS_AS(penetration(*round, *round, X, watched), Stopped);
+  watcher->take_stop();
+  CHECK(penetration(*round, *round, X, watched).depth == depth);
+}
+
+TEST_CASE("real meshes: no sampled point of a finger is deeper in a scan") {
+  REQUIRE_SHARED();
+  Random random(9);
+  for (const char* name : {"011_banana.obj", "065-c_cups.obj"}) {
+    const auto scan = Shape::make(read_obj(shared() / "data" / "ycb" / name));
+    const auto finger = Shape::make(prism(0.008, 0.06, 24));
+    for (int i = 0; i < 2; ++i) {
+      const Vector3d& p = scan->mesh().vertices[random.bits() % scan->mesh().vertices.size()];
+      const Pose X{random_turn(random), p};
+      const Penetration found = penetration(*scan, *finger, X);
+      CHECK((found.depth > 0 || !scan->closed()));
+      for (int k = 0; k < 500; ++k) {
+        const Vector3d q_B = random_pose(random, 0.03).position;
+        const Vector3d q = X * q_B;
+        if (contains(*finger, q_B) && contains(*scan, q))
+          CHECK(closest_point(*scan, q).distance <= found.bound + 1e-12);
+      }
+    }
+  }
+}
