@@ -7,7 +7,8 @@ local starts = require "clench.plan.starts"
 ---@param name string  "sample"
 ---@param options table
 ---@param read_more? fun(read: table, own: table, job: table)  reads refine and verify
-return function(name, options, read_more)
+---@param journal? table  of clench.plan.journal
+return function(name, options, read_more, journal)
   local own = {planner = name, refine = 0, friction = 0.5, width = 0.2, kind = "both"}
   local job = new_job("plan." .. name, options, function(read, job)
     own.count = read:count("count", 100, 1, 1000000)
@@ -20,7 +21,9 @@ return function(name, options, read_more)
   end)
   own.approach = 2 * own.standoff
   local told = {planner = "plan." .. name}
+  own.journal = journal
   local found = batch.try(job, told, starts.random(job, own), own)
+  if journal then journal:add_listed(found) end
   job:finish()
-  return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
+  return new_run(job, batch.sort(found), told, {count = math.max(own.count, journal and journal.keep or 0), distance = own.distance})
 end
