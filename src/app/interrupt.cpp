@@ -36,7 +36,6 @@ void catch_endings() {
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
       catch_signal(signal);
   }
-  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool take_interrupt() {

@@ -9,8 +9,7 @@ class State;
 /// From now on Ctrl-C ends no process, except pressed as often as an Interruptible allows while it
 /// lives.
 void catch_interrupts();
-/// The same of SIGTERM and SIGHUP, unless they are ignored, as under nohup. Broken pipes end no
-/// process either: output to them fails instead.
+/// The same of SIGTERM and SIGHUP, unless they are ignored, as under nohup.
 void catch_endings();
 
 /// Was it pressed since the last time this was asked?
