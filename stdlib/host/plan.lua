@@ -7,6 +7,7 @@ local distinct = require "clench.plan.distinct"
 local identity = require "clench.host.plan_identity"
 local plan_files = require "clench.host.plan_files"
 local plan_list = require "clench.host.plan_list"
+local recorded = require "clench.plan.recorded"
 local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
 
@@ -78,7 +79,7 @@ local function run_search(given)
   local list = job.list
   local count = list and list.count or math.tointeger(tonumber(given.count)) or seconds and 1000000 or 20
   if list then list.count = count end
-  job.run = clench.plan.sample({
+  local options = {
     hand = job.hand, object = job.object, count = count, seconds = seconds,
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
     contacts = given.contacts,
@@ -88,7 +89,9 @@ local function run_search(given)
       job.found[#job.found + 1] = grasp
       if list then list:add(grasp) end
     end,
-  }, list and list:journal())
+  }
+  if list then recorded[options] = list:journal() end
+  job.run = clench.plan.sample(options)
 end
 
 -- reads and checks all that it is given before it writes anything

@@ -37,6 +37,14 @@ function List.check(given)
   return self
 end
 
+local function first_line(path)
+  local file = io.open(path, "rb")
+  if not file then return nil end
+  local line = file:read "l"
+  file:close()
+  return line
+end
+
 -- the first line as a table, and is there another? nil: there is no file, or an empty one
 local function look_at(path)
   local file, why, code = io.open(path, "rb")
@@ -79,7 +87,7 @@ function List:read_journal()
   local known, text = journal.read(self.journal_path)
   if not known then return end
   self.known, self.pending, self.has_journal = known, text, true
-  self.earlier_count = math.tointeger(head.count)
+  self.earlier_count = math.max(self.earlier_count or 0, math.tointeger(head.count) or 0)
 end
 
 function List:resume(head)
@@ -87,6 +95,8 @@ function List:resume(head)
     self:check_same(self.path, search_in(head))
     self.kept = clench.grasps(self.path, {format = "jsonl", confine = folder_of(self.path)})
     local there = search_in(head)
+    self.earlier_count = math.tointeger(there.count)
+    if there.complete ~= nil then self.earlier_count = math.max(self.earlier_count or 0, #self.kept) end
     if not self.count then self.count = math.tointeger(there.count) end
     self.is_complete = there.complete == true and (self.count or 0) <= (math.tointeger(there.count) or -1)
     if self.is_complete then return end
@@ -104,6 +114,7 @@ end
 function List:compare(search, count)
   self.search, self.count = search, count
   local head, has_more = look_at(self.path)
+  self.first_line = first_line(self.path)
   self.is_replacing = self.is_overwriting and head ~= nil
   if self.is_overwriting then return end
   if self.format ~= "jsonl" then
@@ -124,10 +135,19 @@ function List:notes(more)
   return {search = search}
 end
 
--- What is worth keeping is on the disk from now on, by files that take the place of older ones.
+-- Another program may have put its own file there, which must not be changed. A file that is gone is written at the end.
+function List:check_ours()
+  local line = first_line(self.path)
+  if line and line ~= self.first_line then refuse("%s was replaced by another program: it is not written", self.path) end
+  return line ~= nil
+end
+
+-- From now on what is worth keeping is on the disk, in files that take the place of older ones.
 function List:start()
+  self:check_ours()
   self.started = true
   self.kept:save(self.path, {format = "jsonl", notes = self:notes()})
+  self.first_line = first_line(self.path)
   clench.files.save_text(self.journal_path, journal.head(self.search, self.keep) .. self.pending)
   self.pending = nil
 end
@@ -148,26 +168,35 @@ function List:add(grasp)
     if not self.started then
       self.kept:add(grasp)
       self:start()
-    else
+    elseif self:check_ours() then
       clench.files.append_text(self.path, clench.json.encode(grasp))
     end
   end)
 end
 
--- Grasps of the journal and of the list are listed while the search goes on.
-local function listed(kept, known)
-  local list, numbers = clench.grasps(), {}
+-- While the search goes on, grasps of the journal and of the earlier list are listed.
+local function add_known(list, record, earlier)
+  local numbers = {}
   local function add(grasp)
     local number = grasp.info.number
     if number and numbers[number] then return end
     if number then numbers[number] = true end
     list:add(grasp)
   end
-  for _, piece in pairs(known) do
-    for _, new in ipairs(piece.grasps) do add(new.grasp) end
+  for _, piece in ipairs(record:rest()) do
+    for _, new in ipairs(piece.known.grasps) do add(new.grasp) end
   end
-  for _, grasp in ipairs(kept) do add(grasp) end
-  return list
+  for _, grasp in ipairs(earlier) do add(grasp) end
+end
+
+function List:write_piece(lines)
+  if self.started then
+    self:check_ours()
+    clench.files.append_text(self.journal_path, lines)
+  else
+    self.pending = self.pending .. lines
+    if not self.is_replacing then self:start() end
+  end
 end
 
 --- For clench.plan.sample; nil: no search can be continued.
@@ -175,20 +204,17 @@ function List:journal()
   if self.format ~= "jsonl" then return nil end
   local earlier = {}
   for i, grasp in ipairs(self.kept) do earlier[i] = grasp end
-  local keep = math.max(self.earlier_count or 0, self.has_journal and 0 or #earlier)
+  -- a search for fewer grasps than before drops none of the list
+  local keep = (self.earlier_count or 0) > self.count and #earlier or 0
   self.keep = math.max(keep, self.count)
-  self.kept = listed(self.kept, self.known)
-  return journal.new {
+  local record = journal.new {
     known = self.known, listed = earlier, keep = keep,
     is_ended = function() return self.fault ~= nil end,
-    write = function(lines)
-      self:try(function()
-        if self.started then return clench.files.append_text(self.journal_path, lines) end
-        self.pending = self.pending .. lines
-        if not self.is_replacing then self:start() end
-      end)
-    end,
+    write = function(lines) self:try(function() self:write_piece(lines) end) end,
   }
+  self.kept = clench.grasps()
+  add_known(self.kept, record, earlier)
+  return record
 end
 
 --- Replaces the list by these, best first.
@@ -205,6 +231,7 @@ function List:save(grasps, is_search_complete)
     return nil
   end
   if not self.started then self:start() end
+  self:check_ours()
   grasps:save(self.path, {format = "jsonl", notes = self:notes {complete = is_search_complete}})
   if is_search_complete then
     os.remove(self.journal_path)

@@ -173,11 +173,11 @@ function batch.try(job, told, next_state, options)
   return found
 end
 
---- the largest epsilon first; of equal ones the earlier
+--- the largest epsilon first; of equal ones the earlier; those that no search has numbered last
 function batch.sort(found)
   table.sort(found, function(a, b)
     if a.epsilon ~= b.epsilon then return a.epsilon > b.epsilon end
-    return a.info.number < b.info.number
+    return (a.info.number or math.huge) < (b.info.number or math.huge)
   end)
   return found
 end

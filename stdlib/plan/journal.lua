@@ -150,10 +150,8 @@ function Journal:add_listed(found)
   for _, grasp in ipairs(found) do numbers[grasp.info.number] = true end
   for _, grasp in ipairs(self.listed) do
     local number = grasp.info.number
-    if number and not numbers[number] then
-      numbers[number] = true
-      found[#found + 1] = grasp
-    end
+    if not number or not numbers[number] then found[#found + 1] = grasp end
+    if number then numbers[number] = true end
   end
 end
 

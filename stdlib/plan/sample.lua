@@ -31,10 +31,10 @@ end
 --- > run.grasps[1].epsilon > 0, run.report.candidates > 3  --> true, true
 --- > clench.plan.sample {hand = hand, object = flask, verify = {lfit = 0}}  --> error: unknown key 'lfit'
 --- > clench.plan.sample {hand = hand, object = flask, verify = {shake = 1}}  --> error: shake must be a boolean or a table, got 1
-return function(options, journal)  -- journal: of clench.plan.journal, for clench plan
+return function(options)
   return sampling("sample", options, function(read, own, job)
     own.near_found = true
     own.refine = read:count("refine", 10, 0, 10000)
     own.verify = read_verify(read, job.grasp_options)
-  end, journal)
+  end)
 end

@@ -2,13 +2,13 @@
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
+local recorded = require "clench.plan.recorded"
 local starts = require "clench.plan.starts"
 
 ---@param name string  "sample"
 ---@param options table
 ---@param read_more? fun(read: table, own: table, job: table)  reads refine and verify
----@param journal? table  of clench.plan.journal
-return function(name, options, read_more, journal)
+return function(name, options, read_more)
   local own = {planner = name, refine = 0, friction = 0.5, width = 0.2, kind = "both"}
   local job = new_job("plan." .. name, options, function(read, job)
     own.count = read:count("count", 100, 1, 1000000)
@@ -21,6 +21,7 @@ return function(name, options, read_more, journal)
   end)
   own.approach = 2 * own.standoff
   local told = {planner = "plan." .. name}
+  local journal = recorded[options]
   own.journal = journal
   local found = batch.try(job, told, starts.random(job, own), own)
   if journal then journal:add_listed(found) end

@@ -1,6 +1,7 @@
 -- A search that ends early and is continued from its journal finds what one without a break finds, to the bit.
 local test, clench = require "test", require "clench"
 local journal = require "clench.plan.journal"
+local recorded = require "clench.plan.recorded"
 
 local count_wanted = 26  -- found in the second round
 
@@ -8,7 +9,9 @@ local function search(record, hand_file)
   local world = clench.world()
   local hand = world:add_robot(hand_file or "models/hands/barrett/barrett.cfg")
   local bar = world:add_object(clench.shapes.box {0.03, 0.05, 0.12}, {pose = {xyz = {0, 0, 1}}, name = "bar", mass = 0.1})
-  return clench.plan.sample({hand = hand, object = bar, count = count_wanted, refine = 1, seed = 5, threads = 2, distance = 0.02, verify = false}, record)
+  local options = {hand = hand, object = bar, count = count_wanted, refine = 1, seed = 5, threads = 2, distance = 0.02, verify = false}
+  recorded[options] = record
+  return clench.plan.sample(options)
 end
 
 local function lines_of(run)
@@ -25,7 +28,7 @@ local function check_same(t, run, other)
 end
 
 -- a search that records itself in a file and ends when so many pieces are written
-local function recorded(path, pieces, hand_file)
+local function record_in(path, pieces, hand_file)
   local count = 0
   clench.files.save_text(path, journal.head({name = "bar"}, count_wanted))
   return search(journal.new {
@@ -45,7 +48,7 @@ end
 
 local without_break = search()
 local path = test.path ".search"
-local complete = recorded(path, math.huge)
+local complete = record_in(path, math.huge)
 local text = clench.files.read_text(path)
 
 test("a journal changes nothing of a search", function(t)
@@ -67,7 +70,7 @@ end)
 
 test("a search that ended after a round goes on", function(t)
   local short = test.path ".search"
-  local first = recorded(short, 1)
+  local first = record_in(short, 1)
   t.equal(first.report.candidates, 64)
   t.equal(first.report.complete, false)
   check_same(t, continued((journal.read(short))), without_break)
@@ -95,7 +98,7 @@ end)
 
 test("starts that jaws have shifted come back to the bit", function(t)
   local jaws, shifted = "models/hands/parallel_jaw/parallel_jaw.cfg", test.path ".search"
-  recorded(shifted, 1, jaws)
+  record_in(shifted, 1, jaws)
   t.ok(clench.files.read_text(shifted):find('"moved":true', 1, true))
   local known, clean = journal.read(shifted)
   t.equal(journal.head({name = "bar"}, count_wanted) .. clean, clench.files.read_text(shifted))
