@@ -659,8 +659,14 @@ function grasps:add(grasp) end
 
 ---Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names what a format does not hold. The same list gives the same bytes.
 ---@param path string
----@param options? {format?: string} # as clench.grasps takes it
+---@param options? {format?: string, notes?: table} # format: as clench.grasps takes it; notes: plain data about the list as such, for the head of JSON lines
 function grasps:save(path, options) end
+
+---Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and folder may be written. Changes no file.
+---@param path string
+---@param options? {format?: string} # as of `save`
+---@return string format
+function grasps:check_save(path, options) end
 
 ---A number for how a hand stands to an object, made by `clench.energy`.
 ---@class energy
@@ -1163,6 +1169,15 @@ function clench.files.pregrasps(path, options) end
 ---@param path string
 ---@param text string
 function clench.files.save_text(path, text) end
+
+---Appends a text on a line of its own, whose end is added, with one call of the system: a process that is killed leaves all of it or nothing, and of a full disk no part remains. Creates the file if there is none.
+---@param path string
+---@param text string
+function clench.files.append_text(path, text) end
+
+---Checks that a file could be written there, before long work for instance: its folder exists, both may be written, and it is no folder, pipe or device. Changes no file.
+---@param path string
+function clench.files.check_writable(path) end
 
 ---The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
 ---@param path string

@@ -8,24 +8,34 @@ namespace clench {
 
 // a signal handler has no arguments: what it needs must lie outside
 static State* volatile target = nullptr;
-static volatile std::sig_atomic_t presses = 0, deadly_press = 0;
+static volatile std::sig_atomic_t presses = 0, deadly_press = 0, first_signal = 0;
 
-static void on_interrupt(int) {
+static void on_interrupt(int signal) {
+  if (presses == 0) first_signal = signal;
   presses = presses + 1;
-  if (!target) return;
-  if (presses >= deadly_press) {
-    std::signal(SIGINT, SIG_DFL);
-    std::raise(SIGINT);
+  if (deadly_press > 0 && presses >= deadly_press) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
   }
-  target->interrupt();
+  if (target) target->interrupt();
 }
 
-void catch_interrupts() {
-  // without SA_RESTART, so that a key that is being waited for gives up
+// without SA_RESTART, so that a key that is being waited for gives up
+static void catch_signal(int signal) {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
+  sigaction(signal, &action, nullptr);
+}
+
+void catch_interrupts() { catch_signal(SIGINT); }
+
+void catch_endings() {
+  for (const int signal : {SIGTERM, SIGHUP}) {
+    struct sigaction before;
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      catch_signal(signal);
+  }
 }
 
 bool take_interrupt() {
@@ -34,17 +44,19 @@ bool take_interrupt() {
   return pressed;
 }
 
-Interruptible::Interruptible(State& state, int deadly) {
+Interruptible::Interruptible(State& state, int deadly) : Interruptible(deadly) { target = &state; }
+
+Interruptible::Interruptible(int deadly) {
   presses = 0;
   deadly_press = deadly;
-  target = &state;
 }
 
-bool Interruptible::pressed() const { return presses > 0; }
+int Interruptible::signal() const { return presses > 0 ? first_signal : 0; }
 
 Interruptible::~Interruptible() {
   target = nullptr;
   presses = 0;
+  deadly_press = 0;
 }
 
 }  // namespace clench

@@ -11,11 +11,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cwchar>
+#include <memory>
 #include <string_view>
 #include <system_error>
 
 #include "clench/app/interrupt.h"
 #include "clench/app/kept_terminal.h"
+#include "clench/base/error.h"
+#include "clench/base/file.h"
 #include "clench/base/printable.h"
 
 namespace clench {
@@ -221,7 +224,22 @@ void LineEditor::remember(const std::string& entry) {
   const SignalsLater whole_file;
   std::error_code ignored;
   fs::create_directories(t.file.parent_path(), ignored);
-  ::history(t.history, &t.event, H_SAVE, t.file.c_str());
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> lines(std::tmpfile(), std::fclose);
+  if (!lines || ::history(t.history, &t.event, H_SAVE_FP, lines.get()) < 0) return;
+  if (std::fflush(lines.get()) != 0) return;
+  std::rewind(lines.get());
+  std::string text;
+  char part[4096];
+  while (const size_t count = std::fread(part, 1, sizeof part, lines.get()))
+    text.append(part, count);
+  try {
+    if (fs::exists(t.file, ignored))
+      write_file(t.file, text);
+    else
+      Draft(t.file, text, 0600).move_to(t.file);
+  } catch (const Error&) {
+    // a console without a history is a console still
+  }
 }
 
 fs::path history_file() {

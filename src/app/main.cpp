@@ -1,11 +1,12 @@
-#include <unistd.h>
-
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -190,6 +191,8 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("FILE.html")
       ->check(named);
   add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png")->check(named);
+  flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");
+  flag("--overwrite", "replace the list of -o, once there are grasps");
   flag("--verify",
        "shake each grasp in simulation, too, by the object's weight along six directions");
   flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
@@ -303,8 +306,8 @@ static void add_plan(CLI::App& app, PlanOptions& plan) {
       "flask.jsonl\n"
       "  clench plan --seconds 30 --unit mm hand.urdf mug.stl --obstacle table.iv --report "
       "mug.html\n\n"
-      "Exit code: 1 when nothing was found, and the report says why; 130 after Ctrl-C, with the "
-      "grasps so far written. See docs/guide/plan_command.md." +
+      "Exit code: 1 when nothing was found, and the report says why; 130 after Ctrl-C, 143 after "
+      "SIGTERM, 129 after SIGHUP, with the grasps so far written. See docs/guide/plan_command.md." +
       trust);
 }
 
@@ -411,9 +414,14 @@ static int main_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    // a file that may not grow is an error of who writes it, not the end of the process
+    std::signal(SIGXFSZ, SIG_IGN);
     const int code = clench::main_of(argc, argv);
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
-    std::fputs("clench: the output could not be written whole: is the disk full?\n", stderr);
+    pollfd output{STDOUT_FILENO, 0, 0};
+    const bool unread = ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR);
+    std::fprintf(stderr, "clench: the output could not be written whole: %s\n",
+                 unread ? "nobody reads it any more" : "is the disk full?");
     return code == 0 ? 1 : code;
   } catch (const std::bad_alloc&) {
     std::fputs("clench: not enough memory\n", stderr);

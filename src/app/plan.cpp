@@ -1,6 +1,7 @@
 // `clench plan`: what it does and says is in stdlib/host/plan.lua.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -12,13 +13,40 @@ namespace clench {
 
 using Words = std::vector<std::string>;
 
-// a function of the module, which the first Ctrl-C interrupts and the second ends
-static std::string call(State& state, const std::string& function, const Words& words) {
-  const Interruptible running(state, 2);
+// a function of the module
+static std::string call(State& state, const std::string& function, const Words& words = {},
+                        const Interruptible* running = nullptr) {
   const auto result = state.call("host.plan", function, words);
   std::fflush(stdout);
-  if (!result.ok) fmt::print(stderr, "clench plan: {}\n", result.error);
+  // what a signal ends needs no reason
+  const bool ended = running && running->pressed();
+  if (!result.ok && !ended) fmt::print(stderr, "clench plan: {}\n", result.error);
   return result.ok && result.values.size() == 1 ? result.values.front() : "1";
+}
+
+// Searches, saves the list, then shows it. The first signal ends the search, or what is being
+// shown, but not the saving between them; the second one ends the process.
+static int run_plan(State& state, const Words& words) {
+  int signal = 0;
+  std::string done;
+  {
+    const Interruptible running(state, 2);
+    done = call(state, "search", words, &running);
+    signal = running.signal();
+  }
+  if (signal) done = call(state, "stopped");
+  if (done == "finish") {
+    {
+      const Interruptible counting(signal ? 1 : 2);
+      done = call(state, "save");
+      if (!signal) signal = counting.signal();
+    }
+    const Interruptible running(state, signal ? 1 : 2);
+    const std::string shown = call(state, "show", {}, &running);
+    if (done == "0") done = shown;
+    if (!signal) signal = running.signal();
+  }
+  return signal ? 128 + signal : std::atoi(done.c_str());
 }
 
 int plan_grasps(const PlanOptions& options) {
@@ -28,12 +56,11 @@ int plan_grasps(const PlanOptions& options) {
   if (options.quiet) state.set_quiet();
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);
   catch_interrupts();
+  catch_endings();
+  std::signal(SIGPIPE, SIG_IGN);  // what nobody reads must not keep files from being written
   Words words = words_of(options.reading);
   words.insert(words.end(), options.words.begin(), options.words.end());
-  std::string done = call(state, "search", words);
-  // what an interrupted search has found is written in a run that Ctrl-C has not touched
-  if (done == "finish" || done == "interrupted") done = call(state, "finish", {done});
-  return std::atoi(done.c_str());
+  return run_plan(state, words);
 }
 
 }  // namespace clench

@@ -21,17 +21,19 @@ int run_scripts(const RunOptions& options) {
   if (!options.confine.empty()) state.set_confine(options.confine);
   state.set_script("here");  // what is typed or piped stands where we stand
   catch_interrupts();
-  bool ok = true, interrupted = false;
+  if (!options.console) catch_endings();
+  bool ok = true;
+  int signal = 0;
   {
     const Interruptible running(state, 2);
     for (const auto& code : options.code) ok = ok && report(state.run_code(code, "=-e"));
     if (ok && !options.file.empty()) ok = report(state.run_file(options.file, options.arguments));
-    interrupted = running.pressed();
+    signal = running.signal();
   }
   // a console is for looking at what went wrong, too
   if (options.console) return run_console(state);
-  // as a shell tells it of a program that Ctrl-C has ended
-  if (interrupted) return 130;
+  // as a shell reports a program that a signal has ended
+  if (signal) return 128 + signal;
   return ok ? 0 : 1;
 }
 

@@ -60,8 +60,9 @@ struct PlanOptions {
   ReadingOptions reading;
 };
 
-/// Searches for grasps of a hand on an object.   returns 1 when there are none, 2 when an option
-/// makes no sense, 130 after Ctrl-C
+/// Searches for grasps of a hand on an object.
+/// returns  1 when there are none, 2 when an option makes no sense, 128 + the signal that ended it:
+///          130 after Ctrl-C
 int plan_grasps(const PlanOptions& options);
 
 }  // namespace clench

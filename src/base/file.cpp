@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <optional>
 #include <random>
 #include <system_error>
 #include <utility>
@@ -115,14 +116,14 @@ fs::path unused_name(const fs::path& beside) {
                      random(), ending.substr(0, ending.size() > max_ending ? 0 : max_ending));
 }
 
-/// False, with errno, when not all of it could be written to the disk.
+/// False, with errno, when not all of it could be written.
 bool write_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = ::write(file, text.data(), text.size());
     if (put < 0 && errno != EINTR) return false;
     if (put > 0) text.remove_prefix(static_cast<size_t>(put));
   }
-  return ::fsync(file) == 0;
+  return true;
 }
 
 }  // namespace
@@ -138,7 +139,7 @@ Draft::Draft(const fs::path& beside, std::string_view text, unsigned mode) {
   }
   if (number < 0) fail_write(beside, errno);
   OpenFile file(number);
-  const bool written = write_all(file.number(), text);
+  const bool written = write_all(file.number(), text) && ::fsync(file.number()) == 0;
   int error = written ? 0 : errno;
   if (!file.close() && written) error = errno;
   if (error == 0) return;
@@ -180,27 +181,68 @@ void check_folder_of(const fs::path& file) {
        folder_of(file).generic_string());
 }
 
-void write_file(const fs::path& path, std::string_view text) {
+/// Refuses folders, special files and what permissions protect.
+/// returns  the file that the path leads to, and its status if there is one
+static std::pair<fs::path, std::optional<struct stat>> find_target(const fs::path& path) {
   struct stat before;
   if (path.empty()) fail(ErrorKind::file, "expected the name of a file, got nothing");
   if (path.filename().empty() || (::stat(path.c_str(), &before) == 0 && S_ISDIR(before.st_mode)))
     fail(ErrorKind::file, "{}: expected a file to write, got a folder", path.generic_string());
   check_folder_of(path);
+  const fs::path target = target_of(path);
+  if (::stat(target.c_str(), &before) != 0) {
+    if (errno != ENOENT) fail_write(path, errno);
+    return {target, std::nullopt};
+  }
+  if (!S_ISREG(before.st_mode))
+    fail(ErrorKind::file, "{}: expected a file to write, got a special file",
+         path.generic_string());
+  if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_write(path, errno);
+  return {target, before};
+}
+
+/// Calls `write`; errors of the file system become errors of the path.
+template <class Write>
+static void with_errors_of(const fs::path& path, Write&& write) {
   try {
-    const fs::path target = target_of(path);
-    if (::stat(target.c_str(), &before) != 0) {
-      if (errno != ENOENT) fail_write(path, errno);
-      Draft(target, text).move_to(target);
-      return;
-    }
-    if (!S_ISREG(before.st_mode))
-      fail(ErrorKind::file, "{}: expected a file to write, got a special file",
-           path.generic_string());
-    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_write(path, errno);
-    write_over(target, text, before.st_mode);
+    write();
   } catch (const fs::filesystem_error& error) {
     fail_write(path, error.code().value());
   }
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  with_errors_of(path, [&] {
+    const auto [target, before] = find_target(path);
+    if (before)
+      write_over(target, text, before->st_mode);
+    else
+      Draft(target, text).move_to(target);
+  });
+}
+
+void check_writable(const fs::path& path) {
+  with_errors_of(path, [&] { const Draft draft(find_target(path).first, ""); });
+}
+
+void append_file(const fs::path& path, std::string_view text) {
+  with_errors_of(path, [&] {
+    const fs::path target = find_target(path).first;
+    const OpenFile file(
+        ::open(target.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
+    struct stat before;
+    if (!file || ::fstat(file.number(), &before) != 0) fail_write(path, errno);
+    char last = '\n';
+    if (before.st_size > 0 && ::pread(file.number(), &last, 1, before.st_size - 1) != 1)
+      fail_write(path, errno);
+    const std::string block =
+        fmt::format("{}{}{}", last == '\n' ? "" : "\n", text, text.ends_with('\n') ? "" : "\n");
+    if (write_all(file.number(), block)) return;
+    const int error = errno;
+    // if this fails too, the first error is the one to report
+    [[maybe_unused]] const int removed = ::ftruncate(file.number(), before.st_size);
+    fail_write(path, error);
+  });
 }
 
 FileSet::~FileSet() {

@@ -44,6 +44,16 @@ void check_folder_of(const std::filesystem::path& file);
 /// throws Error  "out/a.vgr: the file cannot be written: Permission denied"
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Checks that write_file could write there, by a draft that is removed: no file is changed.
+/// throws Error as write_file
+void check_writable(const std::filesystem::path& path);
+
+/// Appends a text that begins on a new line and ends with the end of a line, in one call of the
+/// system: a process that is killed leaves all of it or nothing. Creates the file if there is none.
+/// If only a part fits on the disk, that part is removed again.
+/// throws Error as write_file
+void append_file(const std::filesystem::path& path, std::string_view text);
+
 /// Files that belong together: all stay, or none. Each is there as soon as it is written.
 class FileSet {
  public:

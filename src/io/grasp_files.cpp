@@ -18,12 +18,22 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-GraspFormat grasp_format(const std::string& name) {
+// in the order of GraspFormat
+static const std::vector<std::string>& format_names() {
   static const std::vector<std::string> names = {
       "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper", "graspit"};
+  return names;
+}
+
+GraspFormat grasp_format(const std::string& name) {
+  const auto& names = format_names();
   for (size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return static_cast<GraspFormat>(i);
   fail("unknown format {}{}", in_quotes(name), instead_of(name, names));
+}
+
+const char* grasp_format_name(GraspFormat format) {
+  return format_names()[static_cast<size_t>(format)].c_str();
 }
 
 // what the file itself says: JSON by its keys, else lines of numbers
@@ -89,7 +99,9 @@ std::vector<GraspSpec> read_grasp_file(const fs::path& path, const std::string& 
   });
 }
 
-static GraspFormat format_to_write(const std::string& ending, const std::string& file) {
+GraspFormat grasp_format_to_write(const fs::path& path, const std::string& format) {
+  if (!format.empty()) return grasp_format(format);
+  const std::string ending = ending_of(path), file = path.filename().string();
   if (ending.empty()) return GraspFormat::lines;
   if (const auto known = format_of(ending)) return *known;
   if (ending == ".json")
@@ -104,7 +116,10 @@ static GraspFormat format_to_write(const std::string& ending, const std::string&
 void write_grasp_file(const std::vector<GraspSpec>& grasps, const fs::path& path,
                       const std::string& format, const WriteOptions& options) {
   const std::string file = path.filename().string();
-  switch (format.empty() ? format_to_write(ending_of(path), file) : grasp_format(format)) {
+  const GraspFormat known = grasp_format_to_write(path, format);
+  if (known != GraspFormat::lines && !options.notes.empty() && options.warn)
+    options.warn(fmt::format("{}: {} does not hold notes", file, grasp_format_name(known)));
+  switch (known) {
     case GraspFormat::csv:
       return write_grasp_table(grasps, path, options);
     case GraspFormat::npz:
@@ -119,7 +134,7 @@ void write_grasp_file(const std::vector<GraspSpec>& grasps, const fs::path& path
       report_lost(grasps, {}, file, "graspit", options);
       return write_planned_grasps(grasps, path);
     case GraspFormat::lines:
-      return write_grasps(grasps, path);
+      return write_grasps(grasps, path, options.notes);
   }
 }
 

@@ -16,6 +16,13 @@ enum class GraspFormat { lines, csv, npz, isaac_grasp, graspgen, multigripper, g
 /// throws Error  "unknown format 'cvs', expected one of jsonl, csv, ..."
 GraspFormat grasp_format(const std::string& name);
 
+/// The format in which write_grasp_file writes; `format` as it takes it.
+/// throws Error  "a.json: .json may be several formats; expected ..."
+GraspFormat grasp_format_to_write(const std::filesystem::path& path,
+                                  const std::string& format = {});
+/// "jsonl" and so on, as grasp_format takes them
+const char* grasp_format_name(GraspFormat format);
+
 /// format  empty: what the ending says, and of .json and others what stands in the file
 /// throws Error as the readers of the formats do
 std::vector<GraspSpec> read_grasp_file(const std::filesystem::path& path,
@@ -24,7 +31,7 @@ std::vector<GraspSpec> read_grasp_file(const std::filesystem::path& path,
 
 /// format  empty: .jsonl, .csv, .npz, .yaml and .yml (isaac_grasp) by their endings, JSON lines
 ///         without one; of .json and others it has to be given
-/// Warns of what a format does not hold.
+/// Warns of what a format does not hold: of options.notes in all but JSON lines.
 void write_grasp_file(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
                       const std::string& format = {}, const WriteOptions& options = {});
 

@@ -82,15 +82,18 @@ static std::string line_of(const Json& value) {
 
 std::string grasp_line(const GraspSpec& grasp) { return line_of(json_of(grasp)); }
 
-std::string grasps_head() {
-  return line_of({{"format", format_name},
-                  {"version", format_version},
-                  {"units", unit_names},
-                  {"pose", "of the hand's base in the object's frame; quat is w x y z"}});
+std::string grasps_head(const std::string& notes) {
+  Json head = {{"format", format_name},
+               {"version", format_version},
+               {"units", unit_names},
+               {"pose", "of the hand's base in the object's frame; quat is w x y z"}};
+  if (!notes.empty()) head["notes"] = Json::parse(notes);
+  return line_of(head);
 }
 
-void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path) {
-  std::string text = grasps_head() + "\n";
+void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path,
+                  const std::string& notes) {
+  std::string text = grasps_head(notes) + "\n";
   for (const GraspSpec& grasp : grasps) text += grasp_line(grasp) + "\n";
   write_file(path, text);
 }
@@ -303,7 +306,9 @@ void check_head(const Json& json, const std::string& place) {
 std::vector<GraspSpec> read_grasps(const fs::path& path, const ReadOptions& options) {
   return of_file([&] {
     const fs::path found = find_file(path.string(), "", options);
-    LineReader lines(path.filename().string(), read_text(found));
+    std::string text = read_text(found);
+    const bool has_last_end = text.ends_with('\n');
+    LineReader lines(path.filename().string(), std::move(text));
     std::vector<GraspSpec> out;
     bool head = false;
     while (!lines.done()) {
@@ -317,6 +322,14 @@ std::vector<GraspSpec> read_grasps(const fs::path& path, const ReadOptions& opti
           if (depth > 8) line.fail("expected lists and objects at most 8 deep, got more");
           return true;
         });
+      } catch (const Json::parse_error& error) {
+        // a program that was killed, or a full disk, leaves the beginning of a line
+        const bool is_cut = lines.done() && !has_last_end && error.byte > line.text().size();
+        if (!head || !is_cut) line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
+        if (options.warn)
+          options.warn(fmt::format("{}: the last line is cut short and is skipped, got {}",
+                                   line.place(), in_quotes(line.text())));
+        break;
       } catch (const Json::exception&) {
         line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
       }

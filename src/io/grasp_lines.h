@@ -10,17 +10,20 @@
 
 namespace clench {
 
-/// Numbers come back to the bit.
+/// Numbers come back to the bit. A last line that lacks its end and is no JSON is skipped with a
+/// warning: it was cut short as it was written.
 /// throws Error  "grasps.jsonl:3: points[2].mu: expected a number >= 0, got -1"
 std::vector<GraspSpec> read_grasps(const std::filesystem::path& path,
                                    const ReadOptions& options = {});
 
 /// The same list gives the same bytes. Measures and notes that are not finite are left out.
+/// notes  of the list as such, a JSON object for its first line; empty: none
 /// throws Error as write_file does
-void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path);
+void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
+                  const std::string& notes = {});
 
 /// What one grasp is in such a file, without the end of the line; and what its first line is.
 std::string grasp_line(const GraspSpec& grasp);
-std::string grasps_head();
+std::string grasps_head(const std::string& notes = {});
 
 }  // namespace clench

@@ -2,13 +2,18 @@
 local columns = require "clench.host.columns"
 local error_text = require "clench.host.error_text"
 local in_utf8 = require "clench.in_utf8"
+local batch = require "clench.plan.batch"
+local distinct = require "clench.plan.distinct"
+local identity = require "clench.host.plan_identity"
 local printable = require "clench.printable"
 local plan_files = require "clench.host.plan_files"
+local plan_list = require "clench.host.plan_list"
+local recorded = require "clench.plan.recorded"
 local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
 
 local plan = {}
-local job = {}  -- what `search` leaves for `finish`
+local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
 local function shown(text) return printable(in_utf8(text), "\n") end
 
@@ -70,21 +75,40 @@ local function check_words(given)
   if given["keep-lost"] and not given.verify then fail "--keep-lost says what becomes of grasps that --verify loses, and there is no --verify" end
 end
 
-local function search(root, folder, package, unit, strict, ...)
-  local given = read_words(...)
-  check_words(given)
-  job.given = given
-  job.files = plan_files.open(given)
-  job.world, job.hand, job.object = load_world(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
-  job.count = math.tointeger(tonumber(given.count)) or not given.seconds and 20 or nil
-  job.run = clench.plan.sample {
-    hand = job.hand, object = job.object, count = job.count or 1000000, seconds = tonumber(given.seconds),
+local function run_search(given)
+  local seconds = tonumber(given.seconds)
+  local list = job.list
+  local count = list and list.count or math.tointeger(tonumber(given.count)) or seconds and 1000000 or 20
+  if list then list.count = count end
+  local options = {
+    hand = job.hand, object = job.object, count = count, seconds = seconds,
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
     contacts = given.contacts, max_effort = tonumber(given["max-effort"]),
     verify = given["no-verify"] == nil and {shake = given.verify ~= nil, keep_lost = given["keep-lost"] ~= nil,
                                                force_ratio = tonumber(given["force-ratio"])},
-    on_grasp = function(grasp) job.files:add(grasp) end,
+    on_grasp = function(grasp)
+      job.found[#job.found + 1] = grasp
+      if list then list:add(grasp) end
+    end,
   }
+  if list then recorded[options] = list:journal() end
+  job.run = clench.plan.sample(options)
+end
+
+-- reads and checks all that it is given before it writes anything
+local function search(root, folder, package, unit, strict, ...)
+  local given = read_words(...)
+  check_words(given)
+  job.given = given
+  job.list, job.files = plan_list.check(given), plan_files.check(given)
+  job.world, job.hand, job.object = load_world(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
+  local list = job.list
+  if list then list:compare(identity.of(given, job.world, job.hand), math.tointeger(tonumber(given.count))) end
+  if list and list.is_complete then
+    job.run = {grasps = list.kept, report = ("%s: the search is complete"):format(list.path)}
+  else
+    run_search(given)
+  end
 end
 
 local function tell(problem)
@@ -97,13 +121,23 @@ local function sentence(problem)
   return error_text(problem), 1
 end
 
+-- A planner that a signal has stopped for good leaves its grasps as they were found.
+local function rescue()
+  local list, is_new = clench.grasps(), distinct(job.hand, job.object, 0.1)
+  for _, grasp in ipairs(job.list and job.list.kept or {}) do table.insert(job.found, grasp) end
+  for _, grasp in ipairs(batch.sort(job.found)) do
+    if is_new(grasp) then list:add(grasp) end
+  end
+  job.run = {grasps = list, report = "interrupted: these are the grasps until then", is_rescued = true}
+end
+
 --- Loads and searches.
 ---@param root string  this and the next four: what is said of reading, "" when nothing is
----@return string  the exit code, or how it ended: "finish", or "interrupted" by Ctrl-C
+---@return string  the exit code, or "finish" when there is something to save and to show
 function plan.search(...)
   local ok, problem = pcall(search, ...)
-  if ok then return job.run.report.stopped and "interrupted" or "finish" end
-  if type(problem) == "table" and problem.kind == "stopped" then return "130" end
+  if ok then return "finish" end
+  if type(problem) == "table" and problem.kind == "stopped" then return plan.stopped() end
   local text, code = sentence(problem)
   tell(text)
   return tostring(code)
@@ -127,28 +161,43 @@ local function print_table(rows)
   if shaken then print "shaken: lost along so many of six directions, when pulled by its weight in simulation" end
 end
 
-local function finish(how)
+--- Is there something to save and to show after a signal?
+---@return string  "finish", or the exit code
+function plan.stopped() return (job.run or #job.found > 0) and "finish" or "1" end
+
+--- Saves the list.
+---@return string  the exit code
+function plan.save()
+  if not job.run then rescue() end
+  local list, report = job.list, job.run.report
+  if not list then return "0" end
+  local ok, result = pcall(list.save, list, job.run.grasps, type(report) == "table" and report.complete)
+  job.note = ok and result or nil
+  local problem = list.fault or not ok and sentence(result)
+  if problem then tell(problem) end
+  return problem and "1" or "0"
+end
+
+local function show()
   local run = job.run
-  local grasps = run.grasps
-  job.files:save(grasps)
+  local grasps, words = run.grasps, tostring(run.report)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
-  print(shown(title) .. (how == "finish" and "" or ": " .. how))
+  local is_interrupted = run.is_rescued or type(run.report) == "table" and run.report.stopped
+  print(shown(title) .. (is_interrupted and ": interrupted" or ""))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
-  local words = tostring(run.report)
   print(shown(words))
+  if job.note then print(shown(job.note)) end
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
   return #grasps
 end
 
---- Writes the files, prints the table and what was done.
----@param how "finish"|"interrupted"
+--- Prints the table and what was done, and draws the sheet and the page.
 ---@return string  the exit code
-function plan.finish(how)
-  local ok, result = pcall(finish, how)
+function plan.show()
+  local ok, result = pcall(show)
   if not ok then tell((sentence(result))) end
-  if how == "interrupted" then return "130" end
-  return ok and how == "finish" and result > 0 and "0" or "1"
+  return ok and result > 0 and "0" or "1"
 end
 
 return plan

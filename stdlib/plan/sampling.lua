@@ -3,6 +3,7 @@ local drives = require "clench.drives"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
+local recorded = require "clench.plan.recorded"
 local script_line = require "clench.script_line"
 local starts = require "clench.plan.starts"
 
@@ -24,12 +25,15 @@ return function(name, options, read_more)
   if no_force then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, no_force)) end
   own.approach = 2 * own.standoff
   local told = {planner = "plan." .. name}
+  local journal = recorded[options]
+  own.journal = journal
   local found = {}
   if no_force and own.verify.min_load > 0 and drives.is_inert(job.hand) then
     told.verify, told.candidates, told.rejected = own.verify, 0, {}
   else
     found = batch.try(job, told, job:prepare(starts.random, own), own)
+    if journal then journal:add_listed(found) end
   end
   job:finish()
-  return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
+  return new_run(job, batch.sort(found), told, {count = math.max(own.count, journal and journal.keep or 0), distance = own.distance})
 end

@@ -1,37 +1,10 @@
 // `clench plan`: what it prints and writes, and how it ends.
 #include <algorithm>
 
-#include "command.h"
+#include "plan_command.h"
 #include "support/cases.h"
 
-using clench::test::Folder;
-using clench::test::has;
-using clench::test::run;
-namespace fs = std::filesystem;
-
-static const std::string barrett = "plan models/hands/barrett/barrett.cfg models/objects/flask.iv ";
-
-static std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// the values of `epsilon` in a list of grasps, as clench reads them
-static std::string epsilons(const std::string& path) {
-  return run("-q -e 'for _, g in ipairs(clench.grasps(\"" + path + "\")) do print(g.epsilon) end'")
-      .out;
-}
-
-// a cube as an OBJ file [m]
-static std::string cube_of(double side) {
-  std::string text;
-  for (int i = 0; i < 8; ++i)
-    text += fmt::format("v {} {} {}\n", side * ((i & 1) ^ (i >> 1 & 1)), side * (i >> 1 & 1),
-                        side * (i >> 2));
-  return text +
-         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
-         "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
-}
+using namespace clench::test;
 
 TEST_CASE("plan lists the best grasps, writes them best first, and says what was done") {
   const Folder folder;
@@ -129,37 +102,24 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
   CHECK(epsilons(out).empty());
 }
 
-// what a script of the shell prints
-static std::string output_of(const std::string& script) {
-  const Folder folder;
-  FILE* pipe = popen(("bash " + folder.file("script.sh", script) + " 2>&1").c_str(), "r");
-  std::string text;
-  char buffer[4096];
-  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
-  pclose(pipe);
-  return text;
-}
-
-// starts a command, waits until a file has three lines, and sends a signal
-static std::string end_by(const std::string& signal, const std::string& command,
-                          const std::string& out, const std::string& before = "") {
-  return output_of(std::string(CLENCH_COMMAND) + " " + command +
-                   " & pid=$!\n"
-                   "while [ $(cat " +
-                   out + " 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.05; done\n" + before +
-                   "\nkill -" + signal + " $pid\nwait $pid 2>/dev/null\necho code $?\n");
-}
-
-TEST_CASE("Ctrl-C ends a search with the grasps so far and the code 130") {
-  const Folder folder;
-  const std::string out = folder / "a.jsonl";
-  const std::string text = end_by("INT", barrett + "--seconds 60 -o " + out, out);
-  CHECK(has(text, "barrett grasps flask: interrupted\n"));
-  CHECK(has(text, "interrupted: these are the grasps until then"));
-  CHECK(text.ends_with("code 130\n"));
-  const std::string list = epsilons(out);
-  CHECK(list.find("clench") == std::string::npos);
-  CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
+TEST_CASE("a signal ends a search with the grasps so far and its code") {
+  const std::pair<const char*, int> signals[] = {{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
+  for (const auto& [signal, code] : signals) {
+    const Folder folder;
+    const std::string out = folder / "a.jsonl", sheet = folder / "a.png";
+    const std::string text =
+        end_by(signal, barrett + "--no-verify --seconds 60 -o " + out + " --sheet " + sheet, out);
+    CAPTURE(text);
+    CHECK(has(text, "barrett grasps flask: interrupted\n"));
+    CHECK(has(text, "interrupted: these are the grasps until then"));
+    CHECK(has(text, "a.jsonl: --resume goes on with this search\n"));
+    CHECK(text.ends_with(fmt::format("code {}\n", code)));
+    const std::string list = epsilons(out);
+    CHECK(list.find("clench") == std::string::npos);
+    CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
+    // without OpenGL there is no sheet
+    CHECK((has(text, fs::exists(sheet) ? "a.png: " : "OpenGL")));
+  }
 }
 
 TEST_CASE(

@@ -172,6 +172,65 @@ TEST_CASE("what is no regular file is neither read nor replaced") {
       (base + "/loop: the file cannot be read: Too many levels of symbolic links").c_str(), Error);
 }
 
+TEST_CASE("a text is appended on a line of its own") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.txt", link = folder.path() / "b.txt";
+  append_file(path, "one");
+  append_file(path, "two\n");
+  CHECK(read_bytes(path) == "one\ntwo\n");
+  write_file(path, "cut");
+  fs::create_symlink("a.txt", link);
+  append_file(link, "three\nfour");
+  CHECK(read_bytes(path) == "cut\nthree\nfour\n");
+  CHECK(fs::is_symlink(link));
+  const std::string base = folder.path().generic_string();
+  CHECK_THROWS_WITH_AS(append_file(folder.path(), "x"),
+                       (base + ": expected a file to write, got a folder").c_str(), Error);
+  CHECK_THROWS_WITH_AS(append_file("/dev/full", "x"),
+                       "/dev/full: expected a file to write, got a special file", Error);
+}
+
+TEST_CASE("of a text that does not fit on the disk no part is appended") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("a.txt", "12\n");
+  const std::string text(20000, 'x');
+  for (const rlim_t space : {3, 4, 4096, 20003}) {
+    CHECK(fault_with_space(space, [&] { append_file(path, text); }) ==
+          path.string() + ": the file cannot be written: File too large");
+    CHECK(read_bytes(path) == "12\n");
+  }
+  CHECK(fault_with_space(20004, [&] { append_file(path, text); }).empty());
+  CHECK(read_bytes(path) == "12\n" + text + "\n");
+}
+
+TEST_CASE("a check whether a file can be written changes nothing") {
+  const TemporaryFolder folder;
+  const fs::path old = folder.write("old", "old"), empty = folder.write("empty", "");
+  const std::string base = folder.path().generic_string();
+  for (const fs::path& path : {old, empty, folder.path() / "new"}) check_writable(path);
+  CHECK(read_bytes(old) == "old");
+  CHECK(entries(folder.path()) == 2);
+  const auto pipe = folder.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const auto fault = [](const fs::path& path) { return fault_of([&] { check_writable(path); }); };
+  CHECK(fault(pipe) == base + "/pipe: expected a file to write, got a special file");
+  CHECK(fault("/dev/null") == "/dev/null: expected a file to write, got a special file");
+  CHECK(fault(folder.path()) == base + ": expected a file to write, got a folder");
+  CHECK(fault(folder.path() / "no/a") ==
+        base + "/no/a: the file cannot be written: no such folder: " + base + "/no");
+  CHECK(fault("") == "expected the name of a file, got nothing");
+  fs::permissions(folder.path(), fs::perms(0555));
+  std::string closed, open;
+  {
+    const test::PlainUser user;
+    closed = fault(folder.path() / "new");
+    open = fault(old);
+  }
+  fs::permissions(folder.path(), fs::perms(0755));
+  CHECK(closed == base + "/new: the file cannot be written: Permission denied");
+  CHECK(open == base + "/old: the file cannot be written: Permission denied");
+}
+
 TEST_CASE("a file keeps its permissions, and a new one has those of the user's mask") {
   const TemporaryFolder folder;
   const auto secret = folder.write("secret", "old");

@@ -44,7 +44,7 @@ local function parameters(step, text)
   local list = {}
   for i, param in ipairs(doc.parse(text).params) do
     local name, optional = param.name:gsub("%?$", "")
-    if name == "path" and (step.name:find "save" or step.name:find "write") then name = "to" end
+    if name == "path" and (step.name:find "save" or step.name:find "write" or step.name:find "append") then name = "to" end
     list[i] = {name = name, optional = optional > 0, type = parse_type(known.types[step.entry .. " " .. name] or param.type)}
     add_keys(list[i].type, step.keys)
   end

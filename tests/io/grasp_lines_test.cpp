@@ -110,6 +110,42 @@ TEST_CASE("grasps that are written and read again are the same to the bit, and s
   CHECK(read_grasps(first).empty());
 }
 
+TEST_CASE("a list that is cut anywhere in its last line keeps the others, with a warning") {
+  const TemporaryFolder folder;
+  Random random(3);
+  const auto path = folder.path() / "a.jsonl";
+  write_grasps({random_grasp(random), random_grasp(random), random_grasp(random)}, path);
+  const std::string text = read_bytes(path);
+  const size_t last = text.rfind('\n', text.size() - 2) + 1;
+  std::string warned;
+  const ReadOptions options{.warn = [&](const std::string& sentence) { warned += sentence; }};
+  for (size_t size = last; size <= text.size(); ++size) {
+    CAPTURE(size);
+    write_file(path, text.substr(0, size));
+    warned.clear();
+    const bool complete = size + 1 >= text.size();  // only the end of the line may be missing
+    REQUIRE(read_grasps(path, options).size() == (complete ? 3 : 2));
+    REQUIRE(warned.starts_with(
+        complete || size == last ? ""
+                                 : "a.jsonl:4: the last line is cut short and is skipped, got '{"));
+    REQUIRE(warned.empty() == (complete || size == last));
+  }
+  write_file(path, text.substr(0, last + 20));
+  CHECK_THROWS_WITH_AS(read_grasps(path, strict({})), doctest::Contains("is cut short"), Error);
+  // in the middle it is an error
+  write_file(path, text.substr(0, last + 20) + "\n" + text.substr(last));
+  CHECK_THROWS_WITH_AS(read_grasps(path), doctest::Contains("a.jsonl:4: expected a line of JSON"),
+                       Error);
+}
+
+TEST_CASE("notes of a list stand in its first line") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.jsonl";
+  write_grasps({}, path, R"({"search":{"seed":"1"}})");
+  CHECK(read_bytes(path).find(R"("notes":{"search":{"seed":"1"}}})") != std::string::npos);
+  CHECK(read_grasps(path).empty());
+}
+
 TEST_CASE("a measure that is infinite is left out") {
   const TemporaryFolder folder;
   GraspSpec grasp;
@@ -129,7 +165,10 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
       {R"({"format":"clench grasps","version":2})", "g.jsonl:1: expected version 1, got 2"},
       {R"({"format":"clench grasps"})", "g.jsonl:1: expected version 1, got none"},
       {list_head + "\nx", "g.jsonl:2: expected a line of JSON, got 'x'"},
-      {list_head + "\n{\"hand\":\"h", "g.jsonl:2: expected a line of JSON, got '{\"hand\":\"h'"},
+      {list_head + "\n{\"hand\":\"h\n", "g.jsonl:2: expected a line of JSON, got '{\"hand\":\"h'"},
+      {list_head + "\n{\"hand\": oops}",
+       "g.jsonl:2: expected a line of JSON, got '{\"hand\": oops}'"},
+      {"{\"format\":\"cle", "g.jsonl:1: expected a line of JSON, got '{\"format\":\"cle'"},
       {list_head + "\n[]", "g.jsonl:2: expected an object, got []"},
       {list_head + "\n{}", "g.jsonl:2: expected a key 'hand', got none"},
       {list_head + "\n\n" + with(R"("h")", "3"), "g.jsonl:3: hand: expected a string, got 3"},

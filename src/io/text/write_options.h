@@ -17,6 +17,8 @@ struct WriteOptions {
   /// sees the whole file under another name in its folder, before it takes the place of an older
   /// one; what it throws keeps that one
   std::function<void(const std::filesystem::path&)> check = {};
+  /// of a list of grasps as such: a JSON object; empty: none
+  std::string notes = {};
 };
 
 }  // namespace clench

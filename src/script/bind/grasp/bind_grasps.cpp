@@ -1,10 +1,12 @@
 #include "clench/script/bind/bind.h"
 
+#include "clench/base/file.h"
 #include "clench/io/grasp_files.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/json.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -42,10 +44,29 @@ static int grasps_save(lua_State* L) {
   for (const GraspHandle& handle : list.grasps) specs.push_back(handle.grasp);
   Table options(L, 3);
   const std::string format = options.string("format", "");
+  WriteOptions writing{.warn = [L](const std::string& lost) { log_warning(L, lost); }};
+  if (options.has("notes")) {
+    options.push("notes");
+    writing.notes = lua_istable(L, -1) ? write_json(L, lua_gettop(L)) : "";
+    if (!writing.notes.starts_with('{'))
+      fail("{}: notes: expected a table of names and plain data, got {}", options.subject(),
+           described(L, -1));
+    lua_pop(L, 1);
+  }
   options.done();
-  write_grasp_file(specs, path, format,
-                   {.warn = [L](const std::string& lost) { log_warning(L, lost); }});
+  write_grasp_file(specs, path, format, writing);
   return 0;
+}
+
+static int grasps_check_save(lua_State* L) {
+  self<GraspList>(L);
+  const std::string path = check_string(L, 2, "path");
+  Table options(L, 3);
+  const std::string format = options.string("format", "");
+  options.done();
+  const GraspFormat known = grasp_format_to_write(path, format);
+  check_writable(path);
+  return push(L, grasp_format_name(known));
 }
 
 static int grasps_item(lua_State* L) {
@@ -89,12 +110,22 @@ Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head w
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
 `format`; a warning names what a format does not hold. The same list gives the same bytes.
 @param path string
-@param options? {format?: string}  as clench.grasps takes it
+@param options? {format?: string, notes?: table}  format: as clench.grasps takes it; notes: plain data about the list as such, for the head of JSON lines
 > list = clench.grasps()
 > list:save("grasps.json")  --> error: .json may be several formats
+> list:save("grasps.jsonl", {notes = {}})  --> error: notes: expected a table of names and plain data
 > list:save "grasps.txt"  --> error: expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format
 > list:save("grasps.txt", {format = "cvs"})  --> error: unknown format 'cvs', expected one of jsonl, csv
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
+    {"check_save", guarded<grasps_check_save>, R"(
+Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and
+folder may be written. Changes no file.
+@param path string
+@param options? {format?: string}  as of `save`
+@return string format
+> clench.grasps():check_save "build/grasps.csv"  --> csv
+> clench.grasps():check_save "grasps.json"  --> error: .json may be several formats
+> clench.grasps():check_save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
 };
 
 static const Entry grasps_operators[] = {

@@ -37,6 +37,18 @@ static int save_text(lua_State* L) {
   return 0;
 }
 
+static int append_text(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
+  append_file(path, string_at(L, 2));
+  return 0;
+}
+
+static int check_writable_file(lua_State* L) {
+  check_writable(check_string(L, 1, "path"));
+  return 0;
+}
+
 static std::string bytes_of(const fs::path& path, const ReadOptions&) { return read_bytes(path); }
 
 static int read_whole(lua_State* L) { return push(L, std::string_view(read_with(L, bytes_of))); }
@@ -249,6 +261,25 @@ Writes a text as a file, whole or not at all: what stood there stays when it can
 @param text string
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
+    {"append_text", guarded<append_text>, R"(
+Appends a text on a line of its own, whose end is added, with one call of the system: a process that is killed leaves all of it
+or nothing, and of a full disk no part remains. Creates the file if there is none.
+@param path string
+@param text string
+> path = os.tmpname()
+> clench.files.append_text(path, "one")
+> clench.files.append_text(path, "two")
+> text = clench.files.read_text(path)
+> os.remove(path)
+> text == "one\ntwo\n"  --> true
+> clench.files.append_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
+    {"check_writable", guarded<check_writable_file>, R"(
+Checks that a file could be written there, before long work for instance: its folder exists, both may be written, and it is no
+folder, pipe or device. Changes no file.
+@param path string
+> clench.files.check_writable "build/note.txt"
+> clench.files.check_writable "build"  --> error: build: expected a file to write, got a folder
+> clench.files.check_writable "/dev/null"  --> error: /dev/null: expected a file to write, got a special file)"},
     {"read_text", guarded<read_whole>, R"(
 The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
 @param path string

@@ -1,0 +1,102 @@
+--- What identifies a search of `clench plan`: the scene and the options on which its grasps depend.
+local in_utf8 = require "clench.in_utf8"
+local identity = {}
+
+-- grasps do not depend on these
+local about_the_run = {"count", "format", "o", "overwrite", "report", "resume", "seconds", "sheet", "threads"}
+-- the fingerprint of the scene covers these, which are compared for a message only
+local about_the_scene = {"hand", "object", "obstacle", "pose", "obstacle-pose", "mass"}
+local defaults = {contacts = "any", ["force-ratio"] = "10", seed = "1"}
+
+local function set_of(names)
+  local set = {}
+  for _, name in ipairs(names) do set[name] = true end
+  return set
+end
+local is_about_the_run, is_about_the_scene = set_of(about_the_run), set_of(about_the_scene)
+
+local function text_of(value)
+  if type(value) ~= "table" then return tostring(value) end
+  local keys = {}
+  for key in pairs(value) do keys[#keys + 1] = key end
+  table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
+  for i, key in ipairs(keys) do keys[i] = tostring(key) .. "=" .. text_of(value[key]) end
+  return "{" .. table.concat(keys, ",") .. "}"
+end
+
+-- FNV-1a of 64 bits
+local function fingerprint(text)
+  local h = 0xcbf29ce484222325
+  for i = 1, #text do h = (h ~ text:byte(i)) * 0x100000001b3 end
+  return ("%016x"):format(h)
+end
+
+-- "1e1" and "10" are one number
+local function plain(value)
+  local number = tonumber(value)
+  return number and ("%.17g"):format(number) or value
+end
+
+--- Of the search for grasps in this world.
+---@param given table<string, string|string[]>  options by name
+---@param world world
+---@param hand robot
+---@return {scene: string, named: table, options: table}
+function identity.of(given, world, hand)
+  local named, options = {}, {}
+  for name, value in pairs(given) do
+    if is_about_the_scene[name] then
+      local text = type(value) == "table" and table.concat(value, " ") or value
+      if text ~= "" then named[name] = text end
+    elseif not is_about_the_run[name] then
+      options[name] = plain(value)
+    end
+  end
+  for name, value in pairs(defaults) do options[name] = options[name] or value end
+  return in_utf8 {scene = world:hash() .. fingerprint(text_of(hand.dof_info)), named = named, options = options}
+end
+
+local function sorted_keys(a, b)
+  local set, keys = {}, {}
+  for _, from in ipairs {a, b} do
+    for key in pairs(from) do
+      if not set[key] then keys[#keys + 1] = key end
+      set[key] = true
+    end
+  end
+  table.sort(keys)
+  return keys
+end
+
+local function quoted(value)
+  if value == nil then return "not given" end
+  if value == "yes" then return "given" end
+  return "'" .. tostring(value) .. "'"
+end
+
+local words = {hand = "HAND", object = "OBJECT"}
+
+local function first_difference(a, b, names)
+  for _, name in ipairs(names) do
+    local one, other = a[name], b[name]
+    if one ~= other then
+      return ("%s is %s there and %s here"):format(words[name] or "--" .. name, quoted(one), quoted(other))
+    end
+  end
+end
+
+local function table_at(value, key) return type(value[key]) == "table" and value[key] or {} end
+
+--- How two searches differ, in words; nil: they are the same.
+---@param there table  of the list on the disk
+---@param here table
+---@return string?
+function identity.difference(there, here)
+  local options = table_at(there, "options")
+  local by_option = first_difference(options, here.options, sorted_keys(options, here.options))
+  if there.scene == here.scene then return by_option end
+  return first_difference(table_at(there, "named"), here.named, about_the_scene) or by_option
+    or "the files of the hand, the object or the obstacles have changed"
+end
+
+return identity

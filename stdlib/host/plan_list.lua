@@ -1,0 +1,243 @@
+--- The list that `clench plan -o` writes. Grasps are appended as they are found; at the end the list is replaced by the best, best first.
+--- Beside a list of JSON lines stands the journal of its search, which --resume reads, until the search is complete.
+local error_text = require "clench.host.error_text"
+local identity = require "clench.host.plan_identity"
+local journal = require "clench.plan.journal"
+
+local List = {}
+List.__index = List
+
+local function fail(text, ...) error({usage = text:format(...)}, 0) end
+local function refuse(text, ...) error(text:format(...), 0) end
+
+local function folder_of(path)
+  local folder = path:match "^(.*)/"
+  return folder == "" and "/" or folder or "."
+end
+
+--- Looks at the options and at the disk, and changes nothing. nil: there is no -o.
+---@param given {o?: string, format?: string, overwrite?: string, resume?: string}
+function List.check(given)
+  if given.format and not given.o then fail "--format says how -o FILE is written, and there is no -o" end
+  for _, name in ipairs {"overwrite", "resume"} do
+    if given[name] and not given.o then fail("--%s is about the list of -o FILE, and there is no -o", name) end
+  end
+  if given.overwrite and given.resume then fail "expected --overwrite or --resume, got both" end
+  if not given.o then return nil end
+  local self = setmetatable({path = given.o, given_format = given.format, is_overwriting = given.overwrite ~= nil,
+                             is_resuming = given.resume ~= nil, kept = clench.grasps(), known = {}, pending = ""}, List)
+  local ok, format = pcall(function() return self.kept:check_save(self.path, {format = given.format}) end)
+  if not ok and format.kind == "input" then fail("-o: %s", format.sentence) end
+  if not ok then error(format, 0) end
+  self.format, self.journal_path = format, self.path .. ".search"
+  if self.is_resuming and format ~= "jsonl" then
+    fail("--resume: expected a list of JSON lines, -o FILE.jsonl, got '%s'", self.path)
+  end
+  if format == "jsonl" then clench.files.check_writable(self.journal_path) end
+  return self
+end
+
+local function first_line(path)
+  local file = io.open(path, "rb")
+  if not file then return nil end
+  local line = file:read "l"
+  file:close()
+  return line
+end
+
+-- the first line as a table, and is there another? nil: there is no file, or an empty one
+local function look_at(path)
+  local file, why, code = io.open(path, "rb")
+  if not file then
+    if code == 2 then return nil end
+    refuse("-o: %s", why)
+  end
+  local line = file:read "l"
+  local has_more = file:read(0) ~= nil
+  file:close()
+  if not line then return nil end
+  local ok, head = pcall(clench.json.decode, line)
+  return ok and type(head) == "table" and head.format == "clench grasps" and head or {}, has_more
+end
+
+local function search_in(head) return type(head.notes) == "table" and type(head.notes.search) == "table" and head.notes.search or nil end
+
+-- what is there may only be replaced when that is asked for
+function List:refuse_to_replace(head, has_grasps)
+  if not head.format then refuse("-o: %s exists already; --overwrite replaces it", self.path) end
+  if not has_grasps then return end
+  local there = search_in(head)
+  if not there then refuse("-o: %s exists already and does not state of which search it is; --overwrite replaces it", self.path) end
+  local difference = identity.difference(there, self.search)
+  if difference then refuse("-o: %s is the list of another search: %s; --overwrite replaces it", self.path, difference) end
+  refuse("-o: %s is the list of this search: --resume goes on with it, --overwrite begins it again", self.path)
+end
+
+function List:check_same(path, there)
+  if not there then refuse("--resume: %s does not state of which search it is; --overwrite replaces it", path) end
+  local difference = identity.difference(there, self.search)
+  if difference then refuse("--resume: %s is of another search: %s", path, difference) end
+end
+
+-- the journal, if there is a readable one
+function List:read_journal()
+  local head = journal.head_of(self.journal_path)
+  if not head then return end
+  self:check_same(self.journal_path, head.search)
+  local known, text = journal.read(self.journal_path)
+  if not known then return end
+  self.known, self.pending, self.has_journal = known, text, true
+  self.earlier_count = math.max(self.earlier_count or 0, math.tointeger(head.count) or 0)
+end
+
+function List:resume(head)
+  if head then
+    self:check_same(self.path, search_in(head))
+    self.kept = clench.grasps(self.path, {format = "jsonl", confine = folder_of(self.path)})
+    local there = search_in(head)
+    self.earlier_count = math.tointeger(there.count)
+    if there.complete ~= nil then self.earlier_count = math.max(self.earlier_count or 0, #self.kept) end
+    if not self.count then self.count = math.tointeger(there.count) end
+    self.is_complete = there.complete == true and (self.count or 0) <= (math.tointeger(there.count) or -1)
+    if self.is_complete then return end
+  end
+  self:read_journal()
+  if not self.count then self.count = self.earlier_count end
+  if #self.kept > 0 and not self.has_journal then
+    io.stderr:write(("clench plan: without %s the search begins again; the grasps of %s are kept\n"):format(self.journal_path, self.path))
+  end
+end
+
+--- Compares the search with that of a list on the disk. Still changes nothing.
+---@param search table  of plan_identity
+---@param count? integer  grasps that are searched for; nil: as many as the list that is continued asks for
+function List:compare(search, count)
+  self.search, self.count = search, count
+  local head, has_more = look_at(self.path)
+  self.first_line = first_line(self.path)
+  self.is_replacing = self.is_overwriting and head ~= nil
+  if self.is_overwriting then return end
+  if self.format ~= "jsonl" then
+    if head then refuse("-o: %s exists already; --overwrite replaces it", self.path) end
+  elseif self.is_resuming then
+    if head and not head.format then refuse("--resume: %s is no list of grasps", self.path) end
+    self:resume(head)
+  elseif head then
+    self:refuse_to_replace(head, has_more)
+  end
+end
+
+function List:notes(more)
+  local search = {}
+  for _, from in ipairs {self.search, {count = self.count}, more or {}} do
+    for key, value in pairs(from) do search[key] = value end
+  end
+  return {search = search}
+end
+
+-- Another program may have put its own file there, which must not be changed. A file that is gone is written at the end.
+function List:check_ours()
+  local line = first_line(self.path)
+  if line and line ~= self.first_line then refuse("%s was replaced by another program: it is not written", self.path) end
+  return line ~= nil
+end
+
+-- From now on what is worth keeping is on the disk, in files that take the place of older ones.
+function List:start()
+  self:check_ours()
+  self.started = true
+  self.kept:save(self.path, {format = "jsonl", notes = self:notes()})
+  self.first_line = first_line(self.path)
+  clench.files.save_text(self.journal_path, journal.head(self.search, self.keep) .. self.pending)
+  self.pending = nil
+end
+
+-- after the first fault nothing more is written, and the search ends
+function List:try(write)
+  if self.fault then return end
+  local ok, problem = pcall(write)
+  if ok then return end
+  if type(problem) == "table" and problem.kind == "stopped" then error(problem, 0) end
+  self.fault = error_text(problem)
+end
+
+--- Stores a grasp at once: a process that is killed keeps it.
+function List:add(grasp)
+  if self.format ~= "jsonl" then return end
+  self:try(function()
+    if not self.started then
+      self.kept:add(grasp)
+      self:start()
+    elseif self:check_ours() then
+      clench.files.append_text(self.path, clench.json.encode(grasp))
+    end
+  end)
+end
+
+-- While the search goes on, grasps of the journal and of the earlier list are listed.
+local function add_known(list, record, earlier)
+  local numbers = {}
+  local function add(grasp)
+    local number = grasp.info.number
+    if number and numbers[number] then return end
+    if number then numbers[number] = true end
+    list:add(grasp)
+  end
+  for _, piece in ipairs(record:rest()) do
+    for _, new in ipairs(piece.known.grasps) do add(new.grasp) end
+  end
+  for _, grasp in ipairs(earlier) do add(grasp) end
+end
+
+function List:write_piece(lines)
+  if self.started then
+    self:check_ours()
+    clench.files.append_text(self.journal_path, lines)
+  else
+    self.pending = self.pending .. lines
+    if not self.is_replacing then self:start() end
+  end
+end
+
+--- For clench.plan.sample; nil: no search can be continued.
+function List:journal()
+  if self.format ~= "jsonl" then return nil end
+  local earlier = {}
+  for i, grasp in ipairs(self.kept) do earlier[i] = grasp end
+  -- a search for fewer grasps than before drops none of the list
+  local keep = (self.earlier_count or 0) > self.count and #earlier or 0
+  self.keep = math.max(keep, self.count)
+  local record = journal.new {
+    known = self.known, listed = earlier, keep = keep,
+    is_ended = function() return self.fault ~= nil end,
+    write = function(lines) self:try(function() self:write_piece(lines) end) end,
+  }
+  self.kept = clench.grasps()
+  add_known(self.kept, record, earlier)
+  return record
+end
+
+--- Replaces the list by these, best first.
+---@param grasps grasps
+---@param is_search_complete boolean
+---@return string? note  what the user ought to know
+function List:save(grasps, is_search_complete)
+  if self.is_complete then return nil end
+  if #grasps == 0 and self.is_replacing then
+    return ("%s is as it was, as no grasps were found"):format(self.path)
+  end
+  if self.format ~= "jsonl" then
+    grasps:save(self.path, {format = self.given_format})
+    return nil
+  end
+  if not self.started then self:start() end
+  self:check_ours()
+  grasps:save(self.path, {format = "jsonl", notes = self:notes {complete = is_search_complete}})
+  if is_search_complete then
+    os.remove(self.journal_path)
+    return nil
+  end
+  return ("%s: --resume goes on with this search"):format(self.path)
+end
+
+return List
