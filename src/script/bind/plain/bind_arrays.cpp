@@ -1,6 +1,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/npz.h"
+#include "clench/io/text/memory_budget.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -58,7 +59,9 @@ static int save_arrays(lua_State* L) {
 
 static int arrays(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
-  const auto found = read_npz(path, read_bytes(path));
+  const std::string bytes = read_bytes(path);
+  const auto found = read_npz(path, bytes);
+  MemoryBudget budget(path, bytes.size());
   push_list(L, 0, static_cast<int>(found.size()));
   for (const auto& [name, array] : found) {
     push(L, name);
@@ -70,6 +73,8 @@ static int arrays(lua_State* L) {
     } else if (array.shape.size() < 2) {
       push(L, array.numbers);
     } else {
+      // a table is 56 bytes, and its numbers are 16 each, in blocks of their own
+      budget.take(count * (120 + 16 * width));
       push_list(L, static_cast<int>(count));
       for (size_t i = 0; i < count; ++i) {
         push(L, std::span(array.numbers).subspan(i * width, width));
