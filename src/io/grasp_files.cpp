@@ -77,9 +77,9 @@ static GraspFormat format_of_tree(const ValueTree& tree, const std::string& file
 }
 
 /// What a file of the format holds.   returns  the format
-static GraspFormat read_contents(GraspFormat format, bool is_known, const std::string& file,
-                                 std::string bytes, const GraspSink& sink,
-                                 const ReadOptions& options) {
+static GraspFormat read_grasp_contents(GraspFormat format, bool is_known, const std::string& file,
+                                       std::string bytes, const GraspSink& sink,
+                                       const ReadOptions& options) {
   const auto text = [&] {
     if (bytes.size() > max_text)
       fail("{}: expected a text file of at most {} MB, got {} bytes", file, max_text >> 20,
@@ -118,7 +118,8 @@ GraspFormat read_grasp_file(const fs::path& path, const GraspSink& sink, const s
     const fs::path found = find_file(path.string(), "", options);
     const GraspFormat of = format_to_read(found, format);
     const bool is_known = !format.empty() || of != GraspFormat::graspgen;
-    return read_contents(of, is_known, found.filename().string(), read_bytes(found), sink, options);
+    return read_grasp_contents(of, is_known, found.filename().string(), read_bytes(found), sink,
+                               options);
   });
 }
 
@@ -186,7 +187,7 @@ static void check_reads_back(const std::vector<GraspSpec>& grasps, GraspFormat f
            what);
   };
   try {
-    read_contents(format, true, file, bytes, {.add = compare}, {});
+    read_grasp_contents(format, true, file, bytes, {.add = compare}, {});
   } catch (const Error& error) {
     const std::string said = error.what();
     if (said.ends_with("so nothing is saved")) throw;

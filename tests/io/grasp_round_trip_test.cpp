@@ -17,67 +17,67 @@ using namespace clench::test;
 
 namespace {
 
-struct Format {
+struct SavedFormat {
   const char *name, *file;
   bool names, dofs, notes;
 };
 
-constexpr Format formats[] = {
+constexpr SavedFormat saved_formats[] = {
     {"jsonl", "a.jsonl", true, true, true},      {"csv", "a.csv", true, true, true},
     {"npz", "a.npz", true, true, false},         {"isaac_grasp", "a.yaml", true, true, false},
     {"graspgen", "a.json", false, false, false}, {"multigripper", "b.json", true, true, false},
     {"graspit", "a.txt", false, false, false},
 };
 
-const std::string odd_texts[] = {"",
-                                 " ",
-                                 "a",
-                                 "7",
-                                 "true",
-                                 "nan",
-                                 "a,b",
-                                 "a\"b",
-                                 "a'b",
-                                 "a\nb",
-                                 "a\r\nb",
-                                 "a\rb",
-                                 "a\tb",
-                                 "\xC3\xBC",
-                                 "\xFF\xFE",
-                                 "a/b",
-                                 "a\\b",
-                                 "#a",
-                                 "- a",
-                                 "a: b",
-                                 "[a]",
-                                 "{a}",
-                                 "a [m]",
-                                 "\u2028",
-                                 "\x7F",
-                                 "\xC2\x85",
-                                 "~",
-                                 "null",
-                                 "x\x01y",
-                                 "\U0001F600",
-                                 "planner",
-                                 "label",
-                                 "*a",
-                                 "&a",
-                                 "!a",
-                                 "%a",
-                                 "@a",
-                                 "a ",
-                                 " a",
-                                 "0x1F",
-                                 "1e5",
-                                 "+1",
-                                 "-0",
-                                 "\xEF\xBB\xBF",
-                                 "\\u0041",
-                                 "a b c d e",
-                                 std::string(300, 'l'),
-                                 std::string(1500, 'l'),
-                                 std::string("a\0b", 3)};
+const std::string odd_grasp_texts[] = {"",
+                                       " ",
+                                       "a",
+                                       "7",
+                                       "true",
+                                       "nan",
+                                       "a,b",
+                                       "a\"b",
+                                       "a'b",
+                                       "a\nb",
+                                       "a\r\nb",
+                                       "a\rb",
+                                       "a\tb",
+                                       "\xC3\xBC",
+                                       "\xFF\xFE",
+                                       "a/b",
+                                       "a\\b",
+                                       "#a",
+                                       "- a",
+                                       "a: b",
+                                       "[a]",
+                                       "{a}",
+                                       "a [m]",
+                                       "\u2028",
+                                       "\x7F",
+                                       "\xC2\x85",
+                                       "~",
+                                       "null",
+                                       "x\x01y",
+                                       "\U0001F600",
+                                       "planner",
+                                       "label",
+                                       "*a",
+                                       "&a",
+                                       "!a",
+                                       "%a",
+                                       "@a",
+                                       "a ",
+                                       " a",
+                                       "0x1F",
+                                       "1e5",
+                                       "+1",
+                                       "-0",
+                                       "\xEF\xBB\xBF",
+                                       "\\u0041",
+                                       "a b c d e",
+                                       std::string(300, 'l'),
+                                       std::string(1500, 'l'),
+                                       std::string("a\0b", 3)};
 
 const double odd_numbers[] = {0.0,      -0.0,
                               1,        0.1,
@@ -88,7 +88,7 @@ const double odd_numbers[] = {0.0,      -0.0,
                               NAN};
 
 template <class T, size_t n>
-const T& one_of(Random& random, const T (&list)[n]) {
+const T& pick_one(Random& random, const T (&list)[n]) {
   return list[(random.bits() % n)];
 }
 
@@ -112,8 +112,8 @@ std::vector<GraspSpec> odd_list(Random& random) {
   for (GraspSpec& g : list) g = same ? first : plain_grasp(random);
   for (int k = 0; k < 2 && !list.empty(); ++k) {
     const size_t what = (random.bits() % 22);
-    const std::string text = one_of(random, odd_texts);
-    const double x = one_of(random, odd_numbers);
+    const std::string text = pick_one(random, odd_grasp_texts);
+    const double x = pick_one(random, odd_numbers);
     const bool all = (random.bits() % 2) == 0;
     const auto dof = (random.bits() % 2);
     for (size_t i = 0; i < list.size(); ++i) {
@@ -199,12 +199,12 @@ std::map<std::string, double> by_name(const GraspSpec& g) {
   return out;
 }
 
-std::map<std::string, double> finite(std::map<std::string, double> named) {
+std::map<std::string, double> finite_only(std::map<std::string, double> named) {
   std::erase_if(named, [](const auto& one) { return !std::isfinite(one.second); });
   return named;
 }
 
-void check_back(const GraspSpec& a, const GraspSpec& b, const Format& format) {
+void check_back(const GraspSpec& a, const GraspSpec& b, const SavedFormat& format) {
   REQUIRE(a.X_OH.has_value() == b.X_OH.has_value());
   if (a.X_OH && !(*a.X_OH == *b.X_OH)) {
     const Pose off = a.X_OH->inverse() * *b.X_OH;
@@ -221,8 +221,8 @@ void check_back(const GraspSpec& a, const GraspSpec& b, const Format& format) {
   }
   if (!format.notes) return;
   CHECK(a.labels == b.labels);
-  CHECK(finite(a.measures) == finite(b.measures));
-  CHECK(finite(a.info) == finite(b.info));
+  CHECK(finite_only(a.measures) == finite_only(b.measures));
+  CHECK(finite_only(a.info) == finite_only(b.info));
   CHECK(a.hand_file == b.hand_file);
 }
 
@@ -234,7 +234,7 @@ TEST_CASE("what any format saves reads back, or it is refused and nothing is wri
   std::map<std::string, int> saved, refused;
   for (int turn = 0; turn < 700; ++turn) {
     const auto list = odd_list(random);
-    const Format& format = formats[turn % std::size(formats)];
+    const SavedFormat& format = saved_formats[turn % std::size(saved_formats)];
     const auto path = folder.path() / format.file;
     std::filesystem::remove(path);
     try {
@@ -251,7 +251,7 @@ TEST_CASE("what any format saves reads back, or it is refused and nothing is wri
     REQUIRE(back.size() == list.size());
     for (size_t i = 0; i < list.size(); ++i) check_back(list[i], back[i], format);
   }
-  for (const Format& format : formats) {
+  for (const SavedFormat& format : saved_formats) {
     CHECK(saved[format.name] > 20);
     CHECK(refused[format.name] > 5);
   }
@@ -263,7 +263,7 @@ TEST_CASE("a list without grasps, and one without DOFs, are saved in every forma
   GraspSpec bare = plain_grasp(random);
   for (auto* list : {&bare.dof_names, &bare.dof_units}) list->clear();
   bare.dofs.clear();
-  for (const Format& format : formats) {
+  for (const SavedFormat& format : saved_formats) {
     CAPTURE(format.name);
     const auto path = folder.path() / format.file;
     write_grasp_file({}, path, format.name);

@@ -40,20 +40,20 @@ size_t peak_of(const std::function<void()>& call) {
   return peak > before ? (peak - before) * 1024 : 0;
 }
 
-std::string repeated(const std::string& text, size_t times) {
+std::string times_over(const std::string& text, size_t times) {
   std::string out;
   for (size_t i = 0; i < times; ++i) out += text;
   return out;
 }
 
 template <class Item>
-std::string joined(size_t count, const char* separator, Item item) {
+std::string joined_items(size_t count, const char* separator, Item item) {
   std::string out;
   for (size_t i = 0; i < count; ++i) out += (i ? separator : "") + item(i);
   return out;
 }
 
-const std::string head = "{\"format\":\"clench grasps\",\"version\":1}\n";
+const std::string list_head_line = "{\"format\":\"clench grasps\",\"version\":1}\n";
 const std::string csv_pose = "x [m],y [m],z [m],qw,qx,qy,qz";
 
 /// An archive whose directory names one array many times.
@@ -94,61 +94,64 @@ std::vector<Hostile> hostile_files() {
   const std::string isaac = "format: isaac_grasp\nformat_version: 1.0\ngrasps:\n";
   return {
       {"lines: a list of empty objects", "a.jsonl",
-       head + "{\"hand\":\"a\",\"object\":[" + repeated("{},", 200000) + "1]}"},
+       list_head_line + "{\"hand\":\"a\",\"object\":[" + times_over("{},", 200000) + "1]}"},
       {"lines: an object of many keys", "a.jsonl",
-       head + "{\"labels\":{" + joined(50000, ",", key) + "}}"},
-      {"lines: many values", "a.jsonl", head + "{\"dofs\":[" + repeated("0,", 400000) + "0]}"},
-      {"lines: nested lists", "a.jsonl", head + repeated("[", 300000)},
-      {"lines: many empty lines", "a.jsonl", head + repeated("\n", 600000) + "x"},
-      {"lines: many lines of nothing", "a.jsonl", head + repeated("{}\n", 200000)},
-      {"lines: a long string", "a.jsonl", head + "\"" + std::string(600000, 'a') + "\""},
+       list_head_line + "{\"labels\":{" + joined_items(50000, ",", key) + "}}"},
+      {"lines: many values", "a.jsonl",
+       list_head_line + "{\"dofs\":[" + times_over("0,", 400000) + "0]}"},
+      {"lines: nested lists", "a.jsonl", list_head_line + times_over("[", 300000)},
+      {"lines: many empty lines", "a.jsonl", list_head_line + times_over("\n", 600000) + "x"},
+      {"lines: many lines of nothing", "a.jsonl", list_head_line + times_over("{}\n", 200000)},
+      {"lines: a long string", "a.jsonl", list_head_line + "\"" + std::string(600000, 'a') + "\""},
       {"csv: many columns", "a.csv",
-       csv_pose + "," + joined(100000, ",", [](size_t i) { return fmt::format("c{}", i); }) + "\n"},
+       csv_pose + "," + joined_items(100000, ",", [](size_t i) { return fmt::format("c{}", i); }) +
+           "\n"},
       {"csv: many columns of DOFs", "a.csv",
-       csv_pose + "," + joined(50000, ",", [](size_t i) { return fmt::format("dof {} [m]", i); }) +
-           "\n" + repeated("0,", 50006) + "0\n"},
-      {"csv: one column, many times", "a.csv", csv_pose + repeated(",a", 300000) + "\n"},
-      {"csv: many empty cells", "a.csv", csv_pose + "\n" + repeated(",", 600000)},
+       csv_pose + "," +
+           joined_items(50000, ",", [](size_t i) { return fmt::format("dof {} [m]", i); }) + "\n" +
+           times_over("0,", 50006) + "0\n"},
+      {"csv: one column, many times", "a.csv", csv_pose + times_over(",a", 300000) + "\n"},
+      {"csv: many empty cells", "a.csv", csv_pose + "\n" + times_over(",", 600000)},
       {"csv: long names in many rows", "a.csv",
        csv_pose + "," +
-           joined(100, ",", [&](size_t i) { return fmt::format("dof {}{}", long_name, i); }) +
-           "\n" + repeated("0,0,0,1,0,0,0" + repeated(",0", 100) + "\n", 1500)},
-      {"csv: many rows without a grasp", "a.csv", csv_pose + "\n" + repeated(",,,,,,\n", 100000)},
-      {"csv: a quote that is open", "a.csv", csv_pose + "\n\"" + repeated("\n", 600000)},
+           joined_items(100, ",", [&](size_t i) { return fmt::format("dof {}{}", long_name, i); }) +
+           "\n" + times_over("0,0,0,1,0,0,0" + times_over(",0", 100) + "\n", 1500)},
+      {"csv: many rows without a grasp", "a.csv", csv_pose + "\n" + times_over(",,,,,,\n", 100000)},
+      {"csv: a quote that is open", "a.csv", csv_pose + "\n\"" + times_over("\n", 600000)},
       {"npz: arrays that share their bytes", "a.npz", shared_arrays(2000, 60000)},
       {"npz: many arrays", "a.npz", shared_arrays(8000, 1)},
-      {"json: a list of empty lists", "a.json", map_of + "[" + repeated("[],", 200000) + "[]]}"},
-      {"json: a list of empty maps", "a.json", map_of + "[" + repeated("{},", 200000) + "{}]}"},
-      {"json: a list of numbers", "a.json", map_of + "[" + repeated("0,", 300000) + "0]}"},
-      {"json: many keys", "a.json", map_of + "[]," + joined(60000, ",", key) + "}"},
+      {"json: a list of empty lists", "a.json", map_of + "[" + times_over("[],", 200000) + "[]]}"},
+      {"json: a list of empty maps", "a.json", map_of + "[" + times_over("{},", 200000) + "{}]}"},
+      {"json: a list of numbers", "a.json", map_of + "[" + times_over("0,", 300000) + "0]}"},
+      {"json: many keys", "a.json", map_of + "[]," + joined_items(60000, ",", key) + "}"},
       {"json: many poses of few digits", "a.json",
-       map_of + "[" + repeated("[0,0,0,1,0,0,0],", 40000) + "[0,0,0,1,0,0,0]]}"},
+       map_of + "[" + times_over("[0,0,0,1,0,0,0],", 40000) + "[0,0,0,1,0,0,0]]}"},
       {"json: matrices of few digits", "a.json",
        R"({"object":{"file":"o"},"grasps":{"transforms":[)" +
-           repeated("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]],", 15000) +
+           times_over("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]],", 15000) +
            "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]]}}"},
       {"json: names of DOFs in every grasp", "a.json",
-       map_of + "[" + repeated("[0,0,0,1,0,0,0],", 4000) + "[0,0,0,1,0,0,0]],\"dof_names\":[" +
-           joined(100, ",", [&](size_t i) { return fmt::format("\"{}{}\"", long_name, i); }) +
-           "],\"dofs\":[" + repeated("[" + repeated("0,", 99) + "0],", 4000) + "[" +
-           repeated("0,", 99) + "0]]}"},
-      {"json: nested lists", "a.json", repeated("[", 300000)},
-      {"json: nested maps", "a.json", repeated("{\"a\":", 100000)},
-      {"json: a long string", "a.json", "{\"a\":\"" + repeated("\\u0041", 100000) + "\"}"},
-      {"yaml: a list in brackets on one line", "a.yaml", "a: [" + repeated("0,", 300000) + "0]"},
-      {"yaml: lists in brackets", "a.yaml", "a: [" + repeated("[0],\n", 50000) + "0]"},
-      {"yaml: maps in brackets", "a.yaml", "[" + repeated("{a: 0},", 30000) + "0]"},
+       map_of + "[" + times_over("[0,0,0,1,0,0,0],", 4000) + "[0,0,0,1,0,0,0]],\"dof_names\":[" +
+           joined_items(100, ",", [&](size_t i) { return fmt::format("\"{}{}\"", long_name, i); }) +
+           "],\"dofs\":[" + times_over("[" + times_over("0,", 99) + "0],", 4000) + "[" +
+           times_over("0,", 99) + "0]]}"},
+      {"json: nested lists", "a.json", times_over("[", 300000)},
+      {"json: nested maps", "a.json", times_over("{\"a\":", 100000)},
+      {"json: a long string", "a.json", "{\"a\":\"" + times_over("\\u0041", 100000) + "\"}"},
+      {"yaml: a list in brackets on one line", "a.yaml", "a: [" + times_over("0,", 300000) + "0]"},
+      {"yaml: lists in brackets", "a.yaml", "a: [" + times_over("[0],\n", 50000) + "0]"},
+      {"yaml: maps in brackets", "a.yaml", "[" + times_over("{a: 0},", 30000) + "0]"},
       {"yaml: many keys", "a.yaml",
-       isaac + joined(15000, "\n", [](size_t i) { return fmt::format("  g{}: {{}}", i); })},
-      {"yaml: one key, many times", "a.yaml", repeated("a: 0\n", 30000)},
-      {"yaml: many items", "a.yaml", "a:\n" + repeated("- 0\n", 30000)},
-      {"yaml: nested items", "a.yaml", repeated("- ", 50000)},
-      {"yaml: questions", "a.yaml", repeated("? ", 50000)},
-      {"yaml: comments", "a.yaml", repeated("#\n", 50000) + "a: 1"},
+       isaac + joined_items(15000, "\n", [](size_t i) { return fmt::format("  g{}: {{}}", i); })},
+      {"yaml: one key, many times", "a.yaml", times_over("a: 0\n", 30000)},
+      {"yaml: many items", "a.yaml", "a:\n" + times_over("- 0\n", 30000)},
+      {"yaml: nested items", "a.yaml", times_over("- ", 50000)},
+      {"yaml: questions", "a.yaml", times_over("? ", 50000)},
+      {"yaml: comments", "a.yaml", times_over("#\n", 50000) + "a: 1"},
       {"yaml: a long text", "a.yaml", "a: " + std::string(600000, 'a')},
-      {"yaml: many tags", "a.yaml", repeated("!a ", 50000)},
-      {"graspit: one grasp on each line", "a.txt", repeated("0 0 0 1 0 0 0 0 0\n", 20000)},
-      {"graspit: a long line", "a.txt", repeated("0 ", 200000)},
+      {"yaml: many tags", "a.yaml", times_over("!a ", 50000)},
+      {"graspit: one grasp on each line", "a.txt", times_over("0 0 0 1 0 0 0 0 0\n", 20000)},
+      {"graspit: a long line", "a.txt", times_over("0 ", 200000)},
   };
 }
 
@@ -185,7 +188,7 @@ TEST_CASE("a list that would take too much memory is refused in a sentence") {
     names += fmt::format(",dof {}{}", std::string(2000, 'n'), i);
     row += ",0";
   }
-  const auto path = folder.write("a.csv", csv_pose + names + "\n" + repeated(row + "\n", 1000));
+  const auto path = folder.write("a.csv", csv_pose + names + "\n" + times_over(row + "\n", 1000));
   CHECK_THROWS_WITH_AS(read_grasp_file(path),
                        "a.csv: its contents take more than 79 MB of memory: 20 times the file and "
                        "64 MB",
@@ -194,8 +197,8 @@ TEST_CASE("a list that would take too much memory is refused in a sentence") {
 
 TEST_CASE("a list of many grasps is read") {
   const TemporaryFolder folder;
-  const auto path =
-      folder.write("a.csv", csv_pose + "\n" + repeated("0.12345678901234567,0,0,1,0,0,0\n", 20000));
+  const auto path = folder.write(
+      "a.csv", csv_pose + "\n" + times_over("0.12345678901234567,0,0,1,0,0,0\n", 20000));
   CHECK(read_grasp_file(path).size() == 20000);
 }
 

@@ -10,7 +10,7 @@ namespace clench {
 
 namespace {
 
-using Numbers = std::map<std::string, double>;
+using NamedNumbers = std::map<std::string, double>;
 
 constexpr double matrix_angle = 1e-6, matrix_length = 1e-9;  // [rad], of a length or metre
 
@@ -23,7 +23,7 @@ bool same_pose(const std::optional<Pose>& a, const std::optional<Pose>& b, bool 
 }
 
 // numbers that are not finite are left out
-std::string numbers_differ(const char* what, const Numbers& a, const Numbers& back) {
+std::string numbers_differ(const char* what, const NamedNumbers& a, const NamedNumbers& back) {
   for (const auto& [name, x] : a) {
     if (!std::isfinite(x)) continue;
     const auto found = back.find(name);

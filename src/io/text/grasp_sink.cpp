@@ -7,19 +7,19 @@ namespace clench {
 namespace {
 
 // a block of the heap has a head and is rounded up
-constexpr size_t block = 16;
+constexpr size_t heap_block = 16;
 // a grasp in a list of a script: the same, its contacts and wrench spaces
 constexpr size_t grasp_bytes = sizeof(GraspSpec) + 80;
 // of a node of a map: three links and a color, and its block
-constexpr size_t node_bytes = 32 + block;
+constexpr size_t node_bytes = 32 + heap_block;
 
 size_t memory_of(const std::string& text) {
-  return text.capacity() < sizeof(std::string) / 2 ? 0 : text.capacity() + block;
+  return text.capacity() < sizeof(std::string) / 2 ? 0 : text.capacity() + heap_block;
 }
 
 template <class T>
 size_t memory_of(const std::vector<T>& list) {
-  size_t out = list.empty() ? 0 : list.capacity() * sizeof(T) + block;
+  size_t out = list.empty() ? 0 : list.capacity() * sizeof(T) + heap_block;
   if constexpr (std::is_same_v<T, std::string>)
     for (const std::string& text : list) out += memory_of(text);
   return out;

@@ -7,12 +7,12 @@
 
 namespace clench {
 
-static constexpr size_t max_depth = 16, max_values = size_t{1} << 31;
+static constexpr size_t max_tree_depth = 16, max_tree_values = size_t{1} << 31;
 
 // --- building ---
 
 void ValueTree::push(const Cell& cell) {
-  if (cells_.size() + pending_.size() >= max_values || texts_.size() >= max_values)
+  if (cells_.size() + pending_.size() >= max_tree_values || texts_.size() >= max_tree_values)
     fail(ErrorKind::limit, "{}: the file holds too many values", *file_);
   // a key is followed by its value
   if (!open_.empty() && open_.back().kind == ValueKind::map && cell.kind != ValueKind::scalar &&
@@ -31,8 +31,8 @@ void ValueTree::scalar(std::string_view text, bool quoted, int line) {
 }
 
 void ValueTree::open(ValueKind kind, int line) {
-  if (open_.size() == max_depth)
-    fail("{}:{}: expected lists and maps at most {} deep, got more", *file_, line, max_depth);
+  if (open_.size() == max_tree_depth)
+    fail("{}:{}: expected lists and maps at most {} deep, got more", *file_, line, max_tree_depth);
   open_.push_back({pending_.size(), static_cast<uint32_t>(line), kind});
 }
 

@@ -10,7 +10,7 @@
 
 namespace clench {
 
-static std::vector<std::string> read_dof_names(Table& options) {
+static std::vector<std::string> dof_names_option(Table& options) {
   std::vector<std::string> out;
   if (options.has("dof_order"))
     options.each("dof_order", "a list of names", [&](int i, const What& what) {
@@ -32,7 +32,7 @@ static int convert(lua_State* L) {
   GraspConversion grasps;
   if (is_grasp_list(kind)) {
     grasps.format = options.string("format", "");
-    grasps.dof_names = read_dof_names(options);
+    grasps.dof_names = dof_names_option(options);
   }
   options.done();
   const std::string ending = ending_of(to);

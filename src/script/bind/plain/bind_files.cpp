@@ -1,5 +1,7 @@
 #include "clench/script/bind/bind.h"
 
+#include <algorithm>
+
 #include "clench/base/convert.h"
 #include "clench/base/file.h"
 #include "clench/base/text.h"
@@ -55,12 +57,19 @@ static int csv_records(lua_State* L) {
   CsvReader reader(file, string_at(L, 2), check_separator(L, 3));
   CsvRecord record;
   push_list(L);
+  const int none_quoted = lua_gettop(L);
+  push_list(L);
   for (lua_Integer i = 1; reader.next(record); ++i) {
     push_list_of(L, record.cells, [L](const CsvCell& cell) { push(L, cell.text); });
     set_field(L, "line", record.line);
-    push_list(L);
-    for (size_t c = 0; c < record.cells.size(); ++c)
-      if (record.cells[c].quoted) push(L, true), lua_rawseti(L, -2, static_cast<int>(c) + 1);
+    // most records have no quotes, and share a table
+    if (std::ranges::none_of(record.cells, &CsvCell::quoted)) {
+      lua_pushvalue(L, none_quoted);
+    } else {
+      push_list(L);
+      for (size_t c = 0; c < record.cells.size(); ++c)
+        if (record.cells[c].quoted) push(L, true), lua_rawseti(L, -2, static_cast<int>(c) + 1);
+    }
     lua_setfield(L, -2, "quoted");
     lua_rawseti(L, -2, i);
   }
