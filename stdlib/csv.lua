@@ -119,7 +119,8 @@ function csv.read(path, options)
     if known[column] then fail(1, "column '%s' stands there twice", column) end
     known[column], rows.columns[c] = true, column
   end
-  for _, record in ipairs(all) do
+  for i, record in ipairs(all) do
+    all[i] = false  -- long files are held once
     -- an empty line is none
     local is_empty = #record == 1 and record[1] == "" and not record.quoted[1]
     if not (is_empty and #header > 1) then

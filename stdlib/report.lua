@@ -180,6 +180,55 @@ local function of_scene(path, options)
   return parsed
 end
 
+-- a range that grows by a value
+local function widen(ranges, name, value)
+  local range = ranges[name]
+  if not range then
+    ranges[name] = {low = value, high = value, count = 1}
+  else
+    range.low, range.high, range.count = math.min(range.low, value), math.max(range.high, value), range.count + 1
+  end
+end
+
+local function sorted_names(set)
+  local out = {}
+  for name in pairs(set) do out[#out + 1] = name end
+  table.sort(out)
+  return out
+end
+
+-- ranges of numbers of all grasps, by name
+local function of_grasps(list, format)
+  local pairs_of, labels, dofs, order, measures, notes = {}, {}, {}, {}, {}, {}
+  local counts = {unnamed_dofs = 0, without_pose = 0, with_contacts = 0, with_pregrasp = 0, collision_free = 0, in_collision = 0}
+  local function count(key, is) if is then counts[key] = counts[key] + 1 end end
+  for _, grasp in ipairs(list) do
+    local hand, object = grasp.hand_name, grasp.object_name
+    if hand ~= "" or object ~= "" then
+      pairs_of[(hand == "" and "a hand without name" or hand) .. " on " .. (object == "" and "an object without name" or object)] = true
+    end
+    local names, values = grasp.dof_names, grasp.dofs
+    count("unnamed_dofs", #names == 0 and #values > 0)
+    for i, value in ipairs(values) do
+      local name = names[i] or ("DOF %d"):format(i)
+      if not dofs[name] then order[#order + 1] = name end
+      widen(dofs, name, value)
+    end
+    for name, value in pairs(grasp.measures) do widen(measures, name, value) end
+    for name, value in pairs(grasp.info) do widen(notes, name, value) end
+    for name in pairs(grasp.labels) do labels[name] = true end
+    count("without_pose", not grasp.pose)
+    count("with_contacts", #grasp.points > 0)
+    count("with_pregrasp", grasp.pregrasp)
+    count("collision_free", grasp.collision_free == true)
+    count("in_collision", grasp.collision_free == false)
+  end
+  local listed = {}
+  for i, name in ipairs(order) do listed[i] = {name = name, low = dofs[name].low, high = dofs[name].high, count = dofs[name].count} end
+  return {format = format, count = #list, of = sorted_names(pairs_of), dofs = listed, measures = measures, notes = notes,
+          labels = sorted_names(labels), counts = counts, best_epsilon = measures.epsilon and measures.epsilon.high}
+end
+
 local readers = {
   body = function(path, options)
     local body = of_body(clench.world():add_object(path, options))
@@ -211,17 +260,7 @@ local readers = {
     return {count = #list, runs = list[1] and list[#list].info.run or 0, best = best}
   end,
   grasps = function(path, options)
-    local list = clench.grasps(path, {root = options.root, confine = options.confine})
-    local hands, best = {}, nil
-    for _, grasp in ipairs(list) do
-      hands[grasp.hand_name .. " on " .. grasp.object_name] = true
-      local epsilon = grasp.measures.epsilon
-      if epsilon then best = math.max(best or epsilon, epsilon) end
-    end
-    local names = {}
-    for name in pairs(hands) do names[#names + 1] = name end
-    table.sort(names)
-    return {count = #list, of = names, best_epsilon = best}
+    return of_grasps(clench.grasps(path, {root = options.root, confine = options.confine}))
   end,
   ["glove calibration"] = function(path, options)
     local glove = clench.files.glove_calibration(path, options)

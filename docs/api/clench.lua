@@ -512,6 +512,7 @@ function patch:torsion_limit(options) end
 ---@field object_name string # Name of the body that is grasped.
 ---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
+---@field dof_names string[] # Names of these DOFs; empty in a list from a file that does not name them.
 ---@field joint_positions number[] # Positions of the hand's joints when the grasp was measured. [rad or m]
 ---@field measures table<string, number> # Measures that were asked for so far, by name; in a file they are kept with the grasp.
 ---@field info table<string, number> # Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
@@ -528,11 +529,17 @@ function patch:torsion_limit(options) end
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
 ---@param world? world # default: its own
----@param options? {hand?: robot, object?: body}
+---@param options? {hand?: robot, object?: body, dof_order?: string|string[]}
 ---@return grasp
 function grasp:apply(world, options) end
+
+---Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
+---@param hand robot
+---@param options? {dof_order?: string|string[]} # as `apply` takes it
+---@return number[] dofs, number[]? pregrasp # [rad or m]
+function grasp:dofs_for(hand, options) end
 
 ---Can it resist every wrench?
 ---@return boolean
@@ -993,11 +1000,11 @@ function clench.file_kind(path, options) end
 ---@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
 function clench.catalog() end
 
----Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is told in warnings.
+---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml, lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
 ---@param from string
 ---@param to string
----@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too
----@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts" # what was written
+---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
+---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
 function clench.convert(from, to, options) end
 
 ---The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.
@@ -1065,8 +1072,8 @@ function clench.progress(total, text) end
 
 ---A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture and measures, and `apply` puts them into a world.
 ---@param path? string
----@param options? {root?: string, confine?: string, format?: string} # format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner)
----@return grasps
+---@param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean} # format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
+---@return grasps list, string? format # of the file
 function clench.grasps(path, options) end
 
 ---A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.

@@ -48,7 +48,8 @@ int check_files(const CheckOptions& options) {
 }
 
 int convert_file(const ConvertOptions& options) {
-  return run_host("convert", {options.from, options.to}, options.reading);
+  return run_host("convert", {options.from, options.to, options.format, options.dof_order},
+                  options.reading);
 }
 
 }  // namespace clench

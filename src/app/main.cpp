@@ -273,7 +273,8 @@ static void add_script_verbs(CLI::App& app, Said& said) {
 
 static void add_check(CLI::App& app, CheckOptions& check) {
   auto* verb = app.add_subcommand("check", "read files and say what was parsed");
-  verb->add_option("FILE", check.files, "robots, bodies, worlds, eigengrasps, virtual contacts")
+  verb->add_option("FILE", check.files,
+                   "robots, bodies, worlds, eigengrasps, virtual contacts, lists of grasps")
       ->required();
   add_reading(*verb, check.reading);
   verb->add_flag("--json", check.json, "as JSON");
@@ -289,10 +290,15 @@ static void add_convert(CLI::App& app, ConvertOptions& convert) {
   verb->add_option("IN", convert.from, "a file of any kind that is read")->required();
   verb->add_option("OUT", convert.to, "what to write; its ending says how")->required();
   add_reading(*verb, convert.reading);
+  verb->add_option("--format", convert.format,
+                   "of a list of grasps: jsonl csv npz isaac_grasp graspgen multigripper graspit");
+  verb->add_option("--dof-order", convert.dof_order,
+                   "names of a list's DOFs, with commas, where the file has none");
   verb->footer(
       "Examples:\n  clench convert --unit mm mug.stl mug.xml\n"
       "  clench convert models/hands/barrett/barrett.cfg barrett.urdf\n"
-      "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n\n"
+      "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n"
+      "  clench convert --format graspgen grasps.jsonl grasps.json\n\n"
       "What the new format cannot hold is told in warnings." +
       trust);
 }

@@ -46,6 +46,7 @@ int check_files(const CheckOptions& options);
 
 struct ConvertOptions {
   std::string from, to;
+  std::string format, dof_order;  ///< of lists of grasps; names of DOFs, separated by commas
   ReadingOptions reading;
 };
 

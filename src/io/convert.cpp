@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "clench/base/error.h"
+#include "clench/io/grasp_files.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/virtual_contacts.h"
 #include "clench/io/read.h"
@@ -13,8 +14,27 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
+bool is_grasp_list(FileKind kind) {
+  return kind == FileKind::grasps || kind == FileKind::planned_grasps;
+}
+
+static void convert_grasps(FileKind kind, const fs::path& from, const fs::path& to,
+                           const ReadOptions& reading, const WriteOptions& writing,
+                           const GraspConversion& how) {
+  auto list = read_grasp_file(from, kind == FileKind::planned_grasps ? "graspit" : "", reading);
+  for (GraspSpec& g : list) {
+    if (!g.dof_names.empty() || g.dofs.empty() || how.dof_names.empty()) continue;
+    if (how.dof_names.size() != g.dofs.size())
+      fail("{}: expected as many names as there are DOFs, {}, got {}", from.filename().string(),
+           g.dofs.size(), how.dof_names.size());
+    g.dof_names = how.dof_names;
+  }
+  write_grasp_file(list, to, how.format, writing);
+}
+
 void convert_file(FileKind kind, const fs::path& from, const fs::path& to,
-                  const ReadOptions& reading, const WriteOptions& writing) {
+                  const ReadOptions& reading, const WriteOptions& writing,
+                  const GraspConversion& grasps) {
   switch (kind) {
     case FileKind::body:
       return write_body(read_body(from, reading), to, writing);
@@ -27,8 +47,11 @@ void convert_file(FileKind kind, const fs::path& from, const fs::path& to,
       return write_eigengrasps(read_eigengrasps(from, reading), to, writing.warn);
     case FileKind::virtual_contacts:
       return write_virtual_contacts(read_virtual_contacts(from, reading), to);
+    case FileKind::grasps:
+    case FileKind::planned_grasps:
+      return convert_grasps(kind, from, to, reading, writing, grasps);
     default:
-      fail("{}: expected a model, a world, eigengrasps or virtual contacts, got {}",
+      fail("{}: expected a model, a world, eigengrasps, virtual contacts or grasps, got {}",
            from.filename().string(), kind_name(kind));
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
@@ -20,7 +21,8 @@ using Eigen::Vector3d;
 static constexpr const char* format_name = "clench grasps";
 static constexpr const char* unit_names = "m, kg, s, rad, N";
 static constexpr int format_version = 1;
-static constexpr size_t max_grasps = 10'000'000, max_values = 10'000;  // of a list in a grasp
+static constexpr size_t max_grasps = 10'000'000, max_list = 10'000,  // of a list in a grasp
+    max_values = 250'000;                                            // of a line
 
 // --- writing ---
 
@@ -91,35 +93,111 @@ std::string grasps_head(const std::string& notes) {
   return line_of(head);
 }
 
-void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path,
-                  const std::string& notes) {
+std::string grasps_text(const std::vector<GraspSpec>& grasps, const std::string& notes) {
   std::string text = grasps_head(notes) + "\n";
   for (const GraspSpec& grasp : grasps) text += grasp_line(grasp) + "\n";
-  write_file(path, text);
+  return text;
+}
+
+void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path,
+                  const std::string& notes) {
+  write_file(path, grasps_text(grasps, notes));
 }
 
 // --- reading ---
 
 namespace {
 
+using Parsed = nlohmann::json;  // keys sorted: long objects take no quadratic time
+
+/// A line as a tree. Values are counted as they come, so that a line takes bounded memory.
+class LineParser : public nlohmann::json_sax<Parsed> {
+ public:
+  explicit LineParser(const Line& line) : line_(line) {}
+
+  /// returns  nothing when the text ends before the value does
+  std::optional<Parsed> parse() {
+    if (Parsed::sax_parse(line_.text(), this)) return std::move(root_);
+    if (is_cut_) return {};
+    line_.fail("expected a line of JSON, got {}", in_quotes(line_.text()));
+  }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool x) override { return add(x); }
+  bool number_integer(number_integer_t x) override { return add(x); }
+  bool number_unsigned(number_unsigned_t x) override { return add(x); }
+  bool number_float(number_float_t x, const string_t&) override { return add(x); }
+  bool string(string_t& text) override { return add(std::move(text)); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(size_t) override { return open(Parsed::object()); }
+  bool start_array(size_t) override { return open(Parsed::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    const auto [place, is_new] = open_.back()->emplace(name, nullptr);
+    if (!is_new) line_.fail("key {} stands there twice", in_quotes(name));
+    value_ = &*place;
+    return true;
+  }
+  bool parse_error(size_t byte, const std::string&, const nlohmann::detail::exception& e) override {
+    is_cut_ = e.id == syntax_error && byte > line_.text().size();
+    return false;
+  }
+
+ private:
+  // the place of the next value: behind its key, at the end of a list, or the root
+  Parsed& put(Parsed&& value) {
+    if (++count_ > max_values)
+      line_.fail("expected at most {} values in a line, got more", max_values);
+    if (open_.empty()) return root_ = std::move(value);
+    if (open_.back()->is_object()) return *value_ = std::move(value);
+    open_.back()->push_back(std::move(value));
+    return open_.back()->back();
+  }
+  bool add(Parsed&& value) {
+    put(std::move(value));
+    return true;
+  }
+  bool open(Parsed&& value) {
+    if (open_.size() == max_depth)
+      line_.fail("expected lists and objects at most {} deep, got more", max_depth);
+    open_.push_back(&put(std::move(value)));
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  static constexpr size_t max_depth = 8;
+  static constexpr int syntax_error = 101;  // of nlohmann's parse errors
+
+  const Line& line_;
+  bool is_cut_ = false;
+  Parsed root_;
+  std::vector<Parsed*> open_;
+  Parsed* value_ = nullptr;
+  size_t count_ = 0;
+};
+
 /// An object of a line, key by key; a key that nobody asked for is an error.
 class Fields {
  public:
-  Fields(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
+  Fields(const Parsed& json, std::string place) : json_(json), place_(std::move(place)) {
     if (!json.is_object()) refuse("an object", json);
   }
 
-  const Json* find(const char* key) {
+  const Parsed* find(const char* key) {
     known_.push_back(key);
     const auto found = json_.find(key);
     return found == json_.end() ? nullptr : &*found;
   }
-  const Json& get(const char* key) {
-    if (const Json* found = find(key)) return *found;
+  const Parsed& get(const char* key) {
+    if (const Parsed* found = find(key)) return *found;
     fail("{}: expected a key '{}', got none", place_, key);
   }
   double number(const char* key, double low) {
-    const Json& value = get(key);
+    const Parsed& value = get(key);
     if (!value.is_number() || !(value.get<double>() >= low))
       Fields::refuse(at(key), low == 0 ? "a number >= 0" : "a number", value);
     return value.get<double>();
@@ -130,25 +208,25 @@ class Fields {
     return x;
   }
   std::string text(const char* key, bool needed) {
-    const Json* value = needed ? &get(key) : find(key);
+    const Parsed* value = needed ? &get(key) : find(key);
     if (!value) return "";
     if (!value->is_string()) refuse(at(key), "a string", *value);
     return value->get<std::string>();
   }
   std::vector<double> numbers(const char* key, int count = -1) {
-    const Json& list = get(key);
+    const Parsed& list = get(key);
     const std::string expected = count < 0 ? "a list of numbers" : fmt::format("{} numbers", count);
-    if (!list.is_array() || (count >= 0 ? list.size() != size_t(count) : list.size() > max_values))
+    if (!list.is_array() || (count >= 0 ? list.size() != size_t(count) : list.size() > max_list))
       refuse(at(key), expected, list);
-    for (const Json& x : list)
+    for (const Parsed& x : list)
       if (!x.is_number()) refuse(at(key), expected, x);
     return list.get<std::vector<double>>();
   }
   std::vector<std::string> texts(const char* key, size_t count) {
-    const Json& list = get(key);
+    const Parsed& list = get(key);
     const std::string expected = fmt::format("a list of {} strings", count);
     if (!list.is_array() || list.size() != count) refuse(at(key), expected, list);
-    for (const Json& x : list)
+    for (const Parsed& x : list)
       if (!x.is_string()) refuse(at(key), expected, x);
     return list.get<std::vector<std::string>>();
   }
@@ -157,7 +235,7 @@ class Fields {
     return Vector3d::Map(x.data());
   }
   bool boolean(const char* key) {
-    const Json& value = get(key);
+    const Parsed& value = get(key);
     if (!value.is_boolean()) refuse(at(key), "true or false", value);
     return value.get<bool>();
   }
@@ -165,7 +243,7 @@ class Fields {
   template <class T>
   std::map<std::string, T> named(const char* key) {
     constexpr bool texts = std::is_same_v<T, std::string>;
-    const Json& object = get(key);
+    const Parsed& object = get(key);
     if (!object.is_object())
       refuse(at(key), texts ? "an object of strings" : "an object of numbers", object);
     for (const auto& [name, x] : object.items())
@@ -180,17 +258,17 @@ class Fields {
         fail("{}: unknown key {}{}", place_, in_quotes(key), did_you_mean(key, known_));
   }
   [[noreturn]] static void refuse(const std::string& place, const std::string& expected,
-                                  const Json& got) {
+                                  const Parsed& got) {
     fail("{}: expected {}, got {}", place, expected,
-         excerpt(got.dump(-1, ' ', false, Json::error_handler_t::replace)));
+         excerpt(got.dump(-1, ' ', false, Parsed::error_handler_t::replace)));
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& expected, const Json& got) const {
+  [[noreturn]] void refuse(const std::string& expected, const Parsed& got) const {
     refuse(place_, expected, got);
   }
 
-  const Json& json_;
+  const Parsed& json_;
   std::string place_;
   std::vector<std::string> known_;
 };
@@ -215,14 +293,14 @@ Pose read_pose(Fields& fields) {
   return out;
 }
 
-Pose read_pose(const Json& json, const std::string& place) {
+Pose read_pose(const Parsed& json, const std::string& place) {
   Fields fields(json, place);
   const Pose out = read_pose(fields);
   fields.done();
   return out;
 }
 
-PregraspState read_pregrasp(const Json& json, const std::string& place) {
+PregraspState read_pregrasp(const Parsed& json, const std::string& place) {
   Fields fields(json, place);
   PregraspState out{read_pose(fields), fields.numbers("dofs")};
   fields.done();
@@ -231,7 +309,7 @@ PregraspState read_pregrasp(const Json& json, const std::string& place) {
 
 /// Of the friction pyramids; 0 and "exact" stand for round cones.
 int read_edges(Fields& fields) {
-  const Json& value = fields.get("edges");
+  const Parsed& value = fields.get("edges");
   if (value == "exact") return round_edges;
   const double edges = value.is_number() ? value.get<double>() : -1;
   if (edges != std::floor(edges) || edges > max_edges || (edges < 3 && edges != round_edges))
@@ -242,14 +320,14 @@ int read_edges(Fields& fields) {
   return static_cast<int>(edges);
 }
 
-GraspSpec read_line(const Json& json, const std::string& place) {
+GraspSpec read_line(const Parsed& json, const std::string& place) {
   Fields fields(json, place);
   GraspSpec out;
   out.hand_name = fields.text("hand", true);
   out.object_name = fields.text("object", true);
   out.hand_file = fields.text("hand_file", false);
   out.object_file = fields.text("object_file", false);
-  if (const Json* pose = fields.find("pose")) out.X_OH = read_pose(*pose, fields.at("pose"));
+  if (const Parsed* pose = fields.find("pose")) out.X_OH = read_pose(*pose, fields.at("pose"));
   out.dofs = fields.numbers("dofs");
   for (const auto& [key, list] :
        {std::pair{"dof_names", &out.dof_names}, {"dof_units", &out.dof_units}})
@@ -258,10 +336,10 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   check_dof_units(fields.at("dof_units"), out.dof_units);
   // without them the DOFs say it all
   if (fields.find("joints")) out.joints = fields.numbers("joints");
-  const Json& points = fields.get("points");
-  if (!points.is_array() || points.size() > max_values)
+  const Parsed& points = fields.get("points");
+  if (!points.is_array() || points.size() > max_list)
     Fields::refuse(fields.at("points"), "a list of contacts", points);
-  for (const Json& item : points) {
+  for (const Parsed& item : points) {
     Fields point(item, fmt::format("{}: points[{}]", place, out.points.size() + 1));
     out.points.push_back(read_point(point));
     out.links.push_back(point.text("link", false));
@@ -282,18 +360,18 @@ GraspSpec read_line(const Json& json, const std::string& place) {
   out.measures = fields.named<double>("measures");
   out.info = fields.named<double>("info");
   if (fields.find("labels")) out.labels = fields.named<std::string>("labels");
-  if (const Json* pregrasp = fields.find("pregrasp"))
+  if (const Parsed* pregrasp = fields.find("pregrasp"))
     out.pregrasp = read_pregrasp(*pregrasp, fields.at("pregrasp"));
   if (fields.find("collision_free")) out.collision_free = fields.boolean("collision_free");
   fields.done();
   return out;
 }
 
-void check_head(const Json& json, const std::string& place) {
+void check_head(const Parsed& json, const std::string& place) {
   const bool ours = json.is_object() && json.contains("format") && json["format"] == format_name;
   if (!ours)
     Fields::refuse(place, fmt::format("a list of grasps, \"format\": \"{}\"", format_name), json);
-  const Json* number = json.contains("version") ? &json["version"] : nullptr;
+  const Parsed* number = json.contains("version") ? &json["version"] : nullptr;
   if (!number || *number != format_version)
     fail("{}: expected version {}, got {}", place, format_version,
          number ? excerpt(number->dump()) : "none");
@@ -303,45 +381,46 @@ void check_head(const Json& json, const std::string& place) {
 
 }  // namespace
 
+void read_grasps(const std::string& file, std::string text, const GraspSink& sink,
+                 const ReadOptions& options) {
+  GraspCollector list(file, text.size(), sink);
+  // a line of a grasp has a dozen keys
+  constexpr size_t shortest = 200;
+  list.expect(text.size() / shortest);
+  const bool has_last_end = text.ends_with('\n');
+  LineReader lines(file, std::move(text));
+  size_t count = 0;
+  bool head = false;
+  while (!lines.done()) {
+    const Line line = lines.next();
+    if (line.blank()) continue;
+    options.progress.check();
+    const std::optional<Parsed> value = LineParser(line).parse();
+    if (!value) {
+      // a program that was killed, or a full disk, leaves the beginning of a line
+      if (!head || !lines.done() || has_last_end)
+        line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
+      if (options.warn)
+        options.warn(fmt::format("{}: the last line is cut short and is skipped, got {}",
+                                 line.place(), in_quotes(line.text())));
+      break;
+    }
+    if (!head) {
+      check_head(*value, line.place());
+      head = true;
+      continue;
+    }
+    if (++count > max_grasps) line.fail("expected at most {} grasps", max_grasps);
+    list.add(read_line(*value, line.place()));
+  }
+  if (!head) fail("{}: expected a list of grasps, got an empty file", file);
+}
+
 std::vector<GraspSpec> read_grasps(const fs::path& path, const ReadOptions& options) {
   return of_file([&] {
-    const fs::path found = find_file(path.string(), "", options);
-    std::string text = read_text(found);
-    const bool has_last_end = text.ends_with('\n');
-    LineReader lines(path.filename().string(), std::move(text));
     std::vector<GraspSpec> out;
-    bool head = false;
-    while (!lines.done()) {
-      const Line line = lines.next();
-      if (line.blank()) continue;
-      options.progress.check();
-      Json value;
-      try {
-        // what is nested deeper is no grasp, and would be gone through by calls within calls
-        value = Json::parse(line.text(), [&](int depth, Json::parse_event_t, const Json&) {
-          if (depth > 8) line.fail("expected lists and objects at most 8 deep, got more");
-          return true;
-        });
-      } catch (const Json::parse_error& error) {
-        // a program that was killed, or a full disk, leaves the beginning of a line
-        const bool is_cut = lines.done() && !has_last_end && error.byte > line.text().size();
-        if (!head || !is_cut) line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
-        if (options.warn)
-          options.warn(fmt::format("{}: the last line is cut short and is skipped, got {}",
-                                   line.place(), in_quotes(line.text())));
-        break;
-      } catch (const Json::exception&) {
-        line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
-      }
-      if (!head) {
-        check_head(value, line.place());
-        head = true;
-        continue;
-      }
-      if (out.size() == max_grasps) line.fail("expected at most {} grasps", max_grasps);
-      out.push_back(read_line(value, line.place()));
-    }
-    if (!head) fail("{}: expected a list of grasps, got an empty file", path.filename().string());
+    read_grasps(path.filename().string(), read_text(find_file(path.string(), "", options)),
+                {.add = [&](GraspSpec&& g) { out.push_back(std::move(g)); }}, options);
     return out;
   });
 }

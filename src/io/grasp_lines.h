@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "clench/io/text/grasp_sink.h"
 #include "clench/io/text/read_options.h"
 #include "clench/spec/grasp_spec.h"
 
@@ -16,11 +17,18 @@ namespace clench {
 std::vector<GraspSpec> read_grasps(const std::filesystem::path& path,
                                    const ReadOptions& options = {});
 
+/// The same from a text; `file` is the name shown in errors.
+void read_grasps(const std::string& file, std::string text, const GraspSink& sink,
+                 const ReadOptions& options);
+
 /// The same list gives the same bytes. Measures and notes that are not finite are left out.
 /// notes  of the list as such, a JSON object for its first line; empty: none
 /// throws Error as write_file does
 void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
                   const std::string& notes = {});
+
+/// The text of such a file.
+std::string grasps_text(const std::vector<GraspSpec>& grasps, const std::string& notes = {});
 
 /// What one grasp is in such a file, without the end of the line; and what its first line is.
 std::string grasp_line(const GraspSpec& grasp);

@@ -9,8 +9,9 @@
 
 namespace clench {
 
-// a limit that went through degrees and back is still the limit
-static constexpr double limit_rounding = 1e-9;
+// a limit that was stored in 32 bits, or went through degrees and back, is still the limit: eight
+// times half a unit in the last place
+static constexpr double limit_rounding = 0x1p-21;
 
 std::string dof_name(const Robot& robot, int dof) {
   const std::string& name = robot.dofs[dof].name;
@@ -22,10 +23,11 @@ bool dof_slides(const Robot& robot, int dof) {
   return first != robot.joints.end() && first->kind == JointKind::prismatic;
 }
 
-// what the value may have been meant as, when that lies within the limits
+// a hint at a unit in which the value would lie within the limits; a few radians are no degrees
 static std::string other_unit(const std::array<double, 2>& range, double value, bool slides) {
   const double meant = slides ? value / 1000 : value * std::numbers::pi / 180;
-  if (std::abs(value) < 1 || meant < range[0] - limit_rounding || meant > range[1] + limit_rounding)
+  if (std::abs(value) < (slides ? 1 : 4) || meant < range[0] - limit_rounding ||
+      meant > range[1] + limit_rounding)
     return "";
   const char *unit = slides ? "millimetres" : "degrees", *function = slides ? "mm" : "rad";
   return fmt::format("; {}? clench.{}({:.6g}) is {:.4g}", unit, function, value, meant);
@@ -37,22 +39,81 @@ std::array<double, 2> range_around(const Robot& robot, int dof, double value) {
   return {value - (high - low) / 2, value + (high - low) / 2};
 }
 
-double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {
-  const auto [low, high] = range_around(robot, dof, value);
-  const double slack = limit_rounding * std::max({1.0, std::abs(low), std::abs(high)});
-  if (value >= low - slack && value <= high + slack) return std::clamp(value, low, high);
-  const std::string& name = robot.dofs[dof].name;
-  std::string label = fmt::format("DOF {}", dof + 1);
+// "robot 'dlr': DOF 3 'thumb_1'"; a joint likewise
+static std::string limits_place(const Robot& robot, const char* what, int number,
+                                const std::string& name, std::string_view subject) {
+  std::string label = fmt::format("{} {}", what, number + 1);
   if (!name.empty()) label = fmt::format("{} {}", label, in_quotes(name));
-  const std::string place = fmt::format("{} '{}': {}", subject, excerpt(robot.name), label);
-  if (!std::isfinite(value)) fail("{} must be finite, got {}", place, value);
-  // as few digits as tell the value from the limit
+  return fmt::format("{} '{}': {}", subject, excerpt(robot.name), label);
+}
+
+static bool nearly_within(const std::array<double, 2>& range, double value, double excess) {
+  const auto [low, high] = range;
+  return value >= low - excess && value <= high + excess;
+}
+
+// of numbers up to the limits' size
+static double rounding_of(const std::array<double, 2>& range) {
+  return limit_rounding * std::max({1.0, std::abs(range[0]), std::abs(range[1])});
+}
+
+static double soft_excess(bool slides) { return slides ? soft_excess_distance : soft_excess_angle; }
+
+// value and limits with as few digits as distinguish them
+static std::array<std::string, 3> limit_texts(const std::array<double, 2>& range, double value) {
   int shown = 4;
   const auto text = [&](double x) { return fmt::format("{:.{}g}", x, shown); };
-  while (shown < 17 && (text(value) == text(low) || text(value) == text(high))) ++shown;
+  while (shown < 17 && (text(value) == text(range[0]) || text(value) == text(range[1]))) ++shown;
+  return {text(range[0]), text(range[1]), text(value)};
+}
+
+static void warn_of_excess(const std::string& place, const std::array<double, 2>& range,
+                           double value, bool slides, const Listener& warn) {
+  if (!warn) return;
+  const auto texts = limit_texts(range, value);
+  warn(fmt::format("{}: {} exceeds the limit {} {}; the limit is used", place, texts[2],
+                   value < range[0] ? texts[0] : texts[1], slides ? "m" : "rad"));
+}
+
+[[noreturn]] static void refuse_limits(const std::string& place, const std::array<double, 2>& range,
+                                       double value, bool slides) {
+  if (!std::isfinite(value)) fail("{} must be finite, got {}", place, value);
+  const auto texts = limit_texts(range, value);
+  fail("{} must lie in [{}, {}] {}, got {}{}", place, texts[0], texts[1], slides ? "m" : "rad",
+       texts[2], other_unit(range, value, slides));
+}
+
+double within_limits(const Robot& robot, int dof, double value, std::string_view subject) {
+  const auto range = range_around(robot, dof, value);
+  if (nearly_within(range, value, rounding_of(range))) return std::clamp(value, range[0], range[1]);
+  refuse_limits(limits_place(robot, "DOF", dof, robot.dofs[dof].name, subject), range, value,
+                dof_slides(robot, dof));
+}
+
+double near_limits(const Robot& robot, int dof, double value, std::string_view subject,
+                   const Listener& warn) {
+  const auto range = range_around(robot, dof, value);
   const bool slides = dof_slides(robot, dof);
-  fail("{} must lie in [{}, {}] {}, got {}{}", place, text(low), text(high), slides ? "m" : "rad",
-       text(value), other_unit({low, high}, value, slides));
+  if (nearly_within(range, value, rounding_of(range)) ||
+      !nearly_within(range, value, soft_excess(slides)))
+    return within_limits(robot, dof, value, subject);
+  warn_of_excess(limits_place(robot, "DOF", dof, robot.dofs[dof].name, subject), range, value,
+                 slides, warn);
+  return std::clamp(value, range[0], range[1]);
+}
+
+double joint_near_limits(const Robot& robot, int joint, double position, std::string_view subject,
+                         const Listener& warn) {
+  const Joint& j = robot.joints[joint];
+  const std::array<double, 2> range = {j.min, j.max};
+  if (std::isfinite(position) && (j.endless || nearly_within(range, position, rounding_of(range))))
+    return position;
+  const bool slides = j.kind == JointKind::prismatic;
+  const std::string place = limits_place(robot, "joint", joint, j.name, subject);
+  if (!nearly_within(range, position, soft_excess(slides)))
+    refuse_limits(place, range, position, slides);
+  warn_of_excess(place, range, position, slides, warn);
+  return std::clamp(position, j.min, j.max);
 }
 
 void check_dof_numbers(const Robot& robot, std::span<const int> dofs, std::string_view subject) {

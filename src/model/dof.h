@@ -1,5 +1,6 @@
-// A degree of freedom in sentences, and held against its limits.
+// Degrees of freedom in messages, and their limits.
 #pragma once
+#include "clench/base/listeners.h"
 #include "clench/model/robot.h"
 
 namespace clench {
@@ -13,11 +14,27 @@ bool dof_slides(const Robot& robot, int dof);
 /// in their middle, and say how far it closes, or is searched, from there.
 std::array<double, 2> range_around(const Robot& robot, int dof, double value);
 
-/// The value, or the limit that rounding has taken it beyond; any finite value of an endless DOF.
+/// The value; the limit if the value exceeds it by no more than the rounding of a number of 32
+/// bits; any finite value of an endless DOF.
 /// subject  "robot": what the sentence begins with, before the robot's name
 /// throws  Error "robot 'dlr': DOF 3 'thumb_1' must lie in [0, 1.571] rad, got 90; degrees?
 ///         clench.rad(90) is 1.571"
 double within_limits(const Robot& robot, int dof, double value, std::string_view subject);
+
+/// Excess over a limit that is clamped with a warning: simulators keep their limits to about 1e-3.
+constexpr double soft_excess_angle = 0.02;     ///< [rad]
+constexpr double soft_excess_distance = 1e-3;  ///< [m]
+
+/// As within_limits, for values of other programs: a value that exceeds a limit by at most
+/// soft_excess_angle or soft_excess_distance is set to the limit as well, and `warn` is called:
+/// "robot 'dlr': DOF 3 'thumb_1': 1.5702 exceeds the limit 1.57 rad; the limit is used"
+/// throws  Error as within_limits for values farther beyond
+double near_limits(const Robot& robot, int dof, double value, std::string_view subject,
+                   const Listener& warn);
+
+/// The same rule for a joint's position. A position that exceeds a limit by rounding is kept.
+double joint_near_limits(const Robot& robot, int joint, double position, std::string_view subject,
+                         const Listener& warn);
 
 /// subject  "autograsp": what the sentence begins with
 /// throws  Error "autograsp of 'dlr': expected DOFs from 1 to 12, got 13" for a number, from 0,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "clench/grasp/wrench/grasp.h"
+#include "clench/grasp/wrench/grasp_dofs.h"
 
 namespace clench {
 
@@ -9,6 +10,7 @@ namespace clench {
 ///
 /// Throws  Error where the arm does not reach, or where apply_grasp throws; the arm then stands as
 ///         before
-void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object);
+void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object,
+                  const GraspDofOptions& options = {});
 
 }  // namespace clench

@@ -154,9 +154,40 @@ print_kind["planned grasps"] = function(list)
   say(("  %d in %s%s"):format(list.count, several(list.runs, "run"), list.best and (", the best of quality %.4g"):format(list.best) or ""))
 end
 
+local function range_rows(ranges)
+  local rows, names = {}, {}
+  for name in pairs(ranges) do names[#names + 1] = name end
+  table.sort(names)
+  for _, name in ipairs(names) do
+    local r = ranges[name]
+    rows[#rows + 1] = {name, ("%.4g"):format(r.low), ("%.4g"):format(r.high), tostring(r.count)}
+  end
+  return rows
+end
+
+local function print_ranges(heading, rows)
+  if #rows == 0 then return end
+  table.insert(rows, 1, {heading, "from", "to", "grasps"})
+  columns(rows, "  ")
+end
+
 print_kind.grasps = function(list)
-  say(("  %d%s%s"):format(list.count, list.of[1] and ": " .. name_list(list.of) or "",
+  say(("  %s, format %s%s%s"):format(several(list.count, "grasp"), list.format, list.of[1] and ": " .. name_list(list.of) or "",
                             list.best_epsilon and ("; the largest epsilon %.4g"):format(list.best_epsilon) or ""))
+  local rows = {}
+  for i, dof in ipairs(list.dofs) do rows[i] = {dof.name, ("%.4g"):format(dof.low), ("%.4g"):format(dof.high), tostring(dof.count)} end
+  print_ranges("DOF [rad or m]", rows)
+  print_ranges("measure", range_rows(list.measures))
+  print_ranges("note", range_rows(list.notes))
+  if list.labels[1] then say("  labels " .. name_list(list.labels)) end
+  local counts = list.counts
+  for _, one in ipairs {{"with_contacts", "with contacts"}, {"with_pregrasp", "with a pregrasp"}, {"collision_free", "free of collisions"},
+                        {"in_collision", "in collision"}, {"without_pose", "without a pose"}} do
+    if counts[one[1]] > 0 then say(("  %d %s"):format(counts[one[1]], one[2])) end
+  end
+  if counts.unnamed_dofs > 0 then
+    say(("  %d without names of DOFs: their order is that of the hand, or as dof_order says"):format(counts.unnamed_dofs))
+  end
 end
 
 print_kind["glove calibration"] = function(glove) say(("  %d sensors for %d DOFs"):format(glove.sensors, glove.dofs)) end

@@ -3,13 +3,25 @@ local error_text = require "clench.host.error_text"
 local reading = require "clench.host.reading"
 local convert = {}
 
+-- "a,b" as a list; nil: nothing is given
+local function names_in(text)
+  if text == "" then return nil end
+  local list = {}
+  for name in text:gmatch "[^,]+" do list[#list + 1] = name end
+  return list
+end
+
 --- Writes `to`, and prints what it is.
----@param root string  this and the next four: what is said of reading, "" when nothing is
+---@param root string  this and the next four: options of reading, "" for those that are not given
+---@param format string  of a list of grasps, and `dof_order`, names with commas; "" as well
 ---@return integer  the exit code
-function convert.main(root, folder, package, unit, strict, from, to)
+function convert.main(root, folder, package, unit, strict, from, to, format, dof_order)
   local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
   local ok, kind = pcall(function()
-    return clench.convert(from, to, reading(clench.file_kind(from), said))
+    local options = reading(clench.file_kind(from), said)
+    if format ~= "" then options.format = format end
+    options.dof_order = names_in(dof_order)
+    return clench.convert(from, to, options)
   end)
   if not ok then
     if type(kind) == "table" and kind.kind == "stopped" then error(kind, 0) end

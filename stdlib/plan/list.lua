@@ -5,12 +5,13 @@ local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local closing = require "clench.plan.closing"
 
--- a grasp's own state, or that before it closed; or a table of both
-local function state_of(item)
+-- a grasp's own state, or that before it closed, its DOFs found by their names; or a table of both
+local function state_of(item, hand)
   if described(item) ~= "a grasp" then return item end
+  local dofs, dofs_before = item:dofs_for(hand)
   local before = item.pregrasp
-  if not before then return {pose = item.pose, dofs = item.dofs} end
-  return {pose = before.pose, dofs = before.dofs, way = item.pose and (item.pose.position - before.pose.position):norm()}
+  if not before then return {pose = item.pose, dofs = dofs} end
+  return {pose = before.pose, dofs = dofs_before, way = item.pose and (item.pose.position - before.pose.position):norm()}
 end
 
 local margin = 0.01  -- of the way from a pregrasp to the first touch [m]
@@ -40,7 +41,7 @@ local function read_states(read, hand)
   for i = 1, #states do
     local place, item = ("states[%d]"):format(i), states[i]
     if described(item) ~= "a grasp" and type(item) ~= "table" then read:fail("%s: expected a grasp or {pose =, dofs =}, got %s", place, described(item)) end
-    local state = state_of(item)
+    local state = state_of(item, hand)
     if state.pose == nil then read:fail("%s: pose is missing: expected a grasp or {pose =, dofs =}", place) end
     if state.dofs == nil then read:fail("%s: dofs are missing: expected a grasp or {pose =, dofs =}", place) end
     if described(state.pose) ~= "a pose" then read:expected(place .. ".pose", "a pose", state.pose) end

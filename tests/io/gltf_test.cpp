@@ -142,3 +142,22 @@ TEST_CASE("what a glTF file holds and is not used is told") {
             "q.gltf: its primitives without positions are not used",
             "q.gltf: its skins are not used: skinned meshes keep the shape they were drawn in"});
 }
+
+TEST_CASE("a small glTF file that places a mesh many times is refused") {
+  std::string text = whole_gltf(ball(1, 60, 60));  // of 7080 triangles, 200 times
+  std::string nodes = R"({"mesh": 0})", numbers = "0";
+  for (int i = 1; i < 200; ++i) {
+    nodes += R"(, {"mesh": 0})";
+    numbers += ", " + std::to_string(i);
+  }
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  };
+  replace(R"("nodes": [0])", "\"nodes\": [" + numbers + "]");
+  replace(R"({"children": [1]}, {"mesh": 0})", nodes);
+  CHECK_THROWS_WITH_AS(
+      read_gltf(text),
+      doctest::Contains("expected at most 1000000 triangles in a file of its size"), Error);
+}

@@ -51,7 +51,9 @@ TEST_CASE(
       {"a.csv", "", "csv does not hold contacts, poses of pregrasps, DOFs of pregrasps", true, true,
        true, true},
       {"a.npz", "",
-       "npz does not hold contacts, poses of pregrasps, DOFs of pregrasps, other measures, which",
+       "npz does not hold contacts, poses of pregrasps, DOFs of pregrasps, other measures, files "
+       "of "
+       "hand and object, which",
        true, true, true, true},
       {"a.yaml", "",
        "isaac_grasp does not hold contacts, poses of pregrasps, other measures, notes and labels",
@@ -281,7 +283,7 @@ TEST_CASE("broken archives and texts end in a sentence, never in a crash") {
                  {"n", {.shape = {2}, .texts = {"a", "\u00fc"}, .is_text = true}}});
   CHECK(read_npz("a", npz).at("n").texts == std::vector<std::string>{"a", "\u00fc"});
   const std::string yaml = "a: {b: [1, \"\\u00e9\"], c: 'd'}\ne:\n- f: 1\n  g: 2\n- h\n";
-  CHECK(parse_yaml("y", yaml).find("e")->items[0].find("g")->text == "2");
+  CHECK(parse_yaml("y", yaml).root().find("e")->item(0).find("g")->text() == "2");
   for (int i = 0; i < 20000; ++i) {
     std::string bytes = i % 2 ? npz : yaml;
     for (int k = 0; k < 3; ++k)

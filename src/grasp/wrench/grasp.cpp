@@ -5,9 +5,9 @@
 #include <map>
 
 #include "clench/base/error.h"
-#include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/base/watched.h"
+#include "clench/grasp/wrench/grasp_dofs.h"
 #include "clench/grasp/wrench/max_space_edges.h"
 #include "clench/model/dof.h"
 
@@ -126,49 +126,6 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
   return grasp;
 }
 
-// values of all DOFs of a hand: those of the grasp, by their names where it has them, the others as
-// they are
-static Eigen::VectorXd dofs_for(const World& world, Id<Robot> hand, const GraspSpec& grasp,
-                                const std::string& place) {
-  const Robot& robot = world.robot(hand);
-  Eigen::VectorXd q = world.dofs(hand);
-  std::vector<std::string> names;
-  for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) names.push_back(dof_name(robot, d));
-  for (size_t i = 0; i < grasp.dofs.size(); ++i) {
-    size_t d = i;
-    if (!grasp.dof_names.empty()) {
-      d = static_cast<size_t>(std::ranges::find(names, grasp.dof_names[i]) - names.begin());
-      if (d == names.size())
-        fail("{}: the hand has no DOF {}{}", place, in_quotes(grasp.dof_names[i]),
-             instead_of(grasp.dof_names[i], names));
-    }
-    const std::string unit = i < grasp.dof_units.size() ? grasp.dof_units[i] : "",
-                      own =
-                          d < names.size() && dof_slides(robot, static_cast<int>(d)) ? "m" : "rad";
-    if ((unit == "rad" || unit == "m") && unit != own)
-      fail("{}: DOF {}: expected a value in {}, got one in {}", place, in_quotes(names[d]), own,
-           unit);
-    q[static_cast<Eigen::Index>(d)] = grasp.dofs[i];
-  }
-  return q;
-}
-
-// joints of rigid DOFs have no positions of their own
-static void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q,
-                               const std::vector<double>& joints, const std::string& place) {
-  // of metres and radians: far above the rounding of a file
-  constexpr double apart = 1e-6;
-  for (size_t j = 0; j < joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    const double by_dof = joint.ratio * q[joint.dof];
-    if (robot.dofs[joint.dof].kind == DofKind::rigid && !(std::abs(joints[j] - by_dof) <= apart))
-      fail(
-          "{}: joint {} stands at {}, and its DOF puts it at {}; without 'joints' the DOFs tell "
-          "all",
-          place, j + 1, joints[j], by_dof);
-  }
-}
-
 void apply_grasp(World& world, const GraspSpec& grasp) {
   const auto hand = world.find_robot(grasp.hand_name);
   const auto object = world.find_body(grasp.object_name);
@@ -185,18 +142,15 @@ void apply_grasp(World& world, const GraspSpec& grasp) {
 }
 
 void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object) {
+  apply_grasp(world, grasp, hand, object, {});
+}
+
+void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object,
+                 const GraspDofOptions& options) {
   const Robot& robot = world.robot(hand);
   const std::string place = fmt::format("grasp of {} by {}", world.body(object).name, robot.name);
   if (!grasp.X_OH) fail("{}: it was put together by hand and says not how the hand stands", place);
-  // what names its DOFs may name some of them; what knows no joints leaves them to the DOFs
-  const bool own_joints = !grasp.joints.empty();
-  const bool whole = own_joints || (grasp.dof_names.empty() && !grasp.dofs.empty());
-  if ((whole && grasp.dofs.size() != robot.dofs.size()) ||
-      (own_joints && grasp.joints.size() != robot.joints.size()))
-    fail("{}: it has {} DOFs and {} joints, the hand {} and {}", place, grasp.dofs.size(),
-         grasp.joints.size(), robot.dofs.size(), robot.joints.size());
-  const Eigen::VectorXd q = dofs_for(world, hand, grasp, place);
-  if (own_joints) check_rigid_joints(robot, q, grasp.joints, place);
+  const GraspPosture posture = grasp_posture(world, hand, grasp, place, options);
   const Pose before = world.pose(robot.base);
   if (robot.mounting) {
     const Pose off = grasp.X_OH->inverse() * hand_in_object(world, hand, object);
@@ -209,17 +163,17 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
     world.set_pose(hand, world.pose(object) * *grasp.X_OH);
   }
   try {
-    world.set_dofs(hand, q);
+    world.set_dofs(hand, posture.dofs);
   } catch (const Error&) {
     if (!robot.mounting) world.set_pose(hand, before);
     throw;
   }
-  if (!own_joints) return;
-  std::vector<JointPosition> own(grasp.joints.size());
+  if (posture.own.empty()) return;
+  // joints that stand where their DOF puts them follow it
+  std::vector<JointPosition> own = posture.own;
   for (size_t j = 0; j < own.size(); ++j)
-    if (grasp.joints[j] != world.joints(hand)[static_cast<Eigen::Index>(j)])
-      own[j] = grasp.joints[j];
-  world.set_dofs_unchecked(hand, q, own);
+    if (own[j] && *own[j] == world.joints(hand)[static_cast<Eigen::Index>(j)]) own[j].reset();
+  world.set_dofs_unchecked(hand, posture.dofs, own);
 }
 
 WrenchSpace wrench_space(const GraspSpec& grasp, const GraspSpaceOptions& options) {

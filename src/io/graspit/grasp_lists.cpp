@@ -61,14 +61,26 @@ void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& pat
 
 // --- results ---
 
+static constexpr int max_runs = 1'000'000;
 static constexpr const char* run_mark = "0 0 0 0 0 0 0 0 -2";
 
 std::vector<GraspSpec> read_planned_grasps(const fs::path& path, const ReadOptions& options) {
-  return of_file([&] {
-    LineReader lines(path.filename().string(), read_text(path));
-    std::vector<GraspSpec> out;
+  std::vector<GraspSpec> out;
+  read_planned_grasps(path.filename().string(), read_text(path),
+                      {.add = [&](GraspSpec&& g) { out.push_back(std::move(g)); }}, options);
+  return out;
+}
+
+void read_planned_grasps(const std::string& file, std::string text, const GraspSink& sink,
+                         const ReadOptions& options) {
+  of_file([&] {
+    GraspCollector list(file, text.size(), sink);
+    // nine numbers and the blanks between them
+    list.expect(text.size() / 17);
+    LineReader lines(file, std::move(text));
     int run = -1;
     while (lines.skip_to_full()) {
+      options.progress.check();
       const Line line = lines.next().before('#');
       if (line.size() < 9)
         line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
@@ -84,18 +96,21 @@ std::vector<GraspSpec> read_planned_grasps(const fs::path& path, const ReadOptio
       if (!q)
         line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
       run = std::max(run, 0);
-      GraspSpec& grasp = out.emplace_back();
+      GraspSpec grasp;
       grasp.X_OH = Pose{*q, Vector3d(x[0], x[1], x[2]) * units::millimetre};
       grasp.measures["quality"] = x[8];
       grasp.info["run"] = run + 1;
       grasp.info["spread"] = x[7] * units::degree;
+      list.add(std::move(grasp));
     }
-    return out;
   });
 }
 
 void write_planned_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path) {
-  const std::string file = path.filename().string();
+  write_file(path, planned_grasps_text(grasps, path.filename().string()));
+}
+
+std::string planned_grasps_text(const std::vector<GraspSpec>& grasps, const std::string& file) {
   const auto note = [](const std::map<std::string, double>& named, const char* name, double other) {
     const auto found = named.find(name);
     return found == named.end() ? other : found->second;
@@ -104,7 +119,11 @@ void write_planned_grasps(const std::vector<GraspSpec>& grasps, const fs::path& 
   int run = 0;
   for (const GraspSpec& g : grasps) {
     if (!g.X_OH) fail("{}: expected grasps with a pose, got one without", file);
-    const int of = floor_int(note(g.info, "run", 1));
+    const double number = note(g.info, "run", 1);
+    // a run is a line of the file
+    if (!(number >= 1 && number <= max_runs))
+      fail("{}: info.run: expected a number from 1 to {}, got {}", file, max_runs, number);
+    const int of = floor_int(number);
     if (of < run) fail("{}: expected runs in their order", file);
     for (; run < of; ++run) out += fmt::format("{}\n", run_mark);
     const Vector3d p = g.X_OH->position / units::millimetre;
@@ -113,7 +132,7 @@ void write_planned_grasps(const std::vector<GraspSpec>& grasps, const fs::path& 
         fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
                     note(g.info, "spread", 0) / units::degree, note(g.measures, "quality", 0));
   }
-  write_file(path, out);
+  return out;
 }
 
 }  // namespace clench

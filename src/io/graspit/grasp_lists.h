@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "clench/io/text/find_file.h"
+#include "clench/io/text/grasp_sink.h"
 #include "clench/spec/grasp_spec.h"
 
 namespace clench {
@@ -26,7 +27,11 @@ void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesyst
 /// spread quality`, millimetres and degrees; a line of zeros that ends in -2 begins a run.
 std::vector<GraspSpec> read_planned_grasps(const std::filesystem::path& path,
                                            const ReadOptions& options = {});
+/// The same from a text; `file` is the name shown in errors.
+void read_planned_grasps(const std::string& file, std::string text, const GraspSink& sink,
+                         const ReadOptions& options);
 /// throws Error when a grasp has no pose, or runs are not in their order
+std::string planned_grasps_text(const std::vector<GraspSpec>& grasps, const std::string& file);
 void write_planned_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path);
 
 }  // namespace clench

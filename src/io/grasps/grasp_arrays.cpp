@@ -1,8 +1,8 @@
 #include "clench/io/grasps/grasp_arrays.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
 #include "clench/io/grasps/npz.h"
@@ -10,28 +10,23 @@
 
 namespace clench {
 
-namespace fs = std::filesystem;
-
-void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& path,
-                        const WriteOptions& options) {
-  const std::string file = path.filename().string();
+std::string grasp_arrays_bytes(const std::vector<GraspSpec>& grasps, const std::string& file,
+                               const WriteOptions& options) {
   check_writable(grasps, file, false, false);
-  const size_t n = grasps.size();
-  const auto names = n ? dof_names_of(grasps[0]) : std::vector<std::string>();
+  check_same_dofs(grasps, file);
+  const size_t n = grasps.size(), d = n ? grasps[0].dofs.size() : 0;
   std::map<std::string, NpyArray> out;
-  NpyArray poses{.shape = {n, 7}}, dofs{.shape = {n, names.size()}};
-  for (size_t i = 0; i < n; ++i) {
-    for (const double x : pose_numbers(*grasps[i].X_OH)) poses.numbers.push_back(x);
-    if (dof_names_of(grasps[i]) != names)
-      fail("{}: grasps[{}]: expected the DOFs of the first grasp, {}, got {}", file, i + 1,
-           name_list(names), name_list(dof_names_of(grasps[i])));
-    dofs.numbers.insert(dofs.numbers.end(), grasps[i].dofs.begin(), grasps[i].dofs.end());
+  NpyArray poses{.shape = {n, 7}}, dofs{.shape = {n, d}};
+  for (const GraspSpec& g : grasps) {
+    for (const double x : pose_numbers(*g.X_OH)) poses.numbers.push_back(x);
+    dofs.numbers.insert(dofs.numbers.end(), g.dofs.begin(), g.dofs.end());
   }
   out["poses"] = std::move(poses);
   out["dofs"] = std::move(dofs);
-  out["dof_names"] = {.shape = {names.size()}, .texts = names, .is_text = true};
-  if (n && grasps[0].dof_units.size() == names.size())
-    out["dof_units"] = {.shape = {names.size()}, .texts = grasps[0].dof_units, .is_text = true};
+  if (n && !grasps[0].dof_names.empty())
+    out["dof_names"] = {.shape = {d}, .texts = grasps[0].dof_names, .is_text = true};
+  if (n && !grasps[0].dof_units.empty())
+    out["dof_units"] = {.shape = {d}, .texts = grasps[0].dof_units, .is_text = true};
   const auto numbers = [&](const char* name, auto value) {
     NpyArray& array = out[name] = {.shape = {n}};
     for (const GraspSpec& g : grasps) array.numbers.push_back(value(g));
@@ -50,7 +45,7 @@ void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& pa
   texts("planners", [](const GraspSpec& g) {
     return g.labels.contains("planner") ? g.labels.at("planner") : std::string();
   });
-  // what is kept is not told to be lost
+  // what the arrays hold is not lost
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
     g.info.erase("energy");
@@ -58,7 +53,7 @@ void write_grasp_arrays(const std::vector<GraspSpec>& grasps, const fs::path& pa
     g.labels.erase("planner");
   }
   report_lost(rest, {.dofs = true, .epsilon = true}, file, "npz", options);
-  write_file(path, npz_bytes(out));
+  return npz_bytes(out);
 }
 
 Pose pose_of_matrix(const double* m, const std::string& place) {
@@ -72,9 +67,32 @@ Pose pose_of_matrix(const double* m, const std::string& place) {
   return {Eigen::Quaterniond(R).normalized(), {m[3], m[7], m[11]}};
 }
 
-std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions& options) {
-  const std::string file = path.filename().string();
-  const auto arrays = read_npz(file, read_bytes(path));
+// of row i; `place` ends in the index, as in "g.npz: poses[3]"
+static const double* pose_values(const NpyArray& poses, size_t i, size_t count,
+                                 const std::string& place) {
+  const double* x = poses.numbers.data() + i * count;
+  for (size_t k = 0; k < count; ++k)
+    if (!std::isfinite(x[k])) fail("{}: expected finite numbers, got {}", place, x[k]);
+  return x;
+}
+
+static Pose pose_in_matrices(const NpyArray& poses, size_t i, const std::string& file) {
+  const std::string place = fmt::format("{}: poses[{}]", file, i);
+  return pose_of_matrix(pose_values(poses, i, 16, place), place);
+}
+
+static Pose pose_in_rows(const NpyArray& poses, size_t i, const std::string& file) {
+  const std::string place = fmt::format("{}: poses[{}]", file, i);
+  const double* x = pose_values(poses, i, 7, place);
+  const auto q = made_unit({x[3], x[4], x[5], x[6]});
+  if (!q)
+    fail("{}: expected a quaternion of length 1, got ({} {} {} {})", place, x[3], x[4], x[5], x[6]);
+  return {*q, {x[0], x[1], x[2]}};
+}
+
+void read_grasp_arrays(const std::string& file, std::string_view bytes, const GraspSink& sink,
+                       const ReadOptions& options) {
+  const auto arrays = read_npz(file, bytes);
   const auto shape_text = [](const NpyArray& a) {
     std::string out;
     for (const size_t n : a.shape) out += (out.empty() ? "" : " x ") + std::to_string(n);
@@ -91,22 +109,6 @@ std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions
   if (poses->is_text || !(matrices || (shape.size() == 2 && shape[1] == 7)))
     fail("{}: poses: expected n x 7 or n x 4 x 4 numbers, got {}", file, shape_text(*poses));
   const size_t n = shape[0];
-  std::vector<GraspSpec> out(n);
-  for (size_t i = 0; i < n; ++i) {
-    const double* x = poses->numbers.data() + i * (matrices ? 16 : 7);
-    const std::string place = fmt::format("{}: poses[{}]", file, i);
-    for (int k = 0; k < (matrices ? 16 : 7); ++k)
-      if (!std::isfinite(x[k])) fail("{}: expected finite numbers, got {}", place, x[k]);
-    if (matrices) {
-      out[i].X_OH = pose_of_matrix(x, place);
-      continue;
-    }
-    const auto q = made_unit({x[3], x[4], x[5], x[6]});
-    if (!q)
-      fail("{}: expected a quaternion of length 1, got ({} {} {} {})", place, x[3], x[4], x[5],
-           x[6]);
-    out[i].X_OH = Pose{*q, {x[0], x[1], x[2]}};
-  }
   const auto of_grasps = [&](const char* name, bool text) {
     const NpyArray* a = find(name);
     if (a && (a->is_text != text || a->shape != std::vector<size_t>{n}))
@@ -114,51 +116,55 @@ std::vector<GraspSpec> read_grasp_arrays(const fs::path& path, const ReadOptions
            shape_text(*a));
     return a;
   };
-  if (const NpyArray* dofs = find("dofs")) {
-    if (dofs->is_text || dofs->shape.size() != 2 || dofs->shape[0] != n)
-      fail("{}: dofs: expected {} x d numbers, got {}", file, n, shape_text(*dofs));
-    const size_t d = dofs->shape[1];
-    const auto labels = [&](const char* name) {
-      const NpyArray* a = find(name);
-      if (a && (!a->is_text || a->texts.size() != d))
-        fail("{}: {}: expected {} texts, got {}", file, name, d, shape_text(*a));
-      return a ? a->texts : std::vector<std::string>();
-    };
-    const auto names = labels("dof_names"), units = labels("dof_units");
-    check_dof_names(file + ": dof_names", names);
-    check_dof_units(file + ": dof_units", units);
-    for (size_t i = 0; i < n; ++i) {
-      out[i].dofs.assign(dofs->numbers.begin() + std::ptrdiff_t(i * d),
-                         dofs->numbers.begin() + std::ptrdiff_t((i + 1) * d));
-      for (const double x : out[i].dofs)
-        if (!std::isfinite(x)) fail("{}: dofs[{}]: expected finite numbers, got {}", file, i, x);
-      out[i].dof_names = names;
-      out[i].dof_units = units;
-    }
-  }
-  const auto each = [&](const char* name, auto set) {
-    if (const NpyArray* a = of_grasps(name, false))
-      for (size_t i = 0; i < n; ++i)
-        if (std::isfinite(a->numbers[i])) set(out[i], a->numbers[i]);
+  const NpyArray* dofs = find("dofs");
+  if (dofs && (dofs->is_text || dofs->shape.size() != 2 || dofs->shape[0] != n))
+    fail("{}: dofs: expected {} x d numbers, got {}", file, n, shape_text(*dofs));
+  const size_t d = dofs ? dofs->shape[1] : 0;
+  const auto labels = [&](const char* name) {
+    const NpyArray* a = dofs ? find(name) : nullptr;
+    if (a && (!a->is_text || a->shape != std::vector<size_t>{d}))
+      fail("{}: {}: expected {} texts, got {}", file, name, d, shape_text(*a));
+    return a ? a->texts : std::vector<std::string>();
   };
-  each("epsilon", [](GraspSpec& g, double x) { g.measures["epsilon"] = x; });
-  each("energy", [](GraspSpec& g, double x) { g.info["energy"] = x; });
-  each("seed", [](GraspSpec& g, double x) { g.info["seed"] = x; });
-  each("collision_free", [](GraspSpec& g, double x) { g.collision_free = x != 0; });
-  if (const NpyArray* a = of_grasps("hands", true))
-    for (size_t i = 0; i < n; ++i) out[i].hand_name = a->texts[i];
-  if (const NpyArray* a = of_grasps("objects", true))
-    for (size_t i = 0; i < n; ++i) out[i].object_name = a->texts[i];
-  if (const NpyArray* a = of_grasps("planners", true))
-    for (size_t i = 0; i < n; ++i)
-      if (!a->texts[i].empty()) out[i].labels["planner"] = a->texts[i];
+  const auto names = labels("dof_names"), units = labels("dof_units");
+  check_dof_names(file + ": dof_names", names);
+  check_dof_units(file + ": dof_units", units);
+  const NpyArray *epsilon = of_grasps("epsilon", false), *energy = of_grasps("energy", false),
+                 *seed = of_grasps("seed", false), *free = of_grasps("collision_free", false),
+                 *hands = of_grasps("hands", true), *objects = of_grasps("objects", true),
+                 *planners = of_grasps("planners", true);
+  GraspCollector list(file, bytes.size(), sink);
+  list.expect(n);
+  for (size_t i = 0; i < n; ++i) {
+    options.progress.check();
+    GraspSpec g;
+    g.X_OH = matrices ? pose_in_matrices(*poses, i, file) : pose_in_rows(*poses, i, file);
+    if (dofs) {
+      g.dofs.assign(dofs->numbers.begin() + std::ptrdiff_t(i * d),
+                    dofs->numbers.begin() + std::ptrdiff_t((i + 1) * d));
+      for (const double x : g.dofs)
+        if (!std::isfinite(x)) fail("{}: dofs[{}]: expected finite numbers, got {}", file, i, x);
+      g.dof_names = names;
+      g.dof_units = units;
+    }
+    const auto number = [&](const NpyArray* a, auto set) {
+      if (a && std::isfinite(a->numbers[i])) set(a->numbers[i]);
+    };
+    number(epsilon, [&](double x) { g.measures["epsilon"] = x; });
+    number(energy, [&](double x) { g.info["energy"] = x; });
+    number(seed, [&](double x) { g.info["seed"] = x; });
+    number(free, [&](double x) { g.collision_free = x != 0; });
+    if (hands) g.hand_name = hands->texts[i];
+    if (objects) g.object_name = objects->texts[i];
+    if (planners && !planners->texts[i].empty()) g.labels["planner"] = planners->texts[i];
+    list.add(std::move(g));
+  }
   static const std::vector<std::string> known = {
       "poses", "dofs",           "dof_names", "dof_units", "epsilon", "energy",
       "seed",  "collision_free", "hands",     "objects",   "planners"};
   for (const auto& [name, array] : arrays)
     if (options.warn && std::find(known.begin(), known.end(), name) == known.end())
       options.warn(fmt::format("{}: the array {} is not used", file, in_quotes(name)));
-  return out;
 }
 
 }  // namespace clench

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
@@ -15,12 +18,12 @@ namespace {
 
 /// A value of the file, and how messages call it.
 struct Value {
-  const YamlNode& node;
+  ValueNode node;
   const std::string& file;
   std::string name = {};
 
   std::string place() const {
-    return fmt::format("{}:{}{}{}", file, node.line, name.empty() ? "" : ": ", name);
+    return fmt::format("{}:{}{}{}", file, node.line(), name.empty() ? "" : ": ", name);
   }
   [[noreturn]] void refuse(const std::string& expected) const {
     fail("{}: expected {}, got {}", place(), expected, node.described());
@@ -28,37 +31,45 @@ struct Value {
   std::string key_name(std::string_view key) const {
     return name.empty() ? excerpt(key) : name + "." + excerpt(key);
   }
-  bool has(std::string_view key) const { return node.find(key); }
+  bool has(std::string_view key) const { return node.find(key).has_value(); }
   Value get(std::string_view key) const {
-    const YamlNode* found = node.find(key);
+    const auto found = node.find(key);
     if (!found) fail("{}: expected a key '{}', got none", place(), key);
     return {*found, file, key_name(key)};
   }
-  Value item(size_t i) const { return {node.items[i], file, fmt::format("{}[{}]", name, i)}; }
+  Value item(size_t i) const { return {node.item(i), file, fmt::format("{}[{}]", name, i)}; }
+  /// The i-th value of a map.
+  Value entry(size_t i) const { return {node.item(i), file, key_name(node.key(i))}; }
   std::string text() const {
-    if (node.kind != YamlNode::Kind::scalar) refuse("a text");
-    return node.text;
+    if (node.kind() != ValueKind::scalar) refuse("a text");
+    return std::string(node.text());
   }
+  /// The text at a key; empty when there is none.
+  std::string text_at(std::string_view key) const { return has(key) ? get(key).text() : ""; }
   double number() const {
-    const auto x = node.kind == YamlNode::Kind::scalar && !node.quoted ? parse_number(node.text)
-                                                                       : std::nullopt;
+    const auto x = node.kind() == ValueKind::scalar && !node.quoted() ? parse_number(node.text())
+                                                                      : std::nullopt;
     if (!x) refuse("a number");
     return *x;
   }
   size_t list(const char* what, size_t count = std::string::npos) const {
-    if (node.kind != YamlNode::Kind::list ||
-        (count != std::string::npos && node.items.size() != count))
+    if (node.kind() != ValueKind::list || (count != std::string::npos && node.size() != count))
       refuse(count == std::string::npos ? fmt::format("a list of {}", what)
                                         : fmt::format("{} {}", count, what));
-    return node.items.size();
+    return node.size();
   }
   std::vector<double> numbers(size_t count = std::string::npos) const {
     std::vector<double> out(list("numbers", count));
-    for (size_t i = 0; i < out.size(); ++i) out[i] = item(i).number();
+    for (size_t i = 0; i < out.size(); ++i) {
+      const ValueNode one = node.item(i);
+      const auto x = one.kind() == ValueKind::scalar && !one.quoted() ? parse_number(one.text())
+                                                                      : std::nullopt;
+      out[i] = x ? *x : item(i).number();
+    }
     return out;
   }
   void map() const {
-    if (node.kind != YamlNode::Kind::map) refuse("a map");
+    if (node.kind() != ValueKind::map) refuse("a map");
   }
   Pose pose(const std::vector<double>& p, const std::vector<double>& q) const {
     const auto unit = made_unit({q[0], q[1], q[2], q[3]});
@@ -67,32 +78,53 @@ struct Value {
            q[3]);
     return {*unit, {p[0], p[1], p[2]}};
   }
-  void tell_unused(const std::vector<std::string>& known, const ReadOptions& options) const {
-    std::vector<std::string> rest;
-    for (const auto& key : node.keys)
-      if (std::ranges::find(known, key) == known.end()) rest.push_back(key);
-    if (!rest.empty() && options.warn)
-      options.warn(fmt::format("{}: {} {} not used", place(), name_list(rest),
-                               rest.size() > 1 ? "are" : "is"));
+  /// Keys of the map that are not known.
+  std::vector<std::string> unknown(const std::vector<std::string>& known) const {
+    std::vector<std::string> out;
+    for (size_t i = 0; i < node.size(); ++i)
+      if (std::ranges::find(known, node.key(i)) == known.end()) out.push_back(excerpt(node.key(i)));
+    return out;
   }
 };
+
+void warn_of_unused(const std::string& place, const std::vector<std::string>& keys,
+                    const ReadOptions& options) {
+  if (!keys.empty() && options.warn)
+    options.warn(
+        fmt::format("{}: {} {} not used", place, name_list(keys), keys.size() > 1 ? "are" : "is"));
+}
+
+void warn_of_scale(const std::string& file, double scale, const ReadOptions& options) {
+  if (scale != 1 && options.warn)
+    options.warn(fmt::format(
+        "{}: the object has to be loaded at scale {}, at which these grasps hold it", file, scale));
+}
 
 // the last part of a path, as USD and files have them
 std::string last_part(const std::string& path) {
   return path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
 }
 
-std::string plain_or(const std::string& text, const char* other) {
-  return yaml_quoted(text.empty() ? other : text);
-}
-
 std::string named_list(const std::vector<std::string>& names, const std::vector<double>& values) {
   std::string out;
   for (size_t i = 0; i < values.size(); ++i)
-    out += fmt::format("      {}: {}\n",
-                       yaml_quoted(i < names.size() ? names[i] : fmt::format("dof{}", i + 1)),
-                       real_text(values[i]));
+    out += fmt::format("      {}: {}\n", yaml_quoted(names[i]), real_text(values[i]));
   return out.empty() ? " {}\n" : "\n" + out;
+}
+
+// their labels "name", where all differ; else grasp_0 and so on
+std::vector<std::string> grasp_names(const std::vector<GraspSpec>& grasps) {
+  std::vector<std::string> out;
+  std::set<std::string> known;
+  for (size_t i = 0; i < grasps.size(); ++i) {
+    const auto label = grasps[i].labels.find("name");
+    if (label == grasps[i].labels.end() || !known.insert(label->second).second) break;
+    out.push_back(yaml_quoted(label->second));
+  }
+  if (out.size() == grasps.size()) return out;
+  out.clear();
+  for (size_t i = 0; i < grasps.size(); ++i) out.push_back(fmt::format("grasp_{}", i));
+  return out;
 }
 
 std::string text_list(const std::vector<std::string>& texts) {
@@ -108,83 +140,133 @@ std::string text_list(const std::vector<std::string>& texts) {
 std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                              const WriteOptions& options) {
   check_writable(grasps, file, true, true);
-  report_lost(grasps, {.dofs = true, .epsilon = true, .pregrasp_dofs = true}, file, "isaac_grasp",
+  // what the list holds is not lost
+  std::vector<GraspSpec> rest = grasps;
+  for (GraspSpec& g : rest) {
+    g.info.erase("confidence");
+    g.labels.erase("name");
+  }
+  report_lost(rest, {.dofs = true, .epsilon = true, .pregrasp_dofs = true}, file, "isaac_grasp",
               options);
   const GraspSpec first = grasps.empty() ? GraspSpec{} : grasps[0];
   std::string out = fmt::format(
       "format: isaac_grasp\nformat_version: 1.0\n\nobject_frame: {}\ngripper_frame: "
       "{}\n\ngrasps:{}\n",
-      plain_or(first.object_name, "object"), plain_or(first.hand_name, "gripper"),
-      grasps.empty() ? " {}" : "");
+      yaml_quoted(first.object_name), yaml_quoted(first.hand_name), grasps.empty() ? " {}" : "");
+  const auto names_of_grasps = grasp_names(grasps);
   for (size_t i = 0; i < grasps.size(); ++i) {
     const GraspSpec& g = grasps[i];
-    const auto names = dof_names_of(g);
+    if (g.dof_names.size() != g.dofs.size())
+      fail(
+          "{}: grasps[{}]: expected DOFs with names, which the format isaac_grasp needs, got {} "
+          "without; the option dof_order names them",
+          file, i + 1, g.dofs.size());
+    if (g.pregrasp && g.pregrasp->dofs.size() != g.dofs.size())
+      fail("{}: grasps[{}]: expected a pregrasp of {} DOFs, got {}", file, i + 1, g.dofs.size(),
+           g.pregrasp->dofs.size());
     const auto& p = g.X_OH->position;
     const auto& q = g.X_OH->rotation;
     const double epsilon = number_of(g.measures, "epsilon", 1);
     const double confidence = std::clamp(number_of(g.info, "confidence", epsilon), 0.0, 1.0);
     out += fmt::format(
-        "  grasp_{}:\n    confidence: {}\n    position: {}\n    orientation: {{w: {}, xyz: {}}}\n",
-        i, real_text(confidence), real_list({p.x(), p.y(), p.z()}), real_text(q.w()),
-        real_list({q.x(), q.y(), q.z()}));
-    out += "    cspace_position:" + named_list(names, g.dofs);
-    out +=
-        "    pregrasp_cspace_position:" + named_list(names, g.pregrasp ? g.pregrasp->dofs : g.dofs);
+        "  {}:\n    confidence: {}\n    position: {}\n    orientation: {{w: {}, xyz: {}}}\n",
+        names_of_grasps[i], real_text(confidence), real_list({p.x(), p.y(), p.z()}),
+        real_text(q.w()), real_list({q.x(), q.y(), q.z()}));
+    out += "    cspace_position:" + named_list(g.dof_names, g.dofs);
+    out += "    pregrasp_cspace_position:" +
+           named_list(g.dof_names, g.pregrasp ? g.pregrasp->dofs : g.dofs);
   }
   return out;
 }
 
-std::vector<GraspSpec> read_isaac_grasps(const YamlNode& root, const std::string& file,
-                                         const ReadOptions& options) {
-  const Value top{root, file};
+namespace {
+
+constexpr const char *position_key = "cspace_position", *pregrasp_key = "pregrasp_cspace_position";
+
+// values by names of DOFs
+template <class Add>
+void each_dof(const Value& values, Add add) {
+  values.map();
+  for (size_t i = 0; i < values.node.size(); ++i)
+    add(std::string(values.node.key(i)), values.entry(i).number());
+}
+
+GraspSpec read_isaac_grasp(const Value& one, const ReadOptions& options) {
+  one.map();
+  GraspSpec g;
+  const Value turn = one.get("orientation");
+  turn.map();
+  const auto xyz = turn.get("xyz").numbers(3);
+  g.X_OH =
+      one.pose(one.get("position").numbers(3), {turn.get("w").number(), xyz[0], xyz[1], xyz[2]});
+  if (one.has("confidence")) g.info["confidence"] = one.get("confidence").number();
+  // without it the hand keeps its DOFs
+  if (one.has(position_key))
+    each_dof(one.get(position_key), [&](std::string name, double x) {
+      g.dof_names.push_back(std::move(name));
+      g.dofs.push_back(x);
+    });
+  if (!one.has(pregrasp_key)) return g;
+  std::map<std::string, double> before;
+  each_dof(one.get(pregrasp_key), [&](const std::string& name, double x) { before[name] = x; });
+  g.pregrasp = PregraspState{*g.X_OH, g.dofs};
+  for (size_t k = 0; k < g.dofs.size(); ++k) {
+    const auto found = before.find(g.dof_names[k]);
+    if (found == before.end()) continue;
+    g.pregrasp->dofs[k] = found->second;
+    before.erase(found);
+  }
+  if (!before.empty() && options.warn)
+    options.warn(fmt::format("{}: {} is not used, as {} does not list it",
+                             one.get(pregrasp_key).place(), excerpt(before.begin()->first),
+                             position_key));
+  return g;
+}
+
+}  // namespace
+
+void read_isaac_grasps(const ValueTree& tree, const std::string& file, GraspCollector& list,
+                       const ReadOptions& options) {
+  const Value top{tree.root(), file};
   top.map();
   if (const auto format = top.get("format"); format.text() != "isaac_grasp")
     format.refuse("'isaac_grasp'");
   if (const auto version = top.get("format_version"); parse_number(version.text()) != 1.0)
     version.refuse("version 1.0");
-  top.tell_unused({"format", "format_version", "object_frame", "gripper_frame", "grasps",
-                   "created_with", "created_at"},
-                  options);
-  const std::string object =
-      top.has("object_frame") ? last_part(top.get("object_frame").text()) : "";
-  const std::string hand =
-      top.has("gripper_frame") ? last_part(top.get("gripper_frame").text()) : "";
-  std::vector<GraspSpec> out;
+  // the frames by the names of ROS's documentation, or those of Isaac Sim's Grasp Editor
+  const auto frame = [&](const char* key, const char* link_key) {
+    return last_part(top.text_at(top.has(key) ? key : link_key));
+  };
+  const std::string object = frame("object_frame", "object_frame_link"),
+                    hand = frame("gripper_frame", "gripper_frame_link"),
+                    object_file = top.text_at("object_file"),
+                    hand_file = top.text_at("gripper_file");
+  if (top.has("object_scale")) warn_of_scale(file, top.get("object_scale").number(), options);
+  warn_of_unused(top.place(),
+                 top.unknown({"format", "format_version", "object_frame", "object_frame_link",
+                              "gripper_frame", "gripper_frame_link", "grasps", "object_file",
+                              "object_scale", "gripper_file", "created_with", "created_at"}),
+                 options);
   const Value grasps = top.get("grasps");
   grasps.map();
-  for (size_t i = 0; i < root.find("grasps")->items.size(); ++i) {
+  list.expect(grasps.node.size());
+  bool told = false;
+  for (size_t i = 0; i < grasps.node.size(); ++i) {
     options.progress.check();
-    const Value one{grasps.node.items[i], file, grasps.key_name(grasps.node.keys[i])};
-    one.map();
-    GraspSpec& g = out.emplace_back();
+    const Value one = grasps.entry(i);
+    GraspSpec g = read_isaac_grasp(one, options);
     g.hand_name = hand;
     g.object_name = object;
-    g.labels["name"] = grasps.node.keys[i];
-    const Value turn = one.get("orientation");
-    turn.map();
-    const auto xyz = turn.get("xyz").numbers(3);
-    g.X_OH =
-        one.pose(one.get("position").numbers(3), {turn.get("w").number(), xyz[0], xyz[1], xyz[2]});
-    if (one.has("confidence")) g.info["confidence"] = one.get("confidence").number();
-    const auto named = [&](const char* key, auto add) {
-      const Value values = one.get(key);
-      values.map();
-      for (size_t k = 0; k < values.node.items.size(); ++k)
-        add(values.node.keys[k],
-            Value{values.node.items[k], file, values.key_name(values.node.keys[k])}.number());
-    };
-    named("cspace_position", [&](const std::string& name, double x) {
-      g.dof_names.push_back(name);
-      g.dofs.push_back(x);
-    });
-    if (!one.has("pregrasp_cspace_position")) continue;
-    std::map<std::string, double> before;
-    named("pregrasp_cspace_position", [&](const std::string& name, double x) { before[name] = x; });
-    g.pregrasp = PregraspState{*g.X_OH, g.dofs};
-    for (size_t k = 0; k < g.dofs.size(); ++k)
-      g.pregrasp->dofs[k] = number_of(before, g.dof_names[k], g.dofs[k]);
+    g.hand_file = hand_file;
+    g.object_file = object_file;
+    g.labels["name"] = grasps.node.key(i);
+    list.add(std::move(g));
+    if (told) continue;  // of the first grasp that has some
+    const auto unused =
+        one.unknown({"position", "orientation", "confidence", position_key, pregrasp_key});
+    warn_of_unused(one.place(), unused, options);
+    told = !unused.empty();
   }
-  return out;
 }
 
 // --- GraspGen ---
@@ -192,7 +274,14 @@ std::vector<GraspSpec> read_isaac_grasps(const YamlNode& root, const std::string
 std::string graspgen_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                           const WriteOptions& options) {
   check_writable(grasps, file, false, true);
-  report_lost(grasps, {}, file, "graspgen", options);
+  // what the list holds is not lost
+  std::vector<GraspSpec> rest = grasps;
+  for (GraspSpec& g : rest) {
+    for (const char* held : {"scale", "object_in_gripper"}) g.info.erase(held);
+    g.hand_file.clear();
+    g.object_file.clear();
+  }
+  report_lost(rest, {.hand = false}, file, "graspgen", options);
   const GraspSpec first = grasps.empty() ? GraspSpec{} : grasps[0];
   std::string transforms, held;
   for (const GraspSpec& g : grasps) {
@@ -205,53 +294,62 @@ std::string graspgen_text(const std::vector<GraspSpec>& grasps, const std::strin
     held += (held.empty() ? "" : ", ") +
             std::string(number_of(g.info, "object_in_gripper", good) != 0 ? "true" : "false");
   }
+  const double scale = number_of(first.info, "scale", 1);
+  for (size_t i = 0; i < grasps.size(); ++i)
+    if (const double other = number_of(grasps[i].info, "scale", 1); other != scale)
+      fail("{}: grasps[{}]: expected the scale of the first grasp, {}, got {}", file, i + 1, scale,
+           other);
   return fmt::format(
-      "{{\n  \"object\": {{\"file\": {}, \"scale\": 1.0}},\n  \"grasps\": {{\n    \"transforms\": "
+      "{{\n  \"object\": {{\"file\": {}, \"scale\": {}}},\n  \"grasps\": {{\n    \"transforms\": "
       "[\n      {}\n    ],\n"
       "    \"object_in_gripper\": [{}]\n  }}\n}}\n",
-      yaml_quoted(first.object_file.empty() ? first.object_name : first.object_file), transforms,
-      held);
+      yaml_quoted(first.object_file.empty() ? first.object_name : first.object_file),
+      real_text(scale), transforms, held);
 }
 
-std::vector<GraspSpec> read_graspgen(const YamlNode& root, const std::string& file,
-                                     const ReadOptions& options) {
-  const Value top{root, file};
+void read_graspgen(const ValueTree& tree, const std::string& file, GraspCollector& list,
+                   const ReadOptions& options) {
+  const Value top{tree.root(), file};
   top.map();
   const Value object = top.get("object"), grasps = top.get("grasps");
   object.map();
   grasps.map();
-  top.tell_unused({"object", "grasps"}, options);
-  const std::string object_file = object.has("file") ? object.get("file").text() : "";
+  warn_of_unused(top.place(), top.unknown({"object", "grasps"}), options);
+  warn_of_unused(object.place(), object.unknown({"file", "scale"}), options);
+  warn_of_unused(grasps.place(), grasps.unknown({"transforms", "object_in_gripper"}), options);
+  const std::string object_file = object.text_at("file");
   const double scale = object.has("scale") ? object.get("scale").number() : 1;
   if (!(scale > 0)) object.get("scale").refuse("a number > 0");
-  if (scale != 1 && options.warn)
-    options.warn(fmt::format(
-        "{}: the object has to be loaded at scale {}, at which these grasps hold it", file, scale));
+  warn_of_scale(file, scale, options);
   const Value transforms = grasps.get("transforms");
-  std::vector<GraspSpec> out(transforms.list("4 x 4 matrices"));
-  for (size_t i = 0; i < out.size(); ++i) {
+  const size_t count = transforms.list("4 x 4 matrices");
+  std::optional<Value> held;
+  if (grasps.has("object_in_gripper")) {
+    held.emplace(grasps.get("object_in_gripper"));
+    held->list("true and false", count);
+  }
+  list.expect(count);
+  for (size_t i = 0; i < count; ++i) {
     options.progress.check();
     const Value matrix = transforms.item(i);
     matrix.list("rows of 4 numbers", 4);
     std::vector<double> m;
     for (size_t r = 0; r < 4; ++r)
       for (const double x : matrix.item(r).numbers(4)) m.push_back(x);
-    out[i].X_OH = pose_of_matrix(m.data(), matrix.place());
-    out[i].object_file = object_file;
-    out[i].object_name = std::filesystem::path(object_file).stem().string();
-    out[i].info["scale"] = scale;
+    GraspSpec g;
+    g.X_OH = pose_of_matrix(m.data(), matrix.place());
+    g.object_file = object_file;
+    g.object_name = std::filesystem::path(object_file).stem().string();
+    g.info["scale"] = scale;
+    if (held) {
+      const Value word = held->item(i);
+      const std::string text = lower_case(word.text());
+      if (text != "true" && text != "false" && text != "1" && text != "0")
+        word.refuse("true or false");
+      g.info["object_in_gripper"] = text == "true" || text == "1";
+    }
+    list.add(std::move(g));
   }
-  if (!grasps.has("object_in_gripper")) return out;
-  const Value held = grasps.get("object_in_gripper");
-  held.list("true and false", out.size());
-  for (size_t i = 0; i < out.size(); ++i) {
-    const Value word = held.item(i);
-    const std::string text = lower_case(word.text());
-    if (text != "true" && text != "false" && text != "1" && text != "0")
-      word.refuse("true or false");
-    out[i].info["object_in_gripper"] = text == "true" || text == "1";
-  }
-  return out;
 }
 
 // --- MultiGripperGrasp ---
@@ -259,6 +357,7 @@ std::vector<GraspSpec> read_graspgen(const YamlNode& root, const std::string& fi
 std::string multigripper_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                               const WriteOptions& options) {
   check_writable(grasps, file, true, true);
+  check_same_dofs(grasps, file);
   report_lost(grasps, {.dofs = true}, file, "multigripper", options);
   const GraspSpec first = grasps.empty() ? GraspSpec{} : grasps[0];
   std::string poses, dofs;
@@ -270,50 +369,58 @@ std::string multigripper_text(const std::vector<GraspSpec>& grasps, const std::s
   // its documentation says object_ID, its program reads object_id
   return fmt::format(
       "{{\n  \"gripper\": {},\n  \"object_ID\": {},\n  \"object_id\": {},\n  \"pose\": [\n    {}\n "
-      " ],\n  \"dofs\": [\n    {}\n  ],\n"
-      "  \"dof_names\": {}\n}}\n",
-      yaml_quoted(first.hand_name), object, object, poses, dofs, text_list(dof_names_of(first)));
+      " ],\n  \"dofs\": [\n    {}\n  ]{}\n}}\n",
+      yaml_quoted(first.hand_name), object, object, poses, dofs,
+      first.dof_names.empty() ? "" : ",\n  \"dof_names\": " + text_list(first.dof_names));
 }
 
-std::vector<GraspSpec> read_multigripper(const YamlNode& root, const std::string& file,
-                                         const ReadOptions& options) {
-  const Value top{root, file};
+void read_multigripper(const ValueTree& tree, const std::string& file, GraspCollector& list,
+                       const ReadOptions& options) {
+  const Value top{tree.root(), file};
   top.map();
   const std::string hand = top.get("gripper").text();
   const std::string object =
-      top.has("object_id") ? top.get("object_id").text() : top.get("object_ID").text();
+      top.get(top.has("object_ID") && !top.has("object_id") ? "object_ID" : "object_id").text();
   const Value poses = top.get("pose");
-  std::vector<GraspSpec> out(poses.list("poses"));
+  const size_t count = poses.list("poses");
   std::vector<std::string> names;
   if (top.has("dof_names")) {
-    const Value list = top.get("dof_names");
-    for (size_t i = 0; i < list.list("texts"); ++i) names.push_back(list.item(i).text());
-    check_dof_names(list.place(), names);
+    const Value given = top.get("dof_names");
+    for (size_t i = 0; i < given.list("texts"); ++i) names.push_back(given.item(i).text());
+    check_dof_names(given.place(), names);
   }
   const char* dofs_key = top.has("final_dofs") ? "final_dofs" : "dofs";
-  if (top.has(dofs_key)) top.get(dofs_key).list("lists of DOFs", out.size());
-  for (size_t i = 0; i < out.size(); ++i) {
-    options.progress.check();
-    GraspSpec& g = out[i];
-    const auto x = poses.item(i).numbers(7);
-    g.hand_name = hand;
-    g.object_name = object;
-    g.X_OH = poses.item(i).pose(x, {x[3], x[4], x[5], x[6]});
-    if (!top.has(dofs_key)) continue;
-    g.dofs = top.get(dofs_key).item(i).numbers(names.empty() ? std::string::npos : names.size());
-    g.dof_names = names;
+  std::optional<Value> dofs;
+  if (top.has(dofs_key)) {
+    dofs.emplace(top.get(dofs_key));
+    dofs->list("lists of DOFs", count);
   }
   std::vector<std::string> known = {"gripper", "object_ID",  "object_id", "pose",
                                     "dofs",    "final_dofs", "dof_names"};
+  std::vector<std::pair<std::string, Value>> results;
   for (const char* key : {"result", "result_time", "fall_time", "slip_time"}) {
     if (!top.has(key)) continue;
     known.emplace_back(key);
-    const Value list = top.get(key);
-    list.list("numbers", out.size());
-    for (size_t i = 0; i < out.size(); ++i) out[i].info[key] = list.item(i).number();
+    results.emplace_back(key, top.get(key));
+    results.back().second.list("numbers", count);
   }
-  top.tell_unused(known, options);
-  return out;
+  warn_of_unused(top.place(), top.unknown(known), options);
+  list.expect(count);
+  for (size_t i = 0; i < count; ++i) {
+    options.progress.check();
+    GraspSpec g;
+    const Value pose = poses.item(i);
+    const auto x = pose.numbers(7);
+    g.hand_name = hand;
+    g.object_name = object;
+    g.X_OH = pose.pose(x, {x[3], x[4], x[5], x[6]});
+    if (dofs) {
+      g.dofs = dofs->item(i).numbers(names.empty() ? std::string::npos : names.size());
+      g.dof_names = names;
+    }
+    for (const auto& [key, values] : results) g.info[key] = values.item(i).number();
+    list.add(std::move(g));
+  }
 }
 
 }  // namespace clench

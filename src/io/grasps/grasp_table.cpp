@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
-#include "clench/base/file.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
@@ -13,8 +13,6 @@
 #include "clench/io/text/number_reader.h"
 
 namespace clench {
-
-namespace fs = std::filesystem;
 
 using Row = std::map<std::string, std::string>;
 
@@ -30,18 +28,26 @@ static constexpr std::pair<const char*, std::string GraspSpec::*> text_columns[]
 
 static std::string text_cell(const std::string& text) { return text.empty() ? "" : csv_cell(text); }
 
+// a number that is not finite is not known
+static std::string number_cell(double x) { return std::isfinite(x) ? real_text(x) : ""; }
+
 // a seed and other counts are integers
 static std::string note_cell(double x) {
-  return x == std::floor(x) && std::abs(x) < 9e15 ? fmt::format("{:.0f}", x) : real_text(x);
+  return x == std::floor(x) && std::abs(x) < 9e15 ? fmt::format("{:.0f}", x) : number_cell(x);
 }
+
+// units that are not known, of each
+static constexpr const char* any_unit = "rad or m";
 
 /// Of each DOF, in their order.
 static std::vector<std::string> dof_columns(const GraspSpec& g) {
   std::vector<std::string> out;
-  const auto names = dof_names_of(g);
-  for (size_t i = 0; i < g.dofs.size(); ++i)
-    out.push_back(
-        fmt::format("dof {} [{}]", names[i], i < g.dof_units.size() ? g.dof_units[i] : "rad or m"));
+  for (size_t i = 0; i < g.dofs.size(); ++i) {
+    const std::string unit =
+        i < g.dof_units.size() && !g.dof_units[i].empty() ? g.dof_units[i] : any_unit;
+    out.push_back(g.dof_names.empty() ? fmt::format("dof_{} [{}]", i + 1, unit)
+                                      : fmt::format("dof {} [{}]", g.dof_names[i], unit));
+  }
   return out;
 }
 
@@ -55,21 +61,21 @@ static Row row_of(const GraspSpec& g) {
   const auto dofs = dof_columns(g);
   for (size_t i = 0; i < dofs.size(); ++i) row[dofs[i]] = real_text(g.dofs[i]);
   for (const auto& [name, x] : g.measures)
-    row[name == "epsilon" ? name : "measure " + name] = real_text(x);
+    row[name == "epsilon" ? name : "measure " + name] = number_cell(x);
   for (const auto& [name, x] : g.info) {
     if (name == "energy")
-      row[name] = real_text(x);
+      row[name] = number_cell(x);
     else
       row[name == "seed" ? name : "info " + name] = note_cell(x);
   }
   for (const auto& [name, text] : g.labels)
-    row[name == "planner" ? name : "label " + name] = text_cell(text);
+    row[name == "planner" ? name : "label " + name] = csv_cell(text);
   if (g.collision_free) row["collision_free"] = *g.collision_free ? "true" : "false";
   return row;
 }
 
-void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& path,
-                       const WriteOptions& options) {
+std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::string& file,
+                             const WriteOptions& options) {
   std::vector<std::string> columns = {"hand",    "object", "planner",       "seed",
                                       "epsilon", "energy", "collision_free"};
   columns.insert(columns.end(), std::begin(pose_columns), std::end(pose_columns));
@@ -95,140 +101,211 @@ void write_grasp_table(const std::vector<GraspSpec>& grasps, const fs::path& pat
     }
     out += '\n';
   }
-  report_lost(grasps, {.dofs = true, .epsilon = true, .notes = true}, path.filename().string(),
-              "csv", options);
-  write_file(path, out);
+  report_lost(grasps, {.dofs = true, .epsilon = true, .notes = true, .files = true}, file, "csv",
+              options);
+  return out;
 }
 
 // --- reading ---
 
 namespace {
 
-// a grasp's own names, whatever their column is called: "dof thumb [rad]" is "thumb", in rad
-struct Column {
-  std::string name = {}, kind = {}, key = {}, unit = {};
+enum class Role {
+  unused,
+  text,
+  planner,
+  label,
+  epsilon,
+  measure,
+  note,
+  collision_free,
+  dof,
+  numbered_dof,
+  pose
 };
 
-Column column_of(const std::string& name) {
-  Column out{.name = name};
-  const size_t space = name.find(' ');
-  const std::string first = name.substr(0, space);
-  if (space != std::string::npos &&
-      (first == "dof" || first == "measure" || first == "info" || first == "label")) {
-    out.kind = first;
-    out.key = name.substr(space + 1);
-  }
-  if (out.kind == "dof" && out.key.ends_with(']') && out.key.rfind(" [") != std::string::npos) {
-    const size_t bracket = out.key.rfind(" [");
-    out.unit = out.key.substr(bracket + 2, out.key.size() - bracket - 3);
-    out.key.resize(bracket);
-  }
+/// A column, its role, and the name in it: "dof thumb [rad]" is the DOF "thumb", in rad.
+struct Column {
+  std::string name = {};
+  Role role = Role::unused;
+  std::string key = {}, unit = {};
+  size_t number = 0;  ///< of a part of the pose, or of a text
+};
+
+// "thumb [rad]" as name and unit
+void split_unit(Column& column) {
+  const size_t bracket = column.key.rfind(" [");
+  if (!column.key.ends_with(']') || bracket == std::string::npos) return;
+  column.unit = column.key.substr(bracket + 2, column.key.size() - bracket - 3);
+  column.key.resize(bracket);
+}
+
+Column column_of(std::string name) {
+  static constexpr std::pair<std::string_view, Role> prefixes[] = {{"dof ", Role::dof},
+                                                                   {"dof_", Role::numbered_dof},
+                                                                   {"measure ", Role::measure},
+                                                                   {"info ", Role::note},
+                                                                   {"label ", Role::label}};
+  static constexpr std::pair<std::string_view, Role> names[] = {
+      {"planner", Role::planner},
+      {"seed", Role::note},
+      {"energy", Role::note},
+      {"epsilon", Role::epsilon},
+      {"collision_free", Role::collision_free}};
+  Column out{.name = std::move(name)};
+  for (const auto& [prefix, role] : prefixes)
+    if (out.name.starts_with(prefix)) {
+      out.role = role;
+      out.key = out.name.substr(prefix.size());
+      if (role == Role::dof || role == Role::numbered_dof) split_unit(out);
+      if (role == Role::numbered_dof && !parse_integer(out.key)) out.role = Role::unused;
+      return out;
+    }
+  for (const auto& [known, role] : names)
+    if (out.name == known) {
+      out.role = role;
+      out.key = out.name;
+    }
+  for (size_t i = 0; i < std::size(text_columns); ++i)
+    if (out.name == text_columns[i].first) out.role = Role::text, out.number = i;
+  for (size_t i = 0; i < std::size(pose_columns); ++i)
+    if (out.name == pose_columns[i]) out.role = Role::pose, out.number = i;
   return out;
 }
 
-/// Units and names of the DOFs, whose columns may differ in their unit alone.
-void check_dof_columns(const std::vector<Column>& columns, const std::string& place) {
-  std::vector<std::string> names;
-  for (const Column& c : columns) {
-    if (c.kind != "dof") continue;
-    check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
-    names.push_back(c.key);
+class TableReader {
+ public:
+  TableReader(const std::string& file, const CsvRecord& head, const ReadOptions& options)
+      : file_(file) {
+    for (const CsvCell& name : head.cells) columns_.push_back(column_of(name.text));
+    check_columns(fmt::format("{}:{}", file, head.line));
+    std::vector<std::string> unused;
+    for (const Column& c : columns_)
+      if (c.role == Role::unused) unused.push_back(excerpt(c.name));
+    if (!unused.empty() && options.warn)
+      options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
   }
-  check_dof_names(place + ": DOF", names);
-}
+
+  GraspSpec read(const CsvRecord& record) const {
+    if (record.cells.size() != columns_.size())
+      fail("{}:{}: expected {} cells, got {}", file_, record.line, columns_.size(),
+           record.cells.size());
+    GraspSpec g;
+    std::optional<double> pose[7];
+    bool has_units = false;
+    for (size_t c = 0; c < columns_.size(); ++c) {
+      const Column& column = columns_[c];
+      const CsvCell& cell = record.cells[c];
+      if (cell.text.empty() && !cell.quoted) continue;
+      switch (column.role) {
+        case Role::unused:
+          break;
+        case Role::text:
+          g.*text_columns[column.number].second = cell.text;
+          break;
+        case Role::planner:
+        case Role::label:
+          g.labels[column.key] = cell.text;
+          break;
+        case Role::epsilon:
+        case Role::measure:
+          if (cell.text != "inf" && cell.text != "nan" && cell.text != "-inf")
+            g.measures[column.key] = number(column, cell, record.line);
+          break;
+        case Role::note:
+          g.info[column.key] = number(column, cell, record.line);
+          break;
+        case Role::collision_free:
+          if (cell.text != "true" && cell.text != "false")
+            fail("{}:{}: collision_free: expected true or false, got {}", file_, record.line,
+                 in_quotes(cell.text));
+          g.collision_free = cell.text == "true";
+          break;
+        case Role::dof:
+        case Role::numbered_dof:
+          g.dofs.push_back(number(column, cell, record.line));
+          if (column.role == Role::dof) g.dof_names.push_back(column.key);
+          g.dof_units.push_back(column.unit == any_unit ? "" : column.unit);
+          has_units = has_units || !g.dof_units.back().empty();
+          break;
+        case Role::pose:
+          pose[column.number] = number(column, cell, record.line);
+          break;
+      }
+    }
+    if (!has_units) g.dof_units.clear();
+    if (!g.dof_names.empty() && g.dof_names.size() != g.dofs.size())
+      fail("{}:{}: expected DOFs with names or with numbers, got both", file_, record.line);
+    if (std::ranges::any_of(pose, [](const auto& x) { return x.has_value(); }))
+      g.X_OH = pose_of(pose, record.line);
+    return g;
+  }
+
+ private:
+  void check_columns(const std::string& place) const {
+    std::set<std::string_view> known;
+    std::vector<std::string> dofs, numbered;
+    for (const Column& c : columns_) {
+      if (!known.insert(c.name).second)
+        fail("{}: column {} stands there twice", place, in_quotes(c.name));
+      if (c.role != Role::dof && c.role != Role::numbered_dof) continue;
+      check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
+      (c.role == Role::dof ? dofs : numbered).push_back(c.key);
+    }
+    for (const char* name : pose_columns)
+      if (!known.contains(name)) fail("{}: expected a column '{}', got none", place, name);
+    // columns may differ in their unit alone
+    check_dof_names(place + ": DOF", dofs);
+    check_dof_names(place + ": DOF", numbered);
+    // in their order from the first on
+    for (size_t i = 0; i < numbered.size(); ++i)
+      if (parse_integer(numbered[i]) != static_cast<int>(i) + 1)
+        fail("{}: expected a column dof_{}, got dof_{}", place, i + 1, excerpt(numbered[i]));
+  }
+
+  double number(const Column& column, const CsvCell& cell, int line) const {
+    const auto x = parse_number(cell.text);
+    if (!x)
+      fail("{}:{}: {}: expected a number, got {}", file_, line, excerpt(column.name),
+           in_quotes(cell.text));
+    return *x;
+  }
+
+  Pose pose_of(const std::optional<double> (&pose)[7], int line) const {
+    for (size_t i = 0; i < 7; ++i)
+      if (!pose[i]) fail("{}:{}: {}: expected a number, got nothing", file_, line, pose_columns[i]);
+    const auto q = made_unit({*pose[3], *pose[4], *pose[5], *pose[6]});
+    if (!q)
+      fail("{}:{}: expected a quaternion of length 1, got ({} {} {} {})", file_, line, *pose[3],
+           *pose[4], *pose[5], *pose[6]);
+    return {*q, {*pose[0], *pose[1], *pose[2]}};
+  }
+
+  const std::string& file_;
+  std::vector<Column> columns_;
+};
 
 }  // namespace
 
-std::vector<GraspSpec> read_grasp_table(const fs::path& path, const ReadOptions& options) {
-  const std::string file = path.filename().string();
-  auto records = read_csv(file, read_text(path));
-  std::erase_if(records, &CsvRecord::is_empty);
-  if (records.empty()) fail("{}: expected names of columns, got an empty file", file);
-  std::vector<Column> columns;
-  for (const CsvCell& name : records[0].cells) columns.push_back(column_of(name.text));
-  const auto has = [&](const std::string& name) {
-    return std::ranges::find(columns, name, &Column::name) != columns.end();
-  };
-  for (const char* name : pose_columns)
-    if (!has(name)) fail("{}:{}: expected a column '{}', got none", file, records[0].line, name);
-  static const std::vector<std::string> single = {"hand",        "object",  "hand_file",
-                                                  "object_file", "planner", "seed",
-                                                  "epsilon",     "energy",  "collision_free"};
-  std::vector<std::string> unused;
-  for (const Column& c : columns) {
-    if (std::ranges::count(columns, c.name, &Column::name) > 1)
-      fail("{}:{}: column {} stands there twice", file, records[0].line, in_quotes(c.name));
-    const bool known = !c.kind.empty() || std::ranges::count(single, c.name) ||
-                       std::ranges::count(pose_columns, c.name);
-    if (!known) unused.push_back(c.name);
-  }
-  check_dof_columns(columns, fmt::format("{}:{}", file, records[0].line));
-  if (!unused.empty() && options.warn)
-    options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
-
-  std::vector<GraspSpec> out;
-  for (size_t r = 1; r < records.size(); ++r) {
+void read_grasp_table(const std::string& file, std::string_view text, const GraspSink& sink,
+                      const ReadOptions& options) {
+  CsvReader reader(file, text);
+  CsvRecord record;
+  bool more = reader.next(record);
+  while (more && record.is_empty()) more = reader.next(record);
+  if (!more) fail("{}: expected names of columns, got an empty file", file);
+  GraspCollector list(file, text.size(), sink);
+  // a column is kept with its name, role and key
+  size_t names = 0;
+  for (const CsvCell& cell : record.cells) names += sizeof(Column) + 3 * cell.text.size() + 200;
+  list.budget().take(names);
+  const TableReader table(file, record, options);
+  // a row has at least the commas between the numbers of a pose
+  list.expect(text.size() / std::size(pose_columns));
+  while (reader.next(record)) {
     options.progress.check();
-    const CsvRecord& record = records[r];
-    if (record.cells.size() != columns.size())
-      fail("{}:{}: expected {} cells, got {}", file, record.line, columns.size(),
-           record.cells.size());
-    GraspSpec& g = out.emplace_back();
-    std::map<std::string, double> pose;
-    for (size_t c = 0; c < columns.size(); ++c) {
-      const Column& column = columns[c];
-      const std::string& cell = record.cells[c].text;
-      if (cell.empty()) continue;
-      const auto number = [&] {
-        const auto x = parse_number(cell);
-        if (!x)
-          fail("{}:{}: {}: expected a number, got {}", file, record.line, excerpt(column.name),
-               in_quotes(cell));
-        return *x;
-      };
-      const auto text = std::ranges::find_if(
-          text_columns, [&](const auto& known) { return column.name == known.first; });
-      if (text != std::end(text_columns))
-        g.*text->second = cell;
-      else if (column.name == "planner")
-        g.labels["planner"] = cell;
-      else if (column.kind == "label")
-        g.labels[column.key] = cell;
-      else if (column.name == "epsilon")
-        g.measures["epsilon"] = number();
-      else if (column.kind == "measure") {
-        if (cell != "inf" && cell != "nan" && cell != "-inf") g.measures[column.key] = number();
-      } else if (column.name == "seed" || column.name == "energy")
-        g.info[column.name] = number();
-      else if (column.kind == "info")
-        g.info[column.key] = number();
-      else if (column.name == "collision_free") {
-        if (cell != "true" && cell != "false")
-          fail("{}:{}: collision_free: expected true or false, got {}", file, record.line,
-               in_quotes(cell));
-        g.collision_free = cell == "true";
-      } else if (column.kind == "dof") {
-        g.dofs.push_back(number());
-        g.dof_names.push_back(column.key);
-        g.dof_units.push_back(column.unit);
-      } else if (std::ranges::count(pose_columns, column.name)) {
-        pose[column.name] = number();
-      }
-    }
-    if (pose.empty()) continue;
-    const auto x = [&](int i) {
-      const auto found = pose.find(pose_columns[i]);
-      if (found == pose.end())
-        fail("{}:{}: {}: expected a number, got nothing", file, record.line, pose_columns[i]);
-      return found->second;
-    };
-    const auto q = made_unit({x(3), x(4), x(5), x(6)});
-    if (!q)
-      fail("{}:{}: expected a quaternion of length 1, got ({} {} {} {})", file, record.line, x(3),
-           x(4), x(5), x(6));
-    g.X_OH = Pose{*q, {x(0), x(1), x(2)}};
+    if (!record.is_empty()) list.add(table.read(record));
   }
-  return out;
 }
 
 }  // namespace clench

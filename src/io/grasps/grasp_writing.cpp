@@ -56,9 +56,26 @@ void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const
        [](const GraspSpec& g) { return g.measures.size() > g.measures.count("epsilon"); });
   tell(holds.notes, "notes and labels",
        [](const GraspSpec& g) { return !g.info.empty() || !g.labels.empty(); });
+  tell(holds.hand, "the name of the hand", [](const GraspSpec& g) { return !g.hand_name.empty(); });
+  tell(holds.object, "the name of the object",
+       [](const GraspSpec& g) { return !g.object_name.empty(); });
+  tell(holds.files, "files of hand and object",
+       [](const GraspSpec& g) { return !g.hand_file.empty() || !g.object_file.empty(); });
   if (!lost.empty() && options.warn)
     options.warn(fmt::format("{}: the format {} does not hold {}, which are not written", file,
                              format, name_list(lost)));
+}
+
+void check_same_dofs(const std::vector<GraspSpec>& grasps, const std::string& file) {
+  for (size_t i = 1; i < grasps.size(); ++i) {
+    const GraspSpec &first = grasps[0], &g = grasps[i];
+    if (g.dofs.size() != first.dofs.size() || g.dof_names != first.dof_names)
+      fail("{}: grasps[{}]: expected the DOFs of the first grasp, {}, got {}", file, i + 1,
+           name_list(dof_names_of(first)), name_list(dof_names_of(g)));
+    if (g.dof_units != first.dof_units)
+      fail("{}: grasps[{}]: expected DOFs in the units of the first grasp, {}, got {}", file, i + 1,
+           name_list(first.dof_units), name_list(g.dof_units));
+  }
 }
 
 void check_writable(const std::vector<GraspSpec>& grasps, const std::string& file, bool one_hand,

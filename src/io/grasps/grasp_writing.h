@@ -24,13 +24,18 @@ double number_of(const std::map<std::string, double>& named, const std::string& 
 
 /// What a format can hold beside poses.
 struct Holds {
-  bool dofs = false, epsilon = false, pregrasp_dofs = false, notes = false;
+  bool dofs = false, epsilon = false, pregrasp_dofs = false, notes = false, hand = true,
+       object = true, files = false;
 };
 /// Warns once of what the grasps have and the format does not hold:
 /// "g.yaml: the format isaac_grasp does not hold contacts and joint positions, which are not
 /// written"
 void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const std::string& file,
                  const std::string& format, const WriteOptions& options);
+
+/// DOFs of all grasps, where the file names them once: as many, of the same names and units.
+/// throws Error  "g.npz: grasps[2]: expected the DOFs of the first grasp, a, b, got a, c"
+void check_same_dofs(const std::vector<GraspSpec>& grasps, const std::string& file);
 
 /// The pose of each grasp; of one hand, or of one object, where the format names but one.
 /// throws Error  "g.json: grasps[2]: expected a pose, got none"

@@ -1,14 +1,17 @@
 #include "clench/io/grasps/npz.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "clench/base/text.h"
 #include "clench/io/text/byte_reader.h"
 #include "clench/io/text/byte_writer.h"
+#include "clench/io/text/memory_budget.h"
 
 namespace clench {
 
+static constexpr size_t max_empty = 100'000;  // of an array that holds nothing, rows or columns
 static constexpr std::string_view npy_mark = "\x93NUMPY";
 static constexpr uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
 
@@ -123,7 +126,7 @@ static std::string_view head_value(std::string_view head, std::string_view key) 
                                        : rest.substr(0, open == '(' ? end + 1 : end);
 }
 
-static NpyArray read_npy(const std::string& place, std::string_view bytes) {
+static NpyArray read_npy(const std::string& place, std::string_view bytes, MemoryBudget& budget) {
   if (bytes.size() < 12 || !bytes.starts_with(npy_mark))
     fail("{}: expected an array of NumPy, got other bytes", place);
   const int version = bytes[6];
@@ -161,9 +164,17 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes) {
     fail("{}: expected numbers or texts, got the type {}", place, in_quotes(type));
   ByteReader reader(bytes.substr(from + size), type[0] == '>');
   const size_t each = kind == 'U' ? 4 * static_cast<size_t>(*width) : static_cast<size_t>(*width);
-  if (each > 0 && reader.left() / each < count)
+  if (each > 0 ? reader.left() / each < count : count > 0)
     fail("{}: the array ends before its shape {} does", place, excerpt(shape));
   out.is_text = kind == 'U';
+  // an empty array has no rows that a caller would make
+  if (count == 0 && std::ranges::any_of(out.shape, [](size_t n) { return n > max_empty; }))
+    fail("{}: expected a shape of numbers, got {}", place, excerpt(shape));
+  budget.take(count * (out.is_text ? sizeof(std::string) + each : sizeof(double)));
+  if (out.is_text)
+    out.texts.reserve(count);
+  else
+    out.numbers.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     if (!out.is_text) {
       out.numbers.push_back(read_number(reader, kind, each));
@@ -192,6 +203,8 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
   tail.next<uint32_t>();
   const size_t start = tail.next<uint32_t>();
   std::map<std::string, NpyArray> out;
+  MemoryBudget budget(file, bytes.size());
+  size_t left = bytes.size();  // of the file for the arrays to come
   ByteReader entries(bytes.substr(std::min(start, bytes.size())));
   for (size_t i = 0; i < count; ++i) {
     if (entries.left() < 46 || entries.next<uint32_t>() != entry_mark)
@@ -200,8 +213,7 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
     const auto method = entries.next<uint16_t>();
     entries.skip(4);
     const auto crc = entries.next<uint32_t>();
-    const size_t packed = entries.next<uint32_t>();
-    entries.skip(4);
+    const size_t packed = entries.next<uint32_t>(), unpacked = entries.next<uint32_t>();
     const size_t name_size = entries.next<uint16_t>(), extra = entries.next<uint16_t>(),
                  comment = entries.next<uint16_t>();
     entries.skip(8);
@@ -211,8 +223,10 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
     entries.skip(name_size + extra + comment);
     if (name.ends_with(".npy")) name.resize(name.size() - 4);
     const std::string where = fmt::format("{}: {}", file, excerpt(name));
-    if (method != 0)
+    if (method != 0 || packed != unpacked)
       fail("{}: compressed arrays are not read; np.savez writes them uncompressed", where);
+    if (packed > left) fail("{}: the array shares bytes of the archive with others", where);
+    left -= packed;
     ByteReader local(bytes.substr(std::min(place, bytes.size())));
     if (local.left() < 30 || local.next<uint32_t>() != local_mark)
       fail("{}: the archive's directory is broken", file);
@@ -222,7 +236,8 @@ std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_vi
       fail("{}: the archive ends within the array", where);
     const std::string_view body = bytes.substr(place + 30 + skip, packed);
     if (crc32(body) != crc) fail("{}: the array's checksum is wrong", where);
-    out[name] = read_npy(where, body);
+    if (!out.try_emplace(name, read_npy(where, body, budget)).second)
+      fail("{}: the archive holds two arrays of that name", where);
   }
   return out;
 }

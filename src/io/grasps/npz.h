@@ -1,4 +1,4 @@
-// NumPy's arrays in a file: .npy arrays of numbers or texts in a zip archive without compression,
+// Arrays of NumPy in a file: .npy arrays of numbers or texts in a zip archive without compression,
 // as np.savez writes it.
 #pragma once
 #include <map>
@@ -20,7 +20,8 @@ struct NpyArray {
 /// source  NumPy enhancement proposal 1 (format 1.0 of .npy); PKWARE's APPNOTE (zip)
 std::string npz_bytes(const std::map<std::string, NpyArray>& arrays);
 
-/// Numbers of all of NumPy's real types become doubles.
+/// Numbers of all of NumPy's real types become doubles. Arrays take at most the memory of a
+/// MemoryBudget, as no two of them share bytes of the file.
 /// throws Error  "g.npz: poses: compressed arrays are not read; np.savez writes them uncompressed"
 std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_view bytes);
 

@@ -182,12 +182,21 @@ void GeometryBuilder::check_reach(const std::string& subject) const {
 }
 
 int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
-  if (mesh_.vertices.size() >= max_mesh_vertices)
-    fail("expected at most {} vertices", max_mesh_vertices);
+  if (mesh_.vertices.size() >= max_vertices_)
+    fail("expected at most {} vertices{}", max_vertices_, for_its_size());
   if (mesh_.vertices.size() % 1024 == 0) progress.check();
   mesh_.vertices.push_back(p);
   note_far(p, line);
   return static_cast<int>(mesh_.vertices.size()) - 1;
+}
+
+void GeometryBuilder::limit_to(size_t file_bytes) {
+  max_triangles_ = std::clamp(file_bytes / 4, size_t{1'000'000}, max_mesh_triangles);
+  max_vertices_ = 3 * max_triangles_;
+}
+
+std::string GeometryBuilder::for_its_size() const {
+  return max_triangles_ < max_mesh_triangles ? " in a file of its size" : "";
 }
 
 void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector3f& color,
@@ -220,8 +229,8 @@ static float clamped_share(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; 
 void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& given,
                                    float transparency) {
   const Eigen::Vector3f color = given.unaryExpr(&clamped_share);
-  if (mesh_.triangles.size() >= max_mesh_triangles)
-    fail("expected at most {} triangles", max_mesh_triangles);
+  if (mesh_.triangles.size() >= max_triangles_)
+    fail("expected at most {} triangles{}", max_triangles_, for_its_size());
   if (mesh_.triangles.size() % 1024 == 0) progress.check();
   mesh_.triangles.push_back(t);
   colors_.push_back(color);

@@ -3,6 +3,7 @@
 #pragma once
 #include <map>
 #include <span>
+#include <string>
 
 #include "clench/geometry/mesh/mesh.h"
 #include "clench/io/text/find_file.h"
@@ -37,6 +38,10 @@ class GeometryBuilder {
   /// throws  Error when it has too many corners, or all faces so far take too long
   std::vector<Triangle> cut(const std::vector<Eigen::Vector3d>& outline, bool convex = false);
 
+  /// Limits triangles to a quarter of the file's bytes, but to no less than a million: parts that a
+  /// small file places many times could ask for any number. Vertices are limited to three times that.
+  void limit_to(size_t file_bytes);
+
   size_t triangle_count() const { return mesh_.triangles.size(); }
   size_t vertex_count() const { return mesh_.vertices.size(); }
   const Eigen::Vector3d& vertex(int i) const { return mesh_.vertices[i]; }
@@ -61,12 +66,14 @@ class GeometryBuilder {
   bool keeps_triangles = false;
 
  private:
+  std::string for_its_size() const;
   void add_triangle(const Triangle& t, const Eigen::Vector3f& color, float transparency);
   Appearance mean_appearance(const std::vector<int>& kept) const;
   void note_far(const Eigen::Vector3d& p, int line);
   void check_reach(const std::string& subject) const;
 
   Mesh mesh_;
+  size_t max_triangles_ = max_mesh_triangles, max_vertices_ = max_mesh_vertices;
   size_t faces_ = 0;
   size_t cutting_work_ = 0;
   bool loose_ = false;            // are there triangles that share no vertex by number?

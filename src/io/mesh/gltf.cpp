@@ -156,6 +156,7 @@ void GltfReader::read_primitive(const GltfValue& primitive, const Affine3d& X) {
   const auto p = document_.read_floats(
       document_.expected_integer(document_.member(primitive, "attributes"), "POSITION"), 3,
       position.name);
+  builder_.limit_to(document_.bytes());
   const int first = static_cast<int>(builder_.vertex_count()),
             count = static_cast<int>(p.size() / 3);
   for (int i = 0; i < count; ++i)

@@ -78,7 +78,8 @@ double component(ByteReader& bytes, NumberType type, bool normalized) {
 
 }  // namespace
 
-GltfDocument::GltfDocument(const MeshInput& input) : input_(input), file_(input.file()) {
+GltfDocument::GltfDocument(const MeshInput& input)
+    : input_(input), file_(input.file()), bytes_(input.bytes.size()) {
   std::string chunk;
   if (input.bytes.starts_with("glTF")) split_glb(input.bytes, chunk);
   const std::string& text = binary_ ? chunk : input.bytes;
@@ -217,6 +218,7 @@ const std::string& GltfDocument::buffer(int i, const std::string& expected_by) {
   const int length = expected_integer(value, "byteLength", 1);
   if (bytes.size() < static_cast<size_t>(length))
     fail("{}: expected {} bytes, got {}", value.name, length, bytes.size());
+  if (uri) bytes_ += bytes.size();
   return buffers_.emplace(i, std::move(bytes)).first->second;
 }
 

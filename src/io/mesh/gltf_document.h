@@ -46,6 +46,9 @@ class GltfDocument {
   std::vector<double> read_floats(int accessor, int components, const std::string& expected_by);
   std::vector<int> read_indices(int accessor, const std::string& expected_by);
 
+  /// Size of the file and of the buffers read so far.
+  size_t bytes() const { return bytes_; }
+
  private:
   struct Span {
     const char* first;
@@ -65,6 +68,7 @@ class GltfDocument {
   bool binary_ = false;     // a .glb
   std::string glb_buffer_;  // buffer 0 of a .glb
   std::map<int, std::string> buffers_;
+  size_t bytes_;
 };
 
 }  // namespace clench

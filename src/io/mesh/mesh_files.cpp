@@ -93,6 +93,7 @@ Geometry read_mesh(const MeshInput& input) {
   const std::string file = input.file();
   GeometryBuilder builder;
   builder.progress = options.progress;
+  builder.limit_to(input.bytes.size());
   builder.report.unit_source = UnitSource::guess;  // until the file says it
   const bool colors_given = read_triangles(input, builder);
   if (builder.triangle_count() == 0 && input.bare_points == BarePoints::hull &&

@@ -33,6 +33,11 @@ constexpr Mark known_endings[] = {
     {".egr", FileKind::eigengrasps},
     {".vgr", FileKind::virtual_contacts},
     {".jsonl", FileKind::grasps},
+    {".csv", FileKind::grasps},
+    {".npz", FileKind::grasps},
+    {".yaml", FileKind::grasps},
+    {".yml", FileKind::grasps},
+    {".json", FileKind::grasps},
     {".iv", FileKind::body, Format::inventor},
     {".wrl", FileKind::body, Format::inventor},
     {".vrml", FileKind::body, Format::inventor},
@@ -157,9 +162,13 @@ FileKind file_kind(const std::filesystem::path& path) {
     return root ? root->kind : FileKind::body;
   }
   if (const Mark* known = find(known_endings, ending)) return known->kind;
-  // any of these lists is whole in so many bytes
-  if (const auto kind = kind_of_numbers(plain_text(read_start(path, size_t{4} << 20))))
-    return *kind;
+  // any of these lists is complete in so many bytes
+  const std::string start = plain_text(read_start(path, size_t{4} << 20));
+  if (const auto kind = kind_of_numbers(start)) return *kind;
+  // the head of our own lists, whatever the file is called
+  if (start.starts_with('{') &&
+      start.substr(0, start.find('\n')).find("clench grasps") != start.npos)
+    return FileKind::grasps;
   fail(ErrorKind::file, "{}: expected a model, a world, or a file that goes with one, got {}",
        path.filename().string(), in_quotes(ending));
 }

@@ -9,130 +9,145 @@
 #include <streambuf>
 
 #include "clench/base/text.h"
-#include "clench/base/watched.h"
+#include "clench/io/text/json_tree.h"
 
 namespace clench {
 
-static constexpr size_t max_depth = 16;
-
-const YamlNode* YamlNode::find(std::string_view key) const {
-  const auto found = std::find(keys.begin(), keys.end(), key);
-  return found == keys.end() ? nullptr : &items[size_t(found - keys.begin())];
-}
-
-std::string YamlNode::described() const {
-  if (kind == Kind::list) return fmt::format("a list of {}", items.size());
-  return kind == Kind::map ? "a map" : in_quotes(text);
-}
+// of a text between two values: yaml-cpp keeps all tokens of a list in brackets that may be a key,
+// some 130 times the text
+static constexpr size_t max_silence = size_t{512} << 10;
 
 namespace {
 
-using Kind = YamlNode::Kind;
+/// The text as a stream, a block at a time. It ends early when the parser reads on and on without
+/// a value.
+class TextBuffer : public std::streambuf {
+ public:
+  explicit TextBuffer(std::string_view text) : text_(text) {}
 
-// what the parser meets, as a tree
+  void heard() { heard_ = read_; }
+  bool gave_up() const { return gave_up_; }
+
+ protected:
+  int_type underflow() override {
+    if (gptr() < egptr()) return traits_type::to_int_type(*gptr());
+    gave_up_ = read_ - heard_ > max_silence;
+    if (read_ == text_.size() || gave_up_) return traits_type::eof();
+    const size_t size = std::min<size_t>(4096, text_.size() - read_);
+    char* const begin = const_cast<char*>(text_.data()) + read_;
+    setg(begin, begin, begin + size);
+    read_ += size;
+    return traits_type::to_int_type(*begin);
+  }
+
+ private:
+  std::string_view text_;
+  size_t read_ = 0, heard_ = 0;
+  bool gave_up_ = false;
+};
+
+/// Values that the parser meets, into a tree.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(const std::string& file) : file_(file) {}
-  YamlNode root;
+  TreeBuilder(const std::string& file, ValueTree& out, TextBuffer& buffer)
+      : file_(file), out_(out), buffer_(buffer) {}
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& at, YAML::anchor_t) override { take({.line = at.line + 1}); }
+  void OnNull(const YAML::Mark& at, YAML::anchor_t) override { scalar("", false, at); }
   void OnAlias(const YAML::Mark& at, YAML::anchor_t) override { refuse_anchor(at); }
   void OnScalar(const YAML::Mark& at, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& text) override {
     if (anchor) refuse_anchor(at);
-    take({.text = text, .quoted = tag == "!", .line = at.line + 1});
+    scalar(text, tag == "!", at);
   }
   void OnSequenceStart(const YAML::Mark& at, const std::string&, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
-    open(at, anchor, Kind::list);
+    open(ValueKind::list, at, anchor);
   }
   void OnMapStart(const YAML::Mark& at, const std::string&, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
-    open(at, anchor, Kind::map);
+    open(ValueKind::map, at, anchor);
   }
   void OnSequenceEnd() override { close(); }
   void OnMapEnd() override { close(); }
 
- private:
-  struct Open {
-    YamlNode node;
-    bool has_key = false;
-  };
+  /// A second document begins.
+  void end() { is_over_ = true; }
 
+ private:
   [[noreturn]] void refuse_anchor(const YAML::Mark& at) const {
     fail("{}:{}: anchors are not read", file_, at.line + 1);
   }
-  void open(const YAML::Mark& at, YAML::anchor_t anchor, Kind kind) {
+  void check_end(const YAML::Mark& at) const {
+    if (is_over_)
+      fail("{}:{}: expected the end of the file, got another document", file_, at.line + 1);
+  }
+  void scalar(std::string_view text, bool quoted, const YAML::Mark& at) {
+    check_end(at);
+    buffer_.heard();
+    out_.scalar(text, quoted, at.line + 1);
+  }
+  void open(ValueKind kind, const YAML::Mark& at, YAML::anchor_t anchor) {
+    check_end(at);
     if (anchor) refuse_anchor(at);
-    if (open_.size() == max_depth)
-      fail("{}:{}: expected lists and maps at most {} deep, got more", file_, at.line + 1,
-           max_depth);
-    open_.push_back({{.kind = kind, .line = at.line + 1}});
+    buffer_.heard();
+    out_.open(kind, at.line + 1);
   }
   void close() {
-    YamlNode done = std::move(open_.back().node);
-    open_.pop_back();
-    take(std::move(done));
-  }
-  void take(YamlNode value) {
-    check_();
-    if (open_.empty()) {
-      root = std::move(value);
-      return;
-    }
-    auto& [node, has_key] = open_.back();
-    if (node.kind == Kind::list || has_key) {
-      node.items.push_back(std::move(value));
-      has_key = false;
-      return;
-    }
-    if (value.kind != Kind::scalar)
-      fail("{}:{}: expected a key, got {}", file_, value.line, value.described());
-    // long maps are lists of grasps: names are compared only where they are few
-    if (node.keys.size() < 1000 && node.find(value.text))
-      fail("{}:{}: key {} stands there twice", file_, value.line, in_quotes(value.text));
-    node.keys.push_back(std::move(value.text));
-    has_key = true;
+    buffer_.heard();
+    out_.close();
   }
 
   const std::string& file_;
-  std::vector<Open> open_;
-  StopCheck check_{64};  // of nodes
+  ValueTree& out_;
+  TextBuffer& buffer_;
+  bool is_over_ = false;
 };
 
-// a text as a stream, not copied
-class TextBuffer : public std::streambuf {
- public:
-  explicit TextBuffer(std::string_view text) {
-    char* begin = const_cast<char*>(text.data());
-    setg(begin, begin, begin + text.size());
-  }
-};
-
-}  // namespace
-
-YamlNode parse_yaml(const std::string& file, std::string_view text) {
-  // yaml-cpp takes a quote that is open where lines end for one that is closed, unless the text
-  // ends there
-  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+ValueTree parse_yaml_text(const std::string& file, std::string_view text) {
   TextBuffer buffer(text);
   std::istream stream(&buffer);
-  TreeBuilder builder(file);
+  ValueTree out(file);
+  TreeBuilder builder(file, out, buffer);
+  const auto refuse_long = [&](int line) {
+    fail(ErrorKind::limit,
+         "{}:{}: expected texts, comments and lists in brackets of at most {} kB, got a longer one",
+         file, line, max_silence >> 10);
+  };
   try {
     YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder) || builder.root.line == 0)
-      fail("{}: expected a map or a list, got an empty file", file);
-    YamlNode out = std::move(builder.root);
-    if (parser.HandleNextDocument(builder))
-      fail("{}:{}: expected the end of the file, got another document", file, builder.root.line);
+    const bool any = parser.HandleNextDocument(builder);
+    if (buffer.gave_up()) refuse_long(1);
+    if (!any || !out.complete()) fail("{}: expected a map or a list, got an empty file", file);
+    builder.end();
+    parser.HandleNextDocument(builder);
+    if (buffer.gave_up()) refuse_long(1);
+    out.finish();
     return out;
   } catch (const YAML::Exception& error) {
+    if (buffer.gave_up()) refuse_long(error.mark.line + 1);
     const bool open_quote = error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
     fail("{}:{}: {}", file, error.mark.line + 1,
          open_quote ? "a quote that is not closed" : error.msg);
   }
+}
+
+}  // namespace
+
+ValueTree parse_yaml(const std::string& file, std::string_view text) {
+  // yaml-cpp takes a quote that is open where lines end for one that is closed, unless the text
+  // ends there
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  const size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == text.npos || (text[begin] != '{' && text[begin] != '['))
+    return parse_yaml_text(file, text);
+  ValueTree out(file);
+  const auto fault = read_json_tree(text, out);
+  if (!fault) return out;
+  // lists and maps in brackets are YAML, too
+  if (text.size() > max_silence) fail("{}:{}: {}", file, fault->line, fault->sentence);
+  return parse_yaml_text(file, text);
 }
 
 std::string yaml_quoted(std::string_view text) {

@@ -4,6 +4,7 @@
 
 #include "clench/io/grasp_lines.h"
 #include "clench/planning/apply_by_arm.h"
+#include "clench/script/bind/grasp/dof_order.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
@@ -131,6 +132,25 @@ static int grasp_as_json(lua_State* L) {
   return 1;
 }
 
+static std::string place_of(const GraspSpec& grasp) {
+  return fmt::format("grasp of {} by {}", grasp.object_name, grasp.hand_name);
+}
+
+static GraspDofOptions dof_options(lua_State* L, DofOrder order) {
+  return {.order = order, .warn = [L](const std::string& text) { log_warning(L, text); }};
+}
+
+// in the order of the hand's DOFs; apply itself warns of values that differ from the file's
+static std::optional<PregraspState> pregrasp_of(const World& world, Id<Robot> hand,
+                                                const GraspSpec& grasp, DofOrder order) {
+  if (!grasp.pregrasp) return {};
+  const GraspDofOptions quiet{.order = order};
+  const auto q =
+      pregrasp_dofs(world, hand, grasp, grasp_posture(world, hand, grasp, place_of(grasp), quiet),
+                    place_of(grasp), quiet);
+  return PregraspState{grasp.pregrasp->X_OH, {q.begin(), q.end()}};
+}
+
 // puts the hand where the grasp has it, and measures it there
 static int apply(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
@@ -145,21 +165,40 @@ static int apply(lua_State* L) {
   if (given_hand) in_world(given_hand->world, "hand");
   const auto* given_object = options.object<BodyHandle>("object");
   if (given_object) in_world(given_object->world, "object");
+  const NamedOrder order = read_dof_order(options);
   options.done();
   GraspSpec named = g.grasp;
   if (given_hand) named.hand_name = (*given_hand)->name;
   if (given_object) named.object_name = (*given_object)->name;
   const auto hand = given_hand ? given_hand->id : world->find_robot(named.hand_name);
   const auto object = given_object ? given_object->id : world->find_body(named.object_name);
-  if (hand && object)
-    apply_by_arm(*world, named, hand, object);
-  else
-    apply_grasp(*world, named);
+  if (!hand || !object) apply_grasp(*world, named);  // says what is missing
+  if (named.dof_names.empty() && !order.names.empty()) name_dofs(named, order, nullptr, subject(L));
+  const GraspDofOptions dofs = dof_options(L, order.order);
+  const auto before = pregrasp_of(*world, hand, named, dofs.order);
+  apply_by_arm(*world, named, hand, object, dofs);
   Grasp measured = measure_grasp(*world, hand, object, g.grasp.options);
   measured.info = g.grasp.info;
   measured.labels = g.grasp.labels;
-  measured.pregrasp = g.grasp.pregrasp;
+  measured.pregrasp = before;
   return push_object(L, GraspHandle{world, std::move(measured)});
+}
+
+// the DOFs that apply would set, and those of the pregrasp
+static int dofs_for(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  const auto& hand = check_object<RobotHandle>(L, 2, "hand");
+  Table options(L, 3);
+  const NamedOrder order = read_dof_order(options);
+  options.done();
+  GraspSpec named = g.grasp;
+  if (named.dof_names.empty() && !order.names.empty()) name_dofs(named, order, nullptr, subject(L));
+  const GraspDofOptions dofs = dof_options(L, order.order);
+  const auto posture = grasp_posture(*hand.world, hand.id, named, place_of(named), dofs);
+  push(L, posture.dofs);
+  if (!named.pregrasp) return 1;
+  push(L, pregrasp_dofs(*hand.world, hand.id, named, posture, place_of(named), dofs));
+  return 2;
 }
 
 static int get_grasp_contacts(lua_State* L) {
@@ -245,6 +284,10 @@ Where the hand's base stood in the object's frame when the grasp was measured.
 Values of the hand's DOFs when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.dofs == #hand.dofs  --> true)"},
+    {"dof_names", getter<[](const GraspHandle& x) { return x.grasp.dof_names; }>, R"(
+Names of these DOFs; empty in a list from a file that does not name them.
+@type string[]
+> grasp.dof_names[2] == hand.dof_names[2]  --> true)"},
     {"joint_positions", getter<[](const GraspHandle& x) { return x.grasp.joints; }>, R"(
 Positions of the hand's joints when the grasp was measured.
 @type number[]  [rad or m]
@@ -321,15 +364,23 @@ static const Entry grasp_methods[] = {
     {"apply", guarded<apply>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
 there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
-does not have stay. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
+does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A
+value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in
+the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
 @param world? world  default: its own
-@param options? {hand?: robot, object?: body}
+@param options? {hand?: robot, object?: body, dof_order?: string|string[]}
 @return grasp
 > #grasp:apply(world, {hand = hand, object = flask}).contacts == #grasp.contacts  --> true
 > hand:open()
 > again = grasp:apply()
 > #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true
 > grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
+    {"dofs_for", guarded<dofs_for>, R"(
+Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
+@param hand robot
+@param options? {dof_order?: string|string[]}  as `apply` takes it
+@return number[] dofs, number[]? pregrasp  [rad or m]
+> #grasp:dofs_for(hand) == #hand.dofs  --> true)"},
     {"is_force_closure",
      method<[](const GraspHandle& x) { return space_of(x.grasp)->is_force_closure(); }>, R"(
 Can it resist every wrench?

@@ -2,6 +2,7 @@
 
 #include "clench/base/file.h"
 #include "clench/io/grasp_files.h"
+#include "clench/script/bind/grasp/dof_order.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/getter.h"
@@ -15,20 +16,36 @@ namespace clench {
 
 static int list_grasps(lua_State* L) {
   GraspList list;
+  std::optional<GraspFormat> format_read;
   if (given(L, 1)) {
     const std::string path = check_string(L, 1, "path");
     Table options(L, 2);
     const ReadOptions reading = read_options(L, options);
     const std::string format = options.string("format", "");
+    const NamedOrder order = read_dof_order(options);
+    const auto* hand = options.object<RobotHandle>("hand");
     options.done();
+    const std::string place = subject(L);
+    bool has_names = false;
     const Watching watching(L);
-    for (GraspSpec& spec : read_grasp_file(path, format, reading)) {
+    const auto add = [&](GraspSpec&& spec) {
+      has_names = has_names || !spec.dof_names.empty();
+      if (order.is_given() && spec.dof_names.empty() && !spec.dofs.empty())
+        name_dofs(spec, order, hand ? &**hand : nullptr, place);
       Grasp grasp;
       static_cast<GraspSpec&>(grasp) = std::move(spec);
       list.grasps.push_back({nullptr, std::move(grasp)});
-    }
+    };
+    format_read = read_grasp_file(
+        path, {.add = add, .expect = [&](size_t n) { list.grasps.reserve(n); }}, format, reading);
+    if (order.is_given() && has_names)
+      reading.warn(fmt::format("{}: it names DOFs, for which dof_order is not used",
+                               std::filesystem::path(path).filename().string()));
   }
-  return push_object(L, std::move(list));
+  push_object(L, std::move(list));
+  if (!format_read) return 1;
+  push(L, grasp_format_name(*format_read));
+  return 2;
 }
 
 static int grasps_add(lua_State* L) {
@@ -85,8 +102,8 @@ A list of grasps: an empty one, or one from a file, in any format that `save` wr
 of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture
 and measures, and `apply` puts them into a world.
 @param path? string
-@param options? {root?: string, confine?: string, format?: string}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner)
-@return grasps
+@param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
+@return grasps list, string? format  of the file
 > list = clench.grasps()
 > list:add(grasp)
 > path = os.tmpname()

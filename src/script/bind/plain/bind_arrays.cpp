@@ -1,6 +1,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/npz.h"
+#include "clench/io/text/memory_budget.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
@@ -64,7 +65,9 @@ static int arrays(lua_State* L) {
   Table options(L, 2);
   const ReadOptions reading = read_options(L, options);
   options.done();
-  const auto found = read_npz(path, read_bytes(find_file(path, {}, reading)));
+  const std::string bytes = read_bytes(find_file(path, {}, reading));
+  const auto found = read_npz(path, bytes);
+  MemoryBudget budget(path, bytes.size());
   push_list(L, 0, static_cast<int>(found.size()));
   for (const auto& [name, array] : found) {
     push(L, name);
@@ -76,6 +79,8 @@ static int arrays(lua_State* L) {
     } else if (array.shape.size() < 2) {
       push(L, array.numbers);
     } else {
+      // a table is 56 bytes, and its numbers are 16 each, in blocks of their own
+      budget.take(count * (120 + 16 * width));
       push_list(L, static_cast<int>(count));
       for (size_t i = 0; i < count; ++i) {
         push(L, std::span(array.numbers).subspan(i * width, width));

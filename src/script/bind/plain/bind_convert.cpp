@@ -12,6 +12,15 @@
 
 namespace clench {
 
+static std::vector<std::string> dof_names_option(Table& options) {
+  std::vector<std::string> out;
+  if (options.has("dof_order"))
+    options.each("dof_order", "a list of names", [&](int i, const What& what) {
+      out.push_back(read_string(options.state(), i, what));
+    });
+  return out;
+}
+
 static int convert(lua_State* L) {
   const std::string from = check_string(L, 1, "from"), to = check_output(L, 2, "to");
   Table options(L, 3);
@@ -23,6 +32,11 @@ static int convert(lua_State* L) {
     fail("{}: expected another file to write, got the same", to);
   const FileKind kind = file_kind(found);
   if (kind == FileKind::robot) read_robot_options(L, options, reading);
+  GraspConversion grasps;
+  if (is_grasp_list(kind)) {
+    grasps.format = options.string("format", "");
+    grasps.dof_names = dof_names_option(options);
+  }
   options.done();
   const std::string ending = ending_of(to);
   const bool as_world = kind == FileKind::robot && (ending == ".lua" || ending == ".wld");
@@ -35,19 +49,19 @@ static int convert(lua_State* L) {
                {.root = reading.root, .confine = reading.confine});
   else
     convert_file(kind, found, to, reading,
-                 {.root = reading.root, .confine = reading.confine, .warn = reading.warn});
+                 {.root = reading.root, .confine = reading.confine, .warn = reading.warn}, grasps);
   return push(L, kind_name(as_world ? FileKind::world : kind));
 }
 
 static const Entry convert_functions[] = {
     {"convert", guarded<convert>, R"(
 Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
-.urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml. What the format cannot hold is
-told in warnings.
+.urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml,
+lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
 @param from string
 @param to string
-@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too
-@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts" # what was written
+@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
+@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
 > path = os.tmpname()
 > clench.convert("models/objects/flask.iv", path .. ".ply")  --> body
 > world:add_object(path .. ".ply").mesh:is_watertight()  --> true

@@ -1,5 +1,7 @@
 #include "clench/script/bind/bind.h"
 
+#include <algorithm>
+
 #include "clench/base/convert.h"
 #include "clench/base/file.h"
 #include "clench/base/text.h"
@@ -65,15 +67,26 @@ static char check_separator(lua_State* L, int i) {
 static int csv_records(lua_State* L) {
   const std::string file = check_string(L, 1, "name");
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
-  const auto records = read_csv(file, string_at(L, 2), check_separator(L, 3));
-  return push_list_of(L, records, [L](const CsvRecord& record) {
+  CsvReader reader(file, string_at(L, 2), check_separator(L, 3));
+  CsvRecord record;
+  push_list(L);
+  const int none_quoted = lua_gettop(L);
+  push_list(L);
+  for (lua_Integer i = 1; reader.next(record); ++i) {
     push_list_of(L, record.cells, [L](const CsvCell& cell) { push(L, cell.text); });
     set_field(L, "line", record.line);
-    push_list(L);
-    for (size_t c = 0; c < record.cells.size(); ++c)
-      if (record.cells[c].quoted) push(L, true), lua_rawseti(L, -2, static_cast<int>(c) + 1);
+    // most records have no quotes, and share a table
+    if (std::ranges::none_of(record.cells, &CsvCell::quoted)) {
+      lua_pushvalue(L, none_quoted);
+    } else {
+      push_list(L);
+      for (size_t c = 0; c < record.cells.size(); ++c)
+        if (record.cells[c].quoted) push(L, true), lua_rawseti(L, -2, static_cast<int>(c) + 1);
+    }
     lua_setfield(L, -2, "quoted");
-  });
+    lua_rawseti(L, -2, i);
+  }
+  return 1;
 }
 
 static int csv_text(lua_State* L) {

@@ -1,0 +1,23 @@
+// JSON (RFC 8259) as a tree of values.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clench/io/text/value_tree.h"
+
+namespace clench {
+
+/// Why a text is not JSON, and where.
+struct JsonFault {
+  int line = 0;
+  std::string sentence;  ///< "expected ',' or ']', got 'x'"
+};
+
+/// Adds the text to an empty tree. Numbers, true and false are scalars as they are written, null is
+/// an empty one.
+/// returns  what is wrong; empty: the tree is complete
+/// throws   Error as ValueTree does
+std::optional<JsonFault> read_json_tree(std::string_view text, ValueTree& out);
+
+}  // namespace clench

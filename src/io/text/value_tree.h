@@ -1,0 +1,91 @@
+// Values of a text file as a tree: scalars, lists, maps, and the lines on which they stand. 16
+// bytes per value beside its text, so that a tree of "0,0,0" takes eight times the file.
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clench/base/error.h"
+#include "clench/base/watched.h"
+
+namespace clench {
+
+enum class ValueKind : uint8_t { scalar, list, map };
+
+class ValueTree;
+
+/// A value of a tree, which must outlive it.
+class ValueNode {
+ public:
+  ValueKind kind() const;
+  std::string_view text() const;  ///< of a scalar, without its quotes; else empty
+  bool quoted() const;
+  int line() const;
+  size_t size() const;                   ///< items of a list, entries of a map; else 0
+  ValueNode item(size_t i) const;        ///< of a list, or the i-th value of a map
+  std::string_view key(size_t i) const;  ///< of a map, in the file's order
+  /// empty: the map has no such key, or this is no map
+  std::optional<ValueNode> find(std::string_view key) const;
+  /// For a message: the scalar in quotes, else "a list of 3", "a map".
+  std::string described() const;
+
+ private:
+  friend class ValueTree;
+  ValueNode(const ValueTree& tree, uint32_t at) : tree_(&tree), at_(at) {}
+
+  const ValueTree* tree_;
+  uint32_t at_;
+};
+
+/// Built value by value in the file's order; keys of maps are scalars before their values.
+class ValueTree {
+ public:
+  /// file  named in errors; must outlive the building
+  explicit ValueTree(const std::string& file) : file_(&file) {}
+
+  void scalar(std::string_view text, bool quoted, int line);
+  /// throws  Error when lists and maps are nested too deeply
+  void open(ValueKind kind, int line);
+  /// throws  Error when a key of the map is not a scalar, or stands there twice
+  void close();
+  /// Has a complete value been read?
+  bool complete() const { return open_.empty() && pending_.size() == 1; }
+  ValueNode root() const { return {*this, root_at}; }
+  /// Call once, after the last value and before the tree is read.
+  void finish();
+
+ private:
+  friend class ValueNode;
+  // of a list or map: where its items begin, and how many; of a scalar: its text
+  struct Cell {
+    uint32_t begin = 0, size = 0, line = 0;
+    ValueKind kind = ValueKind::scalar;
+    bool quoted = false;
+  };
+  struct Open {
+    size_t first;  // of its items among those pending
+    uint32_t line;
+    ValueKind kind;
+  };
+
+  static constexpr uint32_t root_at = UINT32_MAX;
+
+  const Cell& cell(uint32_t at) const;
+  std::string_view text_of(const Cell& cell) const {
+    return std::string_view(texts_).substr(cell.begin, cell.size);
+  }
+  std::string described(const Cell& cell) const;
+  void push(const Cell& cell);
+  void check_keys(size_t first) const;
+
+  const std::string* file_;
+  std::deque<Cell> cells_, pending_;  // items of a list lie in a row
+  std::deque<Open> open_;
+  std::string texts_;
+  Cell root_;
+  StopCheck check_{64};  // of values
+};
+
+}  // namespace clench
