@@ -35,10 +35,6 @@ GraspFormat grasp_format(const std::string& name) {
   fail("unknown format {}{}", in_quotes(name), instead_of(name, names));
 }
 
-const char* grasp_format_name(GraspFormat format) {
-  return format_names()[static_cast<size_t>(format)].c_str();
-}
-
 // what the file itself says: JSON by its keys, else lines of numbers
 static GraspFormat look_into(const fs::path& path) {
   const std::string start = read_start(path, 4096);
