@@ -128,6 +128,8 @@ TEST_CASE("pipes, devices and folders are no files that plan writes") {
     refused(option.substr(0, space + 1) + path, path + sentence);
   }
   refused("-o /dev/full", "/dev/full" + sentence);
+  refused("-o /dev/stdout > " + (folder / "out") + " 2>&1; cat " + (folder / "out") + "; exit 1",
+          "-o: /dev/stdout" + sentence);
   refused("--sheet " + (folder / "folder.png"), "expected a file to write, got a folder");
   const auto page = run(barrett + "--report " + (folder / "pipe.html"));
   CHECK(page.code == 1);
