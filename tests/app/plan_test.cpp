@@ -122,6 +122,17 @@ TEST_CASE("a signal ends a search with the grasps so far and its code") {
   }
 }
 
+TEST_CASE("a second signal ends a search at once") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  // stopped meanwhile, the process gets both together
+  const std::string text = end_by("CONT", barrett + "--no-verify --seconds 60 -o " + out, out,
+                                  "kill -STOP $pid\nkill -TERM $pid\nkill -INT $pid\n");
+  CHECK((text.ends_with("code 143\n") || text.ends_with("code 130\n")));
+  CHECK(text.find("barrett grasps flask") == std::string::npos);
+  CHECK(std::stod(epsilons(out)) > 0);
+}
+
 TEST_CASE(
     "killing a search loses none of the grasps that its file has, and at most the last second's") {
   const Folder folder;
