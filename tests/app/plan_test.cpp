@@ -150,6 +150,22 @@ TEST_CASE(
         std::count(file.begin(), file.end(), '\n') - 1);
 }
 
+TEST_CASE("SIGTERM and SIGHUP end a script as Ctrl-C does") {
+  const std::pair<const char*, int> signals[] = {{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
+  for (const auto& [signal, code] : signals) {
+    const Folder folder;
+    const std::string out = folder / "out";
+    const auto script = folder.file("a.lua", "clench.files.save_text('" + out + R"(', "\n\n\n")
+local ok, problem = pcall(function() while true do end end)
+print(problem.kind, problem.sentence)
+)");
+    const std::string text = end_by(signal, "-q run " + script, out);
+    CAPTURE(text);
+    CHECK(has(text, "stopped\tinterrupted\n"));
+    CHECK(text.ends_with(fmt::format("code {}\n", code)));
+  }
+}
+
 // under the sanitizers the time that is left after Ctrl-C is too short for what planners do then
 #ifndef __SANITIZE_ADDRESS__
 TEST_CASE(
