@@ -12,13 +12,13 @@ TEST_CASE(
   const Folder folder;
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
-  CHECK(has(end_by("KILL", command + " --count 45", out), "code 137"));
+  CHECK(has(end_by("KILL", command + " --threads 1 --count 45", out), "code 137"));
   // of a line that is cut the rest is read, with a warning
   const std::string text = text_of(out);
   folder.file("a.jsonl", text.substr(0, text.size() - 100));
   CHECK(has(epsilons(out) + run("-e 'clench.grasps(\"" + out + "\")'").out,
             "the last line is cut short and is skipped"));
-  CHECK(has(end_by("TERM", command + " --resume", out), "code 143"));
+  CHECK(has(end_by("TERM", command + " --threads 1 --resume", out), "code 143"));
   const auto rest = run(command + " --resume");
   CHECK(rest.code == 0);
   CHECK(has(rest.out, "128 candidates in "));
