@@ -57,7 +57,7 @@ int plan_grasps(const PlanOptions& options) {
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);
   catch_interrupts();
   catch_endings();
-  std::signal(SIGPIPE, SIG_IGN);  // what nobody reads must not keep files from being written
+  std::signal(SIGPIPE, [](int) {});  // what nobody reads must not keep files from being written
   Words words = words_of(options.reading);
   words.insert(words.end(), options.words.begin(), options.words.end());
   return run_plan(state, words);

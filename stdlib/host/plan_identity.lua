@@ -68,20 +68,20 @@ local function sorted_keys(a, b)
   return keys
 end
 
-local function quoted(value)
-  if value == nil then return "not given" end
-  if value == "yes" then return "given" end
-  return "'" .. tostring(value) .. "'"
-end
-
 local words = {hand = "HAND", object = "OBJECT"}
 
-local function first_difference(a, b, names)
+-- "expected --seed '2', got '1'"; flags have the value "yes"
+local function in_words(name, expected, got)
+  local option = words[name] or "--" .. name
+  local found = got == nil and "none" or got == "yes" and option or ("'%s'"):format(got)
+  if expected == nil then return ("expected no %s, got %s"):format(option, found) end
+  if expected == "yes" then return ("expected %s, got %s"):format(option, found) end
+  return ("expected %s '%s', got %s"):format(option, expected, found)
+end
+
+local function first_difference(there, here, names)
   for _, name in ipairs(names) do
-    local one, other = a[name], b[name]
-    if one ~= other then
-      return ("%s is %s there and %s here"):format(words[name] or "--" .. name, quoted(one), quoted(other))
-    end
+    if there[name] ~= here[name] then return in_words(name, here[name], there[name]) end
   end
 end
 

@@ -29,6 +29,8 @@ function List.check(given)
   local ok, format = pcall(function() return self.kept:check_save(self.path, {format = given.format}) end)
   if not ok and format.kind == "input" then fail("-o: %s", format.sentence) end
   if not ok then error(format, 0) end
+  -- /dev/stdout may lead to a file, which has another name once the list takes its place
+  if self.path:find "^/dev/" then refuse("-o: %s: expected a file to write, got a special file", self.path) end
   self.format, self.journal_path = format, self.path .. ".search"
   if self.is_resuming and format ~= "jsonl" then
     fail("--resume: expected a list of JSON lines, -o FILE.jsonl, got '%s'", self.path)

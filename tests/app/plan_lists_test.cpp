@@ -12,13 +12,13 @@ TEST_CASE(
   const Folder folder;
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
-  CHECK(has(end_by("KILL", command + " --count 45", out), "code 137"));
+  CHECK(has(end_by("KILL", command + " --threads 1 --count 45", out), "code 137"));
   // of a line that is cut the rest is read, with a warning
   const std::string text = text_of(out);
   folder.file("a.jsonl", text.substr(0, text.size() - 100));
   CHECK(has(epsilons(out) + run("-e 'clench.grasps(\"" + out + "\")'").out,
             "the last line is cut short and is skipped"));
-  CHECK(has(end_by("TERM", command + " --resume", out), "code 143"));
+  CHECK(has(end_by("TERM", command + " --threads 1 --resume", out), "code 143"));
   const auto rest = run(command + " --resume");
   CHECK(rest.code == 0);
   CHECK(has(rest.out, "128 candidates in "));
@@ -51,15 +51,16 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
                        " is the list of this search: --resume goes on with it, --overwrite begins "
                        "it again\n");
   refused(command + " --seed 2",
-          " is the list of another search: --seed is '1' there and '2' here; --overwrite");
-  refused(command + " --seed 2 --resume", "--resume: " + out + " is of another search: --seed is");
-  refused(command + " --contacts power", "--contacts is 'any' there and 'power' here");
-  refused(command + " --mass 0.2", "--mass is not given there and '0.2' here");
-  refused(barrett + "-o " + out, "--no-verify is given there and not given here");
+          " is the list of another search: expected --seed '2', got '1'; --overwrite replaces it");
+  refused(command + " --seed 2 --resume",
+          "--resume: " + out + " is of another search: expected --seed");
+  refused(command + " --contacts power", "expected --contacts 'power', got 'any'");
+  refused(command + " --mass 0.2", "expected --mass '0.2', got none");
+  refused(barrett + "-o " + out, "expected no --no-verify, got --no-verify");
   refused("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --no-verify -o " + out,
-          "OBJECT is 'models/objects/flask.iv' there and 'models/objects/mug.iv' here");
+          "expected OBJECT 'models/objects/mug.iv', got 'models/objects/flask.iv'");
   refused("plan models/hands/dlr/dlr.cfg models/objects/flask.iv --no-verify --resume -o " + out,
-          "HAND is 'models/hands/barrett/barrett.cfg' there");
+          "expected HAND 'models/hands/dlr/dlr.cfg', got 'models/hands/barrett/barrett.cfg'");
   refused(command + " --resume --overwrite", "expected --overwrite or --resume, got both", 2);
   refused(barrett + "--resume", "--resume is about the list of -o FILE, and there is no -o", 2);
   refused(barrett + "--overwrite", "--overwrite is about the list of -o FILE", 2);
@@ -128,6 +129,8 @@ TEST_CASE("pipes, devices and folders are no files that plan writes") {
     refused(option.substr(0, space + 1) + path, path + sentence);
   }
   refused("-o /dev/full", "/dev/full" + sentence);
+  refused("-o /dev/stdout > " + (folder / "out") + " 2>&1; cat " + (folder / "out") + "; exit 1",
+          "-o: /dev/stdout" + sentence);
   refused("--sheet " + (folder / "folder.png"), "expected a file to write, got a folder");
   const auto page = run(barrett + "--report " + (folder / "pipe.html"));
   CHECK(page.code == 1);

@@ -122,6 +122,17 @@ TEST_CASE("a signal ends a search with the grasps so far and its code") {
   }
 }
 
+TEST_CASE("a second signal ends a search at once") {
+  const Folder folder;
+  const std::string out = folder / "a.jsonl";
+  // stopped meanwhile, the process gets both together
+  const std::string text = end_by("CONT", barrett + "--no-verify --seconds 60 -o " + out, out,
+                                  "kill -STOP $pid\nkill -TERM $pid\nkill -INT $pid\n");
+  CHECK((text.ends_with("code 143\n") || text.ends_with("code 130\n")));
+  CHECK(text.find("barrett grasps flask") == std::string::npos);
+  CHECK(std::stod(epsilons(out)) > 0);
+}
+
 TEST_CASE(
     "killing a search loses none of the grasps that its file has, and at most the last second's") {
   const Folder folder;
@@ -137,6 +148,22 @@ TEST_CASE(
   CHECK(file.ends_with("}\n"));
   CHECK(std::count(list.begin(), list.end(), '\n') ==
         std::count(file.begin(), file.end(), '\n') - 1);
+}
+
+TEST_CASE("SIGTERM and SIGHUP end a script as Ctrl-C does") {
+  const std::pair<const char*, int> signals[] = {{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
+  for (const auto& [signal, code] : signals) {
+    const Folder folder;
+    const std::string out = folder / "out";
+    const auto script = folder.file("a.lua", "clench.files.save_text('" + out + R"(', "\n\n\n")
+local ok, problem = pcall(function() while true do end end)
+print(problem.kind, problem.sentence)
+)");
+    const std::string text = end_by(signal, "-q run " + script, out);
+    CAPTURE(text);
+    CHECK(has(text, "stopped\tinterrupted\n"));
+    CHECK(text.ends_with(fmt::format("code {}\n", code)));
+  }
 }
 
 // under the sanitizers the time that is left after Ctrl-C is too short for what planners do then
