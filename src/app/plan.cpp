@@ -6,6 +6,7 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/verbs.h"
+#include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 
 namespace clench {
@@ -17,7 +18,7 @@ static std::string call(State& state, const std::string& function, const Words& 
   const Interruptible running(state, 2);
   const auto result = state.call("host.plan", function, words);
   std::fflush(stdout);
-  if (!result.ok) fmt::print(stderr, "clench plan: {}\n", result.error);
+  if (!result.ok) fmt::print(stderr, "clench plan: {}\n", printable(result.error, "\n\t"));
   return result.ok && result.values.size() == 1 ? result.values.front() : "1";
 }
 

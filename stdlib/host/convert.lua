@@ -1,5 +1,6 @@
 --- `clench convert`: what a file holds, written as another format.
 local error_text = require "clench.host.error_text"
+local printable = require "clench.printable"
 local reading = require "clench.host.reading"
 local convert = {}
 
@@ -12,10 +13,10 @@ function convert.main(root, folder, package, unit, strict, from, to)
     return clench.convert(from, to, reading(clench.file_kind(from), said))
   end)
   if not ok then
-    io.stderr:write("clench convert: ", error_text(kind), "\n")
+    io.stderr:write("clench convert: ", printable(error_text(kind), "\n"), "\n")
     return 1
   end
-  print(("%s: %s, from %s"):format(to, kind, from))
+  print(printable(("%s: %s, from %s"):format(to, kind, from)))
   return 0
 end
 
