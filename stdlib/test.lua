@@ -2,6 +2,7 @@
 --- stands; `clench test` counts them, file by file.
 local described = require "clench.described"
 local error_text = require "clench.host.error_text"
+local printable = require "clench.printable"
 local raise = require "clench.raise"
 local show = require "clench.show"
 local test = {passed = 0, failed = 0, skipped = 0}
@@ -176,7 +177,7 @@ local function run(_, claim, fn)
     print(("  skipped  %s: %s"):format(claim, message.reason))
   else
     test.failed = test.failed + 1
-    print(("  FAILED   %s\n           %s"):format(claim, (tostring(message):gsub("\n", "\n           "))))
+    print(("  FAILED   %s\n           %s"):format(claim, (printable(tostring(message), "\n\t"):gsub("\n", "\n           "))))
     if message == interrupted then error(interrupted, 0) end
   end
 end
@@ -194,7 +195,7 @@ function test.run_file(path)
   if ok and test.passed + test.failed + test.skipped == 0 then ok, message = false, "expected a test in it, got none" end
   if not ok and message ~= interrupted then
     test.failed = test.failed + 1
-    print(("  FAILED   %s: the file itself\n           %s"):format(path, (tostring(message):gsub("\n", "\n           "))))
+    print(("  FAILED   %s: the file itself\n           %s"):format(path, (printable(tostring(message), "\n\t"):gsub("\n", "\n           "))))
   end
   return test.passed, test.failed, test.skipped
 end

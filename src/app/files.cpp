@@ -5,6 +5,7 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/verbs.h"
+#include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 
 namespace clench {
@@ -26,7 +27,7 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
   arguments.insert(arguments.begin(), said.begin(), said.end());
   const auto result = state.call("host." + verb, "main", arguments);
   std::fflush(stdout);
-  if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, result.error);
+  if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, printable(result.error, "\n\t"));
   if (running.pressed()) return 130;
   return result.ok && result.values == std::vector<std::string>{"0"} ? 0 : 1;
 }

@@ -7,6 +7,7 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/verbs.h"
+#include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 
 namespace clench {
@@ -20,7 +21,8 @@ static std::string call(State& state, const std::string& function, const Words& 
   std::fflush(stdout);
   // what a signal ends needs no reason
   const bool ended = running && running->pressed();
-  if (!result.ok && !ended) fmt::print(stderr, "clench plan: {}\n", result.error);
+  if (!result.ok && !ended)
+    fmt::print(stderr, "clench plan: {}\n", printable(result.error, "\n\t"));
   return result.ok && result.values.size() == 1 ? result.values.front() : "1";
 }
 

@@ -5,13 +5,14 @@
 #include "clench/app/interrupt.h"
 #include "clench/app/repl.h"
 #include "clench/app/verbs.h"
+#include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 
 namespace clench {
 
 static bool report(const State::Result& result) {
   std::fflush(stdout);
-  if (!result.ok) fmt::print(stderr, "clench: {}\n", result.error);
+  if (!result.ok) fmt::print(stderr, "clench: {}\n", printable(result.error, "\n\t"));
   return result.ok;
 }
 

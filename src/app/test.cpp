@@ -42,7 +42,7 @@ static Count run_test_file(const fs::path& file, const std::string& confine, boo
   if (result.ok && result.values.size() == 3)
     return {std::atoi(result.values[0].c_str()), std::atoi(result.values[1].c_str()),
             std::atoi(result.values[2].c_str()), running.pressed()};
-  fmt::print("  FAILED   {}\n", result.error);
+  fmt::print("  FAILED   {}\n", printable(result.error, "\n\t"));
   return {0, 1, 0, running.pressed()};
 }
 

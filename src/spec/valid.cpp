@@ -1,6 +1,5 @@
 #include "clench/spec/valid.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "clench/base/printable.h"
@@ -71,8 +70,7 @@ void check_name(std::string_view name, std::string_view subject) {
 std::string repaired_name(std::string_view name) {
   std::string out;
   for (size_t i = 0; i < name.size();) {
-    const size_t size = name_character(name, i),
-                 length = size ? size : std::max<size_t>(control_size(name, i), 1);
+    const size_t size = name_character(name, i), length = size ? size : 1;
     if (out.size() + length > max_name_length) break;
     size ? out += name.substr(i, size) : out += '?';
     i += length;

@@ -1,5 +1,6 @@
 --- `clench convert`: what a file holds, written as another format.
 local error_text = require "clench.host.error_text"
+local printable = require "clench.printable"
 local reading = require "clench.host.reading"
 local convert = {}
 
@@ -25,10 +26,10 @@ function convert.main(root, folder, package, unit, strict, from, to, format, dof
   end)
   if not ok then
     if type(kind) == "table" and kind.kind == "stopped" then error(kind, 0) end
-    io.stderr:write("clench convert: ", error_text(kind), "\n")
+    io.stderr:write("clench convert: ", printable(error_text(kind), "\n"), "\n")
     return 1
   end
-  print(("%s: %s, from %s"):format(to, kind, from))
+  print(printable(("%s: %s, from %s"):format(to, kind, from)))
   return 0
 end
 

@@ -1,5 +1,4 @@
 --- What an error says, whatever its value: one that cannot be printed is an error still.
-local printable = require "clench.printable"
 local show = require "clench.show"
 local type, pcall, tostring, rawget = type, pcall, tostring, rawget
 local getmetatable, format, sub = debug.getmetatable, string.format, string.sub
@@ -20,7 +19,7 @@ end
 ---@param value any
 ---@return string
 return function(value)
-  local text = printable(words_of(value), "\n\t")
+  local text = words_of(value)
   if #text <= longest then return text end
   return format("%s... (%d characters)", sub(text, 1, longest), #text)
 end

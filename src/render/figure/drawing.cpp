@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "clench/base/printable.h"
@@ -39,22 +40,25 @@ std::string hex(const Drawing::Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
-// what XML allows of a text, and a reader shows rather than obeys
+// what XML allows of a text; blanks for what a reader would obey rather than show
 std::string escaped(const std::string& text) {
   std::u32string letters = letters_of(text);
   std::erase_if(letters, [](char32_t c) { return c == 0xFFFE || c == 0xFFFF; });
+  const std::string shown = text_of(letters);
   std::string out;
-  for (const char c : printable(text_of(letters), "\n")) {
-    if (c == '&')
+  for (size_t i = 0, size = 0; i < shown.size(); i += std::max<size_t>(size, 1)) {
+    const char c = shown[i];
+    size = control_size(shown, i);
+    if (size > 0)
+      out += ' ';
+    else if (c == '&')
       out += "&amp;";
     else if (c == '<')
       out += "&lt;";
     else if (c == '>')
       out += "&gt;";
-    else if (static_cast<unsigned char>(c) >= ' ')
-      out += c;
     else
-      out += ' ';
+      out += c;
   }
   return out;
 }

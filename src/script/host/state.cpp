@@ -244,7 +244,7 @@ State::Result State::finish(int status, int base) {
     if (result.ok)
       result.values.push_back(std::move(value));
     else
-      result.error = printable(value, "\n\t");
+      result.error = std::move(value);
   }
   lua_settop(L_, base);
   return result;
@@ -400,7 +400,7 @@ State::Line State::evaluate(const std::string& input, int line) {
   }
   lua_remove(L_, handler);
   const Result result = finish(status, base);
-  if (!result.ok) fmt::print(stderr, "{}\n", result.error);
+  if (!result.ok) fmt::print(stderr, "{}\n", printable(result.error, "\n\t"));
   return result.ok ? Line::done : Line::failed;
 }
 
