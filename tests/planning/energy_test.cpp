@@ -12,6 +12,7 @@
 #include "clench/planning/energy/constraint_energy.h"
 #include "planning/scene.h"
 #include "support/measured.h"
+#include "support/robots.h"
 #include "support/shared.h"
 
 using namespace clench;

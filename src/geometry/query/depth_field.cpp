@@ -63,14 +63,6 @@ GameRow DepthField::row(int triangle, Simplex corners) const {
   return out;
 }
 
-GameRow DepthField::plane_row(int triangle, Simplex corners) const {
-  const Vector3d& inward = slope(triangle).inward;
-  const Vector3d p = surface_.mesh().corners(triangle)[0];
-  GameRow out{};
-  for (size_t j = 0; j < corners.size(); ++j) out[j] = inward.dot(corners[j] - p);
-  return out;
-}
-
 GameRow DepthField::box_row(int side, Simplex corners) const {
   const Bounds& box = solid_.bounds();
   const int k = side / 2;
@@ -95,8 +87,8 @@ static double least_along(const Vector3d& u, const Vector3d& p, const Corners& c
   return std::max(least, along * height - in_plane * radius);
 }
 
-// triangles of which is_convex judges all pairs
-static constexpr int few_triangles = 20;
+// triangles of which local_rows judges all pairs
+static constexpr int few_triangles = 24;
 
 void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const {
   const double rounding = rounding_of(solid_.bounds(), ball.centre);
@@ -116,7 +108,7 @@ void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangle
   out.complete = count <= NearTriangles::most;
   out.count = out.complete ? count : 0;
   if (out.count > few_triangles) return;
-  // exactly, for is_convex
+  // exactly, for local_rows
   const auto end = out.triangles.begin() + out.count;
   out.count =
       static_cast<int>(std::remove_if(out.triangles.begin(), end,
@@ -127,21 +119,69 @@ void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangle
                        out.triangles.begin());
 }
 
-// The corners of all lie in the half-spaces of all; then what is outside one of these has no
-// surface in it and adjoins the outer side of a triangle.
-bool DepthField::is_convex(const NearTriangles& near) const {
-  if (!near.complete || near.count == 0 || near.count > few_triangles) return false;
+// Where no near surface is in front of the plane of a triangle, the outside is: points of the ball in
+// front of it are outside, and the depth is at most the distance from the plane.
+// Where triangles lie in front of the planes of each other, and any other near triangle behind one of
+// these planes, what is in front of all is convex and outside, and the distance from it is convex.
+void DepthField::local_rows(Simplex corners, const Sphere& ball, const NearTriangles& near,
+                            FunctionRef<void(const GameRow&, int)> take) const {
+  if (!near.complete || near.count > few_triangles) return;
   const double rounding = 1e-12 * solid_.radius();
-  for (const int i : near.list()) {
-    const Slope& s = slope(i);
-    // an accurate plane
-    if (s.inward.isZero(0) || s.error > 1e-8) return false;
-    const Vector3d p = surface_.mesh().corners(i)[0];
-    for (const int j : near.list())
-      for (const Vector3d& q : surface_.mesh().corners(j))
-        if (s.inward.dot(q - p) < -rounding) return false;
+  const int count = near.count;
+  // is triangle j behind the plane of i, up to rounding? Is it in front?
+  std::array<std::array<bool, few_triangles>, few_triangles> behind, front;
+  std::array<Vector3d, few_triangles> inward, on_plane;
+  for (int i = 0; i < count; ++i) {
+    const Slope& s = slope(near.triangles[i]);
+    inward[i] = s.error > 1e-8 ? Vector3d(Vector3d::Zero()) : s.inward;
+    on_plane[i] = surface_.mesh().corners(near.triangles[i])[0];
+    for (int j = 0; j < count; ++j) {
+      behind[i][j] = front[i][j] = !inward[i].isZero(0);
+      for (const Vector3d& q : surface_.mesh().corners(near.triangles[j])) {
+        const double height = inward[i].dot(q - on_plane[i]);
+        behind[i][j] &= height >= -rounding;
+        front[i][j] &= height <= rounding;
+      }
+    }
   }
-  return true;
+  std::array<bool, few_triangles> done{};
+  for (int i = 0; i < count; ++i) {
+    if (!std::all_of(behind[i].begin(), behind[i].begin() + count, [](bool x) { return x; }))
+      continue;
+    done[i] = true;
+    GameRow row{};
+    for (size_t j = 0; j < corners.size(); ++j) row[j] = inward[i].dot(corners[j] - on_plane[i]);
+    take(row, near.triangles[i]);
+  }
+  for (int first = 0; first < count; ++first) {
+    if (done[first] || inward[first].isZero(0)) continue;
+    std::array<int, few_triangles> group;
+    int size = 0;
+    for (int k = 0; k < count; ++k) {
+      const int i = (first + k) % count;
+      if (!inward[i].isZero(0) && std::all_of(group.begin(), group.begin() + size,
+                                              [&](int j) { return front[i][j] && front[j][i]; }))
+        group[size++] = i;
+    }
+    const auto end = group.begin() + size;
+    for (auto i = group.begin(); i != end; ++i) done[*i] = true;
+    bool valid = size > 1;
+    for (int j = 0; j < count && valid; ++j)
+      valid = std::any_of(group.begin(), end, [&](int i) { return i == j || behind[i][j]; });
+    if (!valid) continue;
+    GameRow row{};
+    for (size_t j = 0; j < corners.size() && valid; ++j) {
+      double nearest = std::numeric_limits<double>::infinity(), highest = -nearest;
+      for (auto i = group.begin(); i != end; ++i) {
+        highest = std::max(highest, inward[*i].dot(corners[j] - on_plane[*i]));
+        const Closest c = point_triangle(corners[j], surface_.mesh().corners(near.triangles[*i]));
+        if ((c.q - ball.centre).norm() <= near.reach) nearest = std::min(nearest, c.distance);
+      }
+      row[j] = highest <= 0 ? 0 : nearest;
+      valid = std::isfinite(row[j]);
+    }
+    if (valid) take(row, near.triangles[first]);
+  }
 }
 
 // At a point x whose nearest surface point is q, the depth increases along u where u . (x - q) > 0.

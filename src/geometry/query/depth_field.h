@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "clench/base/function_ref.h"
 #include "clench/geometry/query/exposed.h"
 #include "clench/geometry/query/queries.h"
 #include "clench/math/matrix_game.h"
@@ -64,17 +65,17 @@ class DepthField {
   Probe probe(const Eigen::Vector3d& p, int seed = -1) const;
   /// centre  the probe of the ball's centre
   void find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const;
-  /// Within reach, is the solid an intersection of half-spaces, those of the near triangles? The
-  /// depth is then the least distance from their planes.
-  bool is_convex(const NearTriangles& near) const;
   /// Is it certain that the depth has no local maximum in the simplex? True where it increases
   /// along one direction all over the part of the simplex inside.
   bool rises(Simplex corners, const Sphere& ball, const NearTriangles& near) const;
 
   /// Values at the corners whose linear interpolation is nowhere in the simplex below the depth.
   GameRow row(int triangle, Simplex corners) const;
-  /// The same of a triangle near a simplex where is_convex holds, negative outside.
-  GameRow plane_row(int triangle, Simplex corners) const;
+  /// The same of what the surface is near the simplex, few triangles, given to take(row, triangle): the
+  /// signed distance from the plane of a triangle where nothing near is in front of it, and the
+  /// distance from several triangles where these bound a convex part of the outside.
+  void local_rows(Simplex corners, const Sphere& ball, const NearTriangles& near,
+                  FunctionRef<void(const GameRow&, int)> take) const;
   /// The same of the bounding box's face number `side`, 0 to 5.
   GameRow box_row(int side, Simplex corners) const;
 

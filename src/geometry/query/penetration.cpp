@@ -264,7 +264,7 @@ class DeepestPoint {
       if (centre.inside && improves(centre.distance) && (region.held || holds(ball.centre)))
         take(ball.centre, centre.distance, centre.triangle);
     }
-    tighten(region, centre);
+    tighten(region, ball, centre);
     push(std::move(region));
   }
 
@@ -289,23 +289,20 @@ class DeepestPoint {
 
   // Lowers the bound by planes cut where it is attained.
   // source  Kelley (1960), The cutting-plane method
-  void tighten(Region& region, const Probe& centre) {
+  void tighten(Region& region, const Sphere& ball, const Probe& centre) {
     constexpr int most_cuts = 10;
     const std::span<Vector3d> corners = region.corners();
     Rows rows;
     const auto add = [&](int triangle) {
       return rows.add(field_.row(triangle, corners), triangle);
     };
-    const bool convex = field_.is_convex(near_);
-    if (convex) {
-      for (const int triangle : near_.list())
-        rows.add(field_.plane_row(triangle, corners), triangle);
-    } else {
-      for (int side = 0; side < 6; ++side) rows.add(field_.box_row(side, corners), -1);
-      for (const int triangle : region.triangles)
-        if (triangle >= 0) add(triangle);
-      add(centre.triangle);
-    }
+    for (int side = 0; side < 6; ++side) rows.add(field_.box_row(side, corners), -1);
+    field_.local_rows(corners, ball, near_, [&](const GameRow& row, int triangle) {
+      if (rows.count < max_game_rows / 2) rows.add(row, triangle);
+    });
+    for (const int triangle : region.triangles)
+      if (triangle >= 0) add(triangle);
+    add(centre.triangle);
     const double first = region.bound;
     for (int cut = 0; cut < most_cuts; ++cut) {
       const GameSolution game = rows.solve(static_cast<int>(corners.size()));

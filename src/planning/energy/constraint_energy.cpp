@@ -79,7 +79,7 @@ EnergyPtr penetration_energy(const World& world, Id<Robot> hand) {
   return std::make_unique<PlainEnergy>([parts](World& now) {
     constexpr double touch = 1e-3;  // of a pair that collides, however shallow [mm]
     const PenetrationOptions options{
-        .absolute = 1e-5, .relative = 0.01, .progress = now.context().progress()};
+        .absolute = 1e-4, .relative = 0.1, .progress = now.context().progress()};
     // 0 for a body that is no part of the hand
     const auto depth = [&](Id<Body> part, Id<Body> other) {
       if (std::ranges::find(parts, part) == parts.end()) return 0.0;

@@ -23,7 +23,7 @@ EnergyPtr reach_energy(Id<Robot> hand, const Eigen::Vector3d& p_W, double radius
 
 /// Depth of the hand in what it collides with: the sum, over the pairs of bodies that collide, of the
 /// depth of the part in the other body (of two parts the larger), plus a thousandth per pair, so that
-/// it is 0 only where nothing collides [mm]. Each depth is at most 0.01 mm + 1 % below the true one;
+/// it is 0 only where nothing collides [mm]. Each depth is at most 0.1 mm + 10 % below the true one;
 /// two open meshes that cross count as a pair alone.
 EnergyPtr penetration_energy(const World& world, Id<Robot> hand);
 

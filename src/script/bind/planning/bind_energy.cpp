@@ -352,7 +352,7 @@ How much farther than a radius the hand's approach point is from a point [mm].
 @return energy
 > clench.energy.reach {hand = hand, point = hand.approach.point, radius = 0.1}()  --> 0.0)"},
     {"penetration", guarded<penetration>, R"(
-Depth of the hand in what it collides with, as `world:penetration` gives it, up to 1 %, summed over the pairs of bodies [mm]; 0 only
+Depth of the hand in what it collides with, as `world:penetration` gives it, but up to 0.1 mm + 10 %, summed over the pairs of bodies [mm]; 0 only
 where nothing collides. A search with this term and `collisions = false` may cross states that collide.
 @param options {hand: robot}
 @return energy
