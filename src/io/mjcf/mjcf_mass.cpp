@@ -115,7 +115,7 @@ void MjcfTreeReader::bound_inertia(const XmlElement& element, int link) {
   const double before = massless_[link] ? 0 : body.mass;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   if (!massless_[link] && body.inertia_per_mass) inertia = before * *body.inertia_per_mass;
-  const PrincipalAxes axes = principal_axes(inertia);
+  const InertiaAxes axes = inertia_axes(inertia);
   const bool light = before < settings.min_mass;
   const bool small = axes.moments.minCoeff() < settings.min_inertia;
   if (!light && !small) return;

@@ -1,10 +1,9 @@
 #include "clench/io/mjcf/mjcf_mesh_mass.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "clench/geometry/mesh/hull.h"
+#include "clench/geometry/mesh/principal_axes.h"
 
 namespace clench {
 
@@ -114,39 +113,11 @@ MassProperties mesh_mass(const Mesh& mesh, MeshInertia rule) {
   return std::abs(exact.volume - legacy.volume) <= rounding * legacy.volume ? exact : legacy;
 }
 
-PrincipalAxes principal_axes(const Eigen::Matrix3d& inertia) {
-  constexpr int max_sweeps = 50;
-  constexpr double rounding = 1e-14;  // relative
-  Eigen::Matrix3d A = inertia, R = Eigen::Matrix3d::Identity();
-  const double small = rounding * inertia.cwiseAbs().maxCoeff();
-  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-    bool diagonal = true;
-    for (const auto& [i, j] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
-      if (std::abs(A(i, j)) <= small) continue;
-      diagonal = false;
-      const double tau = (A(j, j) - A(i, i)) / (2 * A(i, j));
-      const double t = (tau >= 0 ? 1 : -1) / (std::abs(tau) + std::sqrt(1 + tau * tau));
-      const double c = 1 / std::sqrt(1 + t * t);
-      Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-      J(i, i) = J(j, j) = c;
-      J(i, j) = t * c;
-      J(j, i) = -t * c;
-      A = J.transpose() * A * J;
-      R = R * J;
-    }
-    if (diagonal) break;
-  }
-  Eigen::Vector3i order(0, 1, 2);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return A(a, a) > A(b, b); });
-  PrincipalAxes out;
+InertiaAxes inertia_axes(const Eigen::Matrix3d& inertia) {
+  const Eigen::Matrix3d ascending = principal_axes(inertia);
   Eigen::Matrix3d axes;
-  for (int i = 0; i < 3; ++i) {
-    axes.col(i) = R.col(order[i]);
-    out.moments[i] = A(order[i], order[i]);
-  }
-  if (axes.determinant() < 0) axes.col(2) *= -1;
-  out.rotation = Eigen::Quaterniond(axes).normalized();
-  return out;
+  axes << ascending.col(2), ascending.col(1), -ascending.col(0);
+  return {Eigen::Quaterniond(axes).normalized(), (axes.transpose() * inertia * axes).diagonal()};
 }
 
 }  // namespace clench

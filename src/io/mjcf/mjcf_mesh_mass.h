@@ -17,12 +17,10 @@ enum class MeshInertia { legacy, exact, convex, shell };
 MassProperties mesh_mass(const Mesh& mesh, MeshInertia rule);
 
 /// Principal axes of an inertia.
-struct PrincipalAxes {
+struct InertiaAxes {
   Eigen::Quaterniond rotation;  ///< of the axes
   Eigen::Vector3d moments;      ///< in descending order
 };
-/// Axes of a matrix that is diagonal to rounding are those of the frame, exchanged.
-/// source  Golub & Van Loan (2013), sec. 8.5: cyclic Jacobi
-PrincipalAxes principal_axes(const Eigen::Matrix3d& inertia);
+InertiaAxes inertia_axes(const Eigen::Matrix3d& inertia);
 
 }  // namespace clench

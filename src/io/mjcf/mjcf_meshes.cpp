@@ -162,7 +162,7 @@ static std::vector<double> size_of_bounds(const std::string& type, const Eigen::
 
 FittedPrimitive MjcfMeshes::fit(const MjcfMesh& mesh, const std::string& type,
                                 const XmlValues& geom) const {
-  const PrincipalAxes axes = principal_axes(mesh.mass.inertia);
+  const InertiaAxes axes = inertia_axes(mesh.mass.inertia);
   FittedPrimitive out;
   out.X_MF = {axes.rotation, mesh.mass.centroid};
   if (document_.settings(geom.element()).fit_bounds) {

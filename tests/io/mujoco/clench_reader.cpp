@@ -157,7 +157,7 @@ void add_robot(const PlacedRobot& placed, const TopNames& names, const ModelFact
 }
 
 void add_body(const WorldSpec& world, const PlacedBody* placed, const TopNames& names,
-              ModelFacts& into) {
+              const ModelFacts& theirs, ModelFacts& into) {
   if (!names.free) {
     for (size_t i = 0; i < names.bodies.size(); ++i) {
       BodyFacts body;
@@ -166,7 +166,9 @@ void add_body(const WorldSpec& world, const PlacedBody* placed, const TopNames& 
       bool stands = false;
       for (const PlacedBody& obstacle : world.bodies)
         if (obstacle.body.name == names.bodies[i]) body.X_WB = obstacle.X_WB, stands = true;
-      if (stands) into.bodies.push_back(std::move(body));
+      // without geometry it is no obstacle
+      if (const BodyFacts* same = theirs.body(body.name); same && !stands) body.X_WB = same->X_WB;
+      into.bodies.push_back(std::move(body));
     }
     return;
   }
@@ -202,7 +204,7 @@ ModelFacts read_by_clench(const std::filesystem::path& path, const ModelFacts& t
       if (robot)
         add_robot(*robot, names, theirs, out);
       else
-        add_body(world, object, names, out);
+        add_body(world, object, names, theirs, out);
     }
   } catch (const Error& error) {
     out.error = error.what();

@@ -162,7 +162,8 @@ class Generator {
     if (chance(p)) element.set("class", one_of(names));
   }
 
-  Element geom(bool of_world = false) {
+  /// first  of a group that all ranges contain
+  Element geom(bool of_world = false, bool first = false) {
     constexpr std::string_view types[] = {"sphere",    "capsule", "cylinder",
                                           "ellipsoid", "box",     "mesh"};
     Element out("geom");
@@ -179,16 +180,16 @@ class Generator {
       out.set("fromto", numbers(3, -0.5, 0) + ' ' + numbers(3, 0.1, 0.5));
       out.set("size", numbers(1, 0.02, 0.2));
       placed = true;
-    } else if (chance(0.1)) {
-      out.set("mesh", chance(0.5) ? "m0" : "m1");
-      if (chance(0.3)) out.set("fitscale", numbers(1, 0.5, 2));
     } else {
       out.set("size", numbers(3, 0.02, 0.3));
     }
     if (!placed) place(out, 0.6);
     if (chance(0.3)) out.set("mass", numbers(1, 0.1, 3));
     if (chance(0.3)) out.set("density", numbers(1, 100, 3000));
-    if (chance(0.3)) out.set("group", std::to_string(integer(0, of_world ? 2 : 4)));
+    if (first)
+      out.set("group", "1");
+    else if (chance(0.3))
+      out.set("group", std::to_string(integer(0, of_world ? 2 : 4)));
     if (chance(0.2)) out.set("contype", "0").set("conaffinity", "0");
     return out;
   }
@@ -251,8 +252,7 @@ class Generator {
       }
     }
     if (chance(0.3)) out.add(inertial());
-    // one geom of a group that every range contains
-    out.add(geom().set("name", fmt::format("g{}", bodies_)));
+    out.add(geom(false, true).set("name", fmt::format("g{}", bodies_)));
     for (int i = 0, n = integer(0, 2); i < n; ++i) out.add(geom());
     for (int i = 0, n = depth < 3 ? integer(0, 2) : 0; i < n; ++i) out.add(body(depth + 1));
     return out;
