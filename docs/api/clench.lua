@@ -801,7 +801,7 @@ function world_queries:contacts(a, b) end
 ---@class world_dynamics: world_control
 ---@field time number # How long it has run. [s]
 ---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
----@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
+---@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which bodies that touch each other have at most 6,000; more is an error of the kind "limit".
 ---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number} # What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took (`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to 1e-9 m/s, or 1e-8 m/s of what rests), pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have as velocities [m/s].
 local world_dynamics = {}
 

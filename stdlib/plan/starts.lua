@@ -15,16 +15,17 @@ end
 
 local many_links = 64  -- of so many, moving one DOF at a time takes too long: its time grows with the fourth power of their number
 
--- All DOFs move back together, by the smallest part of their ranges that leaves fewest collisions.
+-- All DOFs that close move back together, by the smallest part of their ranges that leaves fewest collisions.
 local function freed_together(hand, dofs, count)
-  local best, limits = dofs, hand.dof_limits
+  local best, limits, info = dofs, hand.dof_limits, hand.dof_info
   for part = 0.1, 0.9, 0.1 do
     if count == 0 then break end
     local moved = {}
     for i, value in ipairs(dofs) do
       local low, high = table.unpack(limits[i])
       local far = math.abs(value - low) > math.abs(value - high) and low or high
-      moved[i] = high - low < math.huge and value + part * (far - value) or value
+      local closes = info[i].default_velocity ~= 0 and high - low < math.huge
+      moved[i] = closes and value + part * (far - value) or value
     end
     local left = self_collisions(hand, moved)
     if left < count then best, count = moved, left end

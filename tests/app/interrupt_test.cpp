@@ -104,7 +104,7 @@ void ends_by_interrupt(const std::vector<std::string>& arguments, const std::str
 // a script that prepares a call, says so, and makes it
 void call_ends_by_interrupt(const std::string& preparation, const std::string& call) {
   ends_by_interrupt(
-      {"-q", "-e", preparation + " io.stdout:write('ready\n') io.stdout:flush() " + call}, "ready");
+      {"-q", "-e", preparation + " io.stdout:write('ready') io.stdout:flush() " + call}, "ready");
 }
 
 const std::string crowd =

@@ -49,7 +49,7 @@ struct Moment {
   bool operator==(const Moment&) const = default;
 };
 
-constexpr double dt = 0.002;
+constexpr double dt = 0.001;  // one step
 
 uint64_t checks_of_step(World& world) {
   const Watched watched{Progress()};
@@ -103,7 +103,7 @@ TEST_CASE("the halves of a step stop as a step does") {
 TEST_CASE("the more a step has to do, the more often it checks") {
   for (const FrictionCone cone : {FrictionCone::round, FrictionCone::pyramid}) {
     World few = crowd(2, DynamicsEngine::clench, cone),
-          many = crowd(4, DynamicsEngine::clench, cone);
+          many = crowd(3, DynamicsEngine::clench, cone);
     const uint64_t least = checks_of_step(few), most = checks_of_step(many);
     // of each pair of bodies and of each iteration at least
     const auto& report = many.dynamics()->report;

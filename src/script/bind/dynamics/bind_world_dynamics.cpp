@@ -204,7 +204,8 @@ Length of the steps of `run`; from 1e-7 to 1.
      setter<set_time_step>},
     {"dynamics", guarded<get_dynamics>, R"(
 How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same
-contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges.
+contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which bodies
+that touch each other have at most 6,000; more is an error of the kind "limit".
 @type {time_step: number, engine: string, cone: string, edges: integer}
 > world.dynamics = {engine = "ode"}
 > world.dynamics.engine, world.dynamics.time_step  --> ode, 0.001
