@@ -1303,7 +1303,7 @@ function clench.energy.clearance(options) end
 ---@return energy
 function clench.energy.reach(options) end
 
----Depth of the hand in what it collides with, as `world:penetration` gives it, up to 1 %, summed over the pairs of bodies [mm]; 0 only where nothing collides. A search with this term and `collisions = false` may cross states that collide.
+---Depth of the hand in what it collides with, as `world:penetration` gives it, but up to 0.1 mm + 10 %, summed over the pairs of bodies [mm]; 0 only where nothing collides. A search with this term and `collisions = false` may cross states that collide.
 ---@param options {hand: robot}
 ---@return energy
 function clench.energy.penetration(options) end

@@ -156,3 +156,20 @@ test("measures of position, direction and normals are in quality_all", function(
   t.ok(all.orthogonality >= 0 and all.orthogonality <= math.pi / 4 + 1e-12)
   t.ok(all.coplanarity >= 0 and all.coplanarity <= math.sqrt(1 / 3) + 1e-12)
 end)
+
+test("penetration sees a bar through a cylinder, crossed bars, a plate, and cubes without a corner inside", function(t)
+  local shapes = clench.shapes
+  local bar = shapes.box {0.01, 0.01, 0.1}
+  local function depth(inner, outer, xyz, rpy)
+    local world = clench.world()
+    local a = world:add_obstacle(inner)
+    local b = world:add_object(outer, {pose = {xyz = xyz or {0, 0, 0}, rpy = rpy or {0, 0, 0}}})
+    t.equal(#world:colliding(a, b), 1)
+    return (world:penetration(a, b))
+  end
+  t.close(depth(bar, shapes.cylinder {0.03, 0.08}, nil, {0, math.pi / 2, 0}), 0.03, 0.0003)
+  t.close(depth(bar, shapes.box {0.1, 0.01, 0.01}, {0, 0.008, 0}), 0.002, 5e-6)
+  t.close(depth(bar, shapes.box {0.06, 0.06, 0.005}, nil, {0.3, 0.2, 0.1}), 0.0025, 5e-6)
+  local cube = shapes.box {0.06, 0.06, 0.06}
+  t.close(depth(cube, cube, {0.05, 0, 0}), 0.01, 2e-5)
+end)
