@@ -24,7 +24,9 @@ static constexpr size_t max_text = size_t{256} << 20;
 static constexpr const char* format_names[] = {"jsonl",    "csv",          "npz",    "isaac_grasp",
                                                "graspgen", "multigripper", "graspit"};
 
-const char* format_name(GraspFormat format) { return format_names[static_cast<size_t>(format)]; }
+const char* grasp_format_name(GraspFormat format) {
+  return format_names[static_cast<size_t>(format)];
+}
 
 GraspFormat grasp_format(const std::string& name) {
   const std::vector<std::string> names(std::begin(format_names), std::end(format_names));

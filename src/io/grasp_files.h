@@ -15,7 +15,7 @@ namespace clench {
 /// "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper", "graspit"
 /// throws Error  "unknown format 'cvs', expected one of jsonl, csv, ..."
 GraspFormat grasp_format(const std::string& name);
-const char* format_name(GraspFormat format);
+const char* grasp_format_name(GraspFormat format);
 
 /// format  empty: what the ending says, and of .json and others what stands in the file
 /// throws Error as the readers of the formats do

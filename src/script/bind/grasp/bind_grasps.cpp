@@ -41,7 +41,7 @@ static int list_grasps(lua_State* L) {
   }
   push_object(L, std::move(list));
   if (!format_read) return 1;
-  push(L, format_name(*format_read));
+  push(L, grasp_format_name(*format_read));
   return 2;
 }
 
