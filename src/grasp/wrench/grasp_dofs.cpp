@@ -226,9 +226,9 @@ std::vector<int> breadth_first_joints(const Robot& robot) {
   };
   std::vector<Place> level;
   const auto open = [&](int link, std::vector<Place>& to) {
-    std::vector<int> moved;
-    add_moved(robot, children, link, moved);
-    for (const int m : moved) to.push_back({m, robot.links[m].first_joint});
+    std::vector<int> links;
+    add_moved(robot, children, link, links);
+    for (const int m : links) to.push_back({m, robot.links[m].first_joint});
   };
   open(-1, level);
   while (!level.empty()) {

@@ -110,7 +110,7 @@ std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::st
 
 namespace {
 
-enum class Role {
+enum class ColumnRole {
   unused,
   text,
   planner,
@@ -127,7 +127,7 @@ enum class Role {
 /// A column, its role, and the name in it: "dof thumb [rad]" is the DOF "thumb", in rad.
 struct Column {
   std::string name = {};
-  Role role = Role::unused;
+  ColumnRole role = ColumnRole::unused;
   std::string key = {}, unit = {};
   size_t number = 0;  ///< of a part of the pose, or of a text
 };
@@ -141,24 +141,26 @@ void split_unit(Column& column) {
 }
 
 Column column_of(std::string name) {
-  static constexpr std::pair<std::string_view, Role> prefixes[] = {{"dof ", Role::dof},
-                                                                   {"dof_", Role::numbered_dof},
-                                                                   {"measure ", Role::measure},
-                                                                   {"info ", Role::note},
-                                                                   {"label ", Role::label}};
-  static constexpr std::pair<std::string_view, Role> names[] = {
-      {"planner", Role::planner},
-      {"seed", Role::note},
-      {"energy", Role::note},
-      {"epsilon", Role::epsilon},
-      {"collision_free", Role::collision_free}};
+  static constexpr std::pair<std::string_view, ColumnRole> prefixes[] = {
+      {"dof ", ColumnRole::dof},
+      {"dof_", ColumnRole::numbered_dof},
+      {"measure ", ColumnRole::measure},
+      {"info ", ColumnRole::note},
+      {"label ", ColumnRole::label}};
+  static constexpr std::pair<std::string_view, ColumnRole> names[] = {
+      {"planner", ColumnRole::planner},
+      {"seed", ColumnRole::note},
+      {"energy", ColumnRole::note},
+      {"epsilon", ColumnRole::epsilon},
+      {"collision_free", ColumnRole::collision_free}};
   Column out{.name = std::move(name)};
   for (const auto& [prefix, role] : prefixes)
     if (out.name.starts_with(prefix)) {
       out.role = role;
       out.key = out.name.substr(prefix.size());
-      if (role == Role::dof || role == Role::numbered_dof) split_unit(out);
-      if (role == Role::numbered_dof && !parse_integer(out.key)) out.role = Role::unused;
+      if (role == ColumnRole::dof || role == ColumnRole::numbered_dof) split_unit(out);
+      if (role == ColumnRole::numbered_dof && !parse_integer(out.key))
+        out.role = ColumnRole::unused;
       return out;
     }
   for (const auto& [known, role] : names)
@@ -167,9 +169,9 @@ Column column_of(std::string name) {
       out.key = out.name;
     }
   for (size_t i = 0; i < std::size(text_columns); ++i)
-    if (out.name == text_columns[i].first) out.role = Role::text, out.number = i;
+    if (out.name == text_columns[i].first) out.role = ColumnRole::text, out.number = i;
   for (size_t i = 0; i < std::size(pose_columns); ++i)
-    if (out.name == pose_columns[i]) out.role = Role::pose, out.number = i;
+    if (out.name == pose_columns[i]) out.role = ColumnRole::pose, out.number = i;
   return out;
 }
 
@@ -181,7 +183,7 @@ class TableReader {
     check_columns(fmt::format("{}:{}", file, head.line));
     std::vector<std::string> unused;
     for (const Column& c : columns_)
-      if (c.role == Role::unused) unused.push_back(excerpt(c.name));
+      if (c.role == ColumnRole::unused) unused.push_back(excerpt(c.name));
     if (!unused.empty() && options.warn)
       options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
   }
@@ -198,37 +200,37 @@ class TableReader {
       const CsvCell& cell = record.cells[c];
       if (cell.text.empty() && !cell.quoted) continue;
       switch (column.role) {
-        case Role::unused:
+        case ColumnRole::unused:
           break;
-        case Role::text:
+        case ColumnRole::text:
           g.*text_columns[column.number].second = cell.text;
           break;
-        case Role::planner:
-        case Role::label:
+        case ColumnRole::planner:
+        case ColumnRole::label:
           g.labels[column.key] = cell.text;
           break;
-        case Role::epsilon:
-        case Role::measure:
+        case ColumnRole::epsilon:
+        case ColumnRole::measure:
           if (cell.text != "inf" && cell.text != "nan" && cell.text != "-inf")
             g.measures[column.key] = number(column, cell, record.line);
           break;
-        case Role::note:
+        case ColumnRole::note:
           g.info[column.key] = number(column, cell, record.line);
           break;
-        case Role::collision_free:
+        case ColumnRole::collision_free:
           if (cell.text != "true" && cell.text != "false")
             fail("{}:{}: collision_free: expected true or false, got {}", file_, record.line,
                  in_quotes(cell.text));
           g.collision_free = cell.text == "true";
           break;
-        case Role::dof:
-        case Role::numbered_dof:
+        case ColumnRole::dof:
+        case ColumnRole::numbered_dof:
           g.dofs.push_back(number(column, cell, record.line));
-          if (column.role == Role::dof) g.dof_names.push_back(column.key);
+          if (column.role == ColumnRole::dof) g.dof_names.push_back(column.key);
           g.dof_units.push_back(column.unit == any_unit ? "" : column.unit);
           has_units = has_units || !g.dof_units.back().empty();
           break;
-        case Role::pose:
+        case ColumnRole::pose:
           pose[column.number] = number(column, cell, record.line);
           break;
       }
@@ -248,9 +250,9 @@ class TableReader {
     for (const Column& c : columns_) {
       if (!known.insert(c.name).second)
         fail("{}: column {} stands there twice", place, in_quotes(c.name));
-      if (c.role != Role::dof && c.role != Role::numbered_dof) continue;
+      if (c.role != ColumnRole::dof && c.role != ColumnRole::numbered_dof) continue;
       check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
-      (c.role == Role::dof ? dofs : numbered).push_back(c.key);
+      (c.role == ColumnRole::dof ? dofs : numbered).push_back(c.key);
     }
     for (const char* name : pose_columns)
       if (!known.contains(name)) fail("{}: expected a column '{}', got none", place, name);
