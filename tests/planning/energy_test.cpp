@@ -176,6 +176,8 @@ TEST_CASE("constraints are 0 where they hold and grow with how far they do not")
   CHECK_THROWS_WITH_AS(reach_energy(scene.hand, z, -1), "energy: radius must be >= 0 [m], got -1",
                        Error);
   CHECK_THROWS_AS(keep_out_energy(scene.hand, {}, {1, 0, 0}, {0, 1, 1}), Error);
+  CHECK_THROWS_WITH_AS(penetration_energy(scene.world, scene.hand, 0),
+                       "energy: points: expected 1 to 10000, got 0", Error);
 }
 
 TEST_CASE("clearance and penetration agree with what they measure on boxes") {
@@ -193,7 +195,7 @@ TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   CHECK_THROWS_WITH_AS(clearance_energy(who, -1), "energy: distance must be >= 0 [m], got -1",
                        Error);
   // sunk into the floor's top by 5 mm
-  const EnergyPtr penetration = penetration_energy(scene.world, scene.hand);
+  const EnergyPtr penetration = penetration_energy(scene.world, scene.hand, 2000);
   const Pose X = scene.world.pose(scene.robot().base);
   scene.world.set_pose(scene.object, Pose::translation({3, 0, 0}));
   scene.world.set_pose(scene.hand, Pose{X.rotation, X.position - Vector3d(0, 0, gap + 0.005)});

@@ -21,10 +21,11 @@ EnergyPtr clearance_energy(const HandAndObject& who, double min_distance);
 /// [mm].
 EnergyPtr reach_energy(Id<Robot> hand, const Eigen::Vector3d& p_W, double radius);
 
-/// Depth of the hand in what it collides with: the sum, over the pairs of bodies that collide, of the
-/// depth of the part in the other body (of two parts the larger), plus a thousandth per pair, so that
-/// it is 0 only where nothing collides [mm]. Each depth is at most 0.1 mm + 10 % below the true one;
-/// two open meshes that cross count as a pair alone.
-EnergyPtr penetration_energy(const World& world, Id<Robot> hand);
+/// Depth of the hand in what it collides with: the sum over the pairs of bodies that collide of the
+/// depth of the deepest of some points on either surface, plus a thousandth per pair, so that it is
+/// 0 only where nothing collides [mm]. Where no point lies inside, the depth of the overlap counts,
+/// up to 0.1 mm + 10 %.
+/// points  on each body of the hand, >= 1
+EnergyPtr penetration_energy(const World& world, Id<Robot> hand, int points = 64);
 
 }  // namespace clench

@@ -208,8 +208,9 @@ int reach(lua_State* L) {
 int penetration(lua_State* L) {
   Table options(L, 1);
   const auto [world, who] = read_hand(options);
+  const int points = options.integer("points", 64);
   options.done();
-  return push_energy(L, world, penetration_energy(*world, who.hand));
+  return push_energy(L, world, penetration_energy(*world, who.hand, points));
 }
 
 // --- trees of terms ---
@@ -352,9 +353,9 @@ How much farther than a radius the hand's approach point is from a point [mm].
 @return energy
 > clench.energy.reach {hand = hand, point = hand.approach.point, radius = 0.1}()  --> 0.0)"},
     {"penetration", guarded<penetration>, R"(
-Depth of the hand in what it collides with, as `world:penetration` gives it, but up to 0.1 mm + 10 %, summed over the pairs of bodies [mm]; 0 only
-where nothing collides. A search with this term and `collisions = false` may cross states that collide.
-@param options {hand: robot}
+Depth of the hand in what it collides with, by points on its bodies, summed over the pairs of bodies [mm]; 0 only where
+nothing collides. Where no point lies inside, the depth counts that `world:penetration` gives. A search with this term and `collisions = false` may cross states that collide.
+@param options {hand: robot, points?: integer}  points: on each body, 64
 @return energy
 > clench.energy.penetration {hand = hand}()  --> 0.0)"},
 };
