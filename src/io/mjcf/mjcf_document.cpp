@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "clench/base/suggest.h"
-#include "clench/io/mjcf/mjcf_expand.h"
 #include "clench/io/text/find_file.h"
 #include "clench/math/decompositions.h"
 
@@ -23,7 +22,6 @@ MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
       losses_(Listeners{.warn = cache.options().warn}) {
   root_ = load_file(path);
   add_classes(root_, "");
-  expand_mjcf(*this, cache, root_);
 }
 
 // --- elements ---

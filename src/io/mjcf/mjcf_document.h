@@ -29,6 +29,7 @@ Eigen::Quaterniond turn_z_to(const Eigen::Vector3d& direction);
 
 class MjcfDocument {
  public:
+  /// The elements as the files have them; expand_mjcf replaces those that generate others.
   /// throws  Error for malformed XML, circular includes, unknown classes, settings that cannot be
   ///         followed
   MjcfDocument(const std::filesystem::path& path, FileCache& cache);

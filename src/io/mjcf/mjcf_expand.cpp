@@ -18,6 +18,9 @@ class MjcfExpander {
  public:
   MjcfExpander(MjcfDocument& document, FileCache& cache) : document_(document), cache_(cache) {}
 
+  void expand() { expand(document_.root_); }
+
+ private:
   void expand(MjcfNode& root) {
     std::vector<MjcfNode> worlds;
     for (const MjcfNode& section : root.children)
@@ -31,7 +34,6 @@ class MjcfExpander {
     }
   }
 
- private:
   using Rename = std::function<std::string(const MjcfNode& node, const std::string& attribute,
                                            const std::string& value)>;
 
@@ -357,8 +359,9 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
   --depth_;
 }
 
-void expand_mjcf(MjcfDocument& document, FileCache& cache, MjcfNode& root) {
-  MjcfExpander(document, cache).expand(root);
+MjcfDocument& expand_mjcf(MjcfDocument& document, FileCache& cache) {
+  MjcfExpander(document, cache).expand();
+  return document;
 }
 
 }  // namespace clench

@@ -10,8 +10,8 @@ inline constexpr int max_generated_elements = 200'000;
 /// Replaces each <replicate> and <attach> below <worldbody> by what it generates: frames with
 /// renamed copies of bodies and geoms. Tendons, actuators, equalities and contact filters that name
 /// what is copied are copied, too.
-/// root  of the document
+/// returns  the document
 /// throws  Error  "scene.xml:12: attach: model: no model 'hnd'; did you mean 'hand'?"
-void expand_mjcf(MjcfDocument& document, FileCache& cache, MjcfNode& root);
+MjcfDocument& expand_mjcf(MjcfDocument& document, FileCache& cache);
 
 }  // namespace clench

@@ -5,6 +5,7 @@
 
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf_couplings.h"
+#include "clench/io/mjcf/mjcf_expand.h"
 #include "clench/io/tree/tree_robot.h"
 
 namespace clench {
@@ -13,7 +14,7 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
     : cache_(cache),
       whole_(whole),
       document_(path, cache),
-      geoms_(document_, cache, whole == std::string_view("world")) {
+      geoms_(expand_mjcf(document_, cache), cache, whole == std::string_view("world")) {
   name_ = document_.root().element.attribute("model").value_or("");
   if (name_.empty()) name_ = document_.path().stem().string();
   std::vector<std::string_view> known = {"compiler", "default",  "asset",  "worldbody",
@@ -58,7 +59,7 @@ static double mass_of_all(const std::filesystem::path& path, const ReadOptions& 
   const Loaders none = {};
   FileCache cache(quiet, none);
   MjcfDocument document(path, cache);
-  MjcfGeoms geoms(document, cache, true);
+  MjcfGeoms geoms(expand_mjcf(document, cache), cache, true);
   double mass = 0;
   for (const TopBody& body : read_worldbody(document, "world").bodies) {
     MjcfTreeReader reader(document, geoms, cache, "world");
