@@ -3,6 +3,7 @@
 #include <set>
 #include <span>
 
+#include "clench/model/find.h"
 #include "clench/model/world.h"
 
 namespace clench {

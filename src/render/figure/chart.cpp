@@ -9,6 +9,7 @@
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
 #include "clench/math/round_step.h"
+#include "clench/render/figure/axis_labels.h"
 #include "clench/render/figure/pen.h"
 
 namespace clench {
