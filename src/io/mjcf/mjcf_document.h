@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clench/io/text/file_cache.h"
@@ -37,6 +39,9 @@ class MjcfDocument {
   /// under the element's own name, or `also`.
   XmlValues values(const XmlElement& element, const std::string& child_class = "",
                    const char* also = nullptr) const;
+  /// Elements of these names that give the defaults of an element, the nearest first.
+  std::vector<XmlElement> defaults(const XmlElement& element, const std::string& child_class,
+                                   std::span<const std::string_view> names) const;
   void check_class(const XmlElement& element, const std::string& name) const;
 
   double angle(double value) const { return value * angle_unit_; }  ///< to [rad]

@@ -13,6 +13,10 @@ namespace clench {
 MjcfGeoms::MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene)
     : document_(document), cache_(cache), geometry_(cache.options()), scene_(scene) {
   read_assets();
+  for (const MjcfNode* node : document_.section("contact"))
+    if (node->name() == "pair")
+      for (const char* geom : {"geom1", "geom2"})
+        paired_.insert(XmlValues(node->element).text(geom, ""));
 }
 
 // --- assets ---
@@ -217,6 +221,13 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
     geom.friction.priority = values.integer("priority", 0);
     geom.friction.frictionless = values.integer("condim", 3) == 1;
   }
+  geom.name = values.text("name", "");
+  if (values.has("surfacevel"))
+    cache_.warn(
+        fmt::format("{}: geom '{}': surfacevel is not used; surface_velocity of its body "
+                    "makes a conveyor",
+                    element.place(), excerpt(geom.name)));
+  geom.paired = !geom.name.empty() && paired_.contains(geom.name);
   geom.type = static_cast<unsigned>(values.integer("contype", 1));
   geom.affinity = static_cast<unsigned>(values.integer("conaffinity", 1));
   const int group = values.integer("group", 0);

@@ -25,10 +25,12 @@ struct MjcfGeom {
   bool drawn = false;               ///< of the groups 0 to 2, which viewers show
   unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
   double mass = 0;                  ///< [kg]
+  std::string name;                 ///< empty: it has none
+  bool paired = false;              ///< does a <pair> name it? then it collides with what that says
 
   MjcfFriction friction;  ///< of a scene's geoms
 
-  bool collides() const { return type != 0 || affinity != 0; }
+  bool collides() const { return type != 0 || affinity != 0 || paired; }
 };
 
 class MjcfGeoms {
@@ -63,7 +65,7 @@ class MjcfGeoms {
   bool scene_;
   std::map<std::string, Asset> meshes_;
   std::map<std::string, PieceColor> materials_;
-  std::set<std::string> unused_types_;
+  std::set<std::string> unused_types_, paired_;
   size_t count_ = 0;
 };
 

@@ -17,8 +17,9 @@ namespace fs = std::filesystem;
 /// A body or a part of a robot, as far as what meets what goes.
 struct ScenePart {
   PartRef ref;
-  unsigned type = 0, affinity = 0;
-  bool fixed = false;  // to the world
+  std::string name;
+  std::vector<MjcfGeom> geoms;  // those that collide
+  bool fixed = false;           // to the world
 };
 
 class SceneReader {
@@ -42,7 +43,11 @@ class SceneReader {
   [[noreturn]] void fail_empty();
   void exclude();
   void never_meet();
-  ScenePart part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const;
+  void add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
+                bool fixed);
+  std::vector<PartRef> parts_of(const XmlValues& exclude, const char* body) const;
+  const ScenePart& part_of(PartRef ref) const;
+  bool read_flags(const XmlElement& element);
 
   FileCache& cache_;
   MjcfModel model_;
@@ -51,6 +56,8 @@ class SceneReader {
   std::vector<LinkPieces> thing_pieces_;
   std::vector<ScenePart> parts_;
   std::map<std::string, PartRef> by_name_;
+  std::vector<PartRef> of_world_;  // geoms of the world itself
+  std::set<std::string> geom_names_;
   std::vector<SceneBody> scene_;  // one per body directly in the world
   std::map<MjcfFriction, std::string> materials_;
   std::vector<std::string> mixed_;  // bodies of several coefficients
@@ -110,10 +117,20 @@ void SceneReader::set_friction() {
 
 // --- bodies ---
 
-ScenePart SceneReader::part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const {
-  ScenePart out{ref, 0, 0, fixed};
-  for (const MjcfGeom& geom : geoms) out.type |= geom.type, out.affinity |= geom.affinity;
-  return out;
+void SceneReader::add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
+                           bool fixed) {
+  ScenePart part{ref, name, {}, fixed};
+  for (const MjcfGeom& geom : geoms) {
+    if (geom.collides()) part.geoms.push_back(geom);
+    geom_names_.insert(geom.name);
+  }
+  parts_.push_back(std::move(part));
+}
+
+const ScenePart& SceneReader::part_of(PartRef ref) const {
+  return *std::ranges::find_if(parts_, [&](const ScenePart& part) {
+    return part.ref.kind == ref.kind && part.ref.index == ref.index && part.ref.link == ref.link;
+  });
 }
 
 /// An object or obstacle, whose shape is made when all are known.   returns  its number in the
@@ -135,7 +152,7 @@ int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB,
   world_.bodies.push_back(std::move(placed));
   world_.order.push_back({WorldEntry::Kind::body, number});
   const PartRef ref{WorldEntry::Kind::body, number, -1};
-  parts_.push_back(part_of(ref, geoms, role == Role::obstacle));
+  add_part(ref, name, geoms, role == Role::obstacle);
   return number;
 }
 
@@ -160,8 +177,10 @@ void SceneReader::add_geom(const WorldGeom& from) {
     for (GeometryPiece& piece : *list) piece.X_LG = Pose{};
   BodySpec weighed;
   weighed.mass = geom->mass;
-  add_thing(name.empty() ? "world_geom" : name, Role::obstacle, X, std::move(pieces), {*geom},
-            mass_rule.allows(geom->mass) ? &weighed : nullptr);
+  const int number =
+      add_thing(name.empty() ? "world_geom" : name, Role::obstacle, X, std::move(pieces), {*geom},
+                mass_rule.allows(geom->mass) ? &weighed : nullptr);
+  of_world_.push_back({WorldEntry::Kind::body, number, -1});
 }
 
 std::vector<Pose> tree_poses(const TreeModel& tree) {
@@ -212,6 +231,17 @@ std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) 
   return out;
 }
 
+/// Part of the weight of all links together that is left out.
+double mean_gravity_compensation(const MjcfTree& tree) {
+  double mass = 0, carried = 0;
+  for (const TreeLink& link : tree.model.links) {
+    mass += link.body.mass;
+    carried += link.body.mass * link.body.gravity_compensation;
+  }
+  return tree.model.links.size() == 1 ? tree.model.links[0].body.gravity_compensation
+                                      : carried / mass;
+}
+
 /// A free body, and what is fixed to it, as one.
 void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
@@ -228,6 +258,12 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   const auto weighed = weigh(tree, X);
   const int number = add_thing(body.name, Role::object, scene.X_WB, std::move(pieces), geoms,
                                weighed ? &*weighed : nullptr);
+  const BodySpec& first = tree.model.links[0].body;
+  BodySpec& made = things_.links.back().body;
+  made.free_damping = first.free_damping;
+  made.free_friction = first.free_friction;
+  made.free_armature = first.free_armature;
+  made.gravity_compensation = mean_gravity_compensation(tree);
   scene.bodies.push_back({number, Pose{}});
   scene.free = true;
   for (const auto& [name, link] : tree.links) by_name_[name] = {WorldEntry::Kind::body, number, -1};
@@ -268,7 +304,7 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
     BodySpec& part = link < 0 ? robot.base : robot.links[link].body;
     part.material = material(geoms, part.name);
     const PartRef ref{WorldEntry::Kind::robot, number, link};
-    parts_.push_back(part_of(ref, geoms, stands && (link < 0 || fixed[link])));
+    add_part(ref, part.name, geoms, stands && (link < 0 || fixed[link]));
     by_name_[name] = ref;
   }
   for (const DofSpec& dof : robot.dofs) placed.dofs.push_back(dof.default_value);
@@ -309,41 +345,48 @@ void SceneReader::dress_things() {
 
 // --- what may meet ---
 
+/// The parts that a body of an <exclude> is; empty, with a warning, for one that is not read.
+std::vector<PartRef> SceneReader::parts_of(const XmlValues& exclude, const char* body) const {
+  const std::string name = exclude.text(body);
+  if (name == "world") return of_world_;
+  if (const auto found = by_name_.find(name); found != by_name_.end()) return {found->second};
+  cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
+                          exclude.element().place(), in_quotes(name)));
+  return {};
+}
+
 void SceneReader::exclude() {
   for (const MjcfNode* node : model_.document().section("contact")) {
+    if (node->name() == "pair") continue;
     if (node->name() != "exclude") {
       model_.document().unused().element(node->element);
       continue;
     }
     model_.document().unused().attributes(node->element, {"name", "class", "body1", "body2"});
     const XmlValues values(node->element);
-    std::array<PartRef, 2> pair;
-    bool known = true;
-    for (int i = 0; i < 2; ++i) {
-      const std::string name = values.text(i ? "body2" : "body1");
-      const auto found = by_name_.find(name);
-      if (found == by_name_.end())
-        cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
-                                node->element.place(), in_quotes(name)));
-      else
-        pair[i] = found->second;
-      known = known && found != by_name_.end();
-    }
-    const bool one = pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
-    if (known && !one) world_.never_meet.push_back(pair);
+    const auto first = parts_of(values, "body1"), second = parts_of(values, "body2");
+    for (const PartRef& a : first)
+      for (const PartRef& b : second) {
+        const bool one = a.kind == b.kind && a.index == b.index;
+        if (!one && !model_.contacts().listed(part_of(a).geoms, part_of(b).geoms))
+          world_.never_meet.push_back({a, b});
+      }
   }
 }
 
-/// What is fixed never meets what is fixed, nor do geoms whose bits keep them apart.
+/// Fixed parts never collide with each other, nor do geoms that bits keep apart.
 void SceneReader::never_meet() {
   int apart = 0;
+  MjcfContacts& contacts = model_.contacts();
   for (size_t i = 0; i < parts_.size(); ++i)
     for (size_t j = i + 1; j < parts_.size(); ++j) {
       const ScenePart &a = parts_[i], &b = parts_[j];
       if (a.ref.kind == b.ref.kind && a.ref.index == b.ref.index) continue;  // of one robot
-      if ((a.type | a.affinity) == 0 || (b.type | b.affinity) == 0) continue;
-      const bool meet = (a.type & b.affinity) || (b.type & a.affinity);
-      if (meet && !(a.fixed && b.fixed)) continue;
+      if (a.geoms.empty() || b.geoms.empty()) continue;
+      const bool fixed = a.fixed && b.fixed;
+      const bool meet = fixed ? contacts.collide(a.geoms.front(), b.geoms.front())
+                              : contacts.collide(a.geoms, b.geoms, a.name, b.name);
+      if (meet && !fixed) continue;
       apart += !meet;
       world_.never_meet.push_back({a.ref, b.ref});
     }
@@ -352,12 +395,45 @@ void SceneReader::never_meet() {
         fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
                     "conaffinity say",
                     model_.document().file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
+  contacts.tell([&](const std::string& name) { return geom_names_.contains(name); });
 }
 
 // --- what holds for all ---
 
+/// Switches of the simulation; those that change what would happen here are warned of by name.
+/// returns  is gravity on?
+bool SceneReader::read_flags(const XmlElement& element) {
+  // off unless a file says otherwise
+  const std::set<std::string> enabled = {"override", "energy",    "fwdinv", "invdiscrete",
+                                         "sleep",    "diagexact", "ipc",    "sensornoise"};
+  // of a solver that is not ours, or of what is computed beside the motion
+  const std::set<std::string> harmless = {"warmstart", "refsafe",   "sensor",      "sensornoise",
+                                          "midphase",  "eulerdamp", "autoreset",   "nativeccd",
+                                          "island",    "multiccd",  "energy",      "fwdinv",
+                                          "sleep",     "diagexact", "invdiscrete", "filterparent"};
+  const XmlValues flags(element);
+  bool gravity = true;
+  std::vector<std::string> lost;
+  for (const std::string& name : element.attributes()) {
+    const bool usual = !enabled.contains(name);
+    const bool on = flags.word(name.c_str(), {"enable", "disable"}, "enable") == "enable";
+    if (on == usual) continue;
+    if (name == "gravity") gravity = false;
+    if (name == "contact" || name == "constraint") world_.collision_on = false;
+    if (name != "gravity" && name != "contact" && !harmless.contains(name))
+      lost.push_back(fmt::format("{}=\"{}\"", excerpt(name), on ? "enable" : "disable"));
+  }
+  if (!world_.collision_on)
+    cache_.note(fmt::format("{}: flag: contacts are off, as the file says; nothing collides",
+                            element.place()));
+  if (!lost.empty())
+    cache_.warn(fmt::format("{}: flag: not used: {}", element.place(), name_list(lost)));
+  return gravity;
+}
+
 void SceneReader::read_options() {
   world_.gravity = Eigen::Vector3d(0, 0, -9.81);  // where a file of MuJoCo says nothing
+  bool gravity_on = true;
   for (const MjcfNode& node : model_.document().root().children) {
     if (node.name() != "option") continue;
     const XmlValues values(node.element);
@@ -367,14 +443,11 @@ void SceneReader::read_options() {
       if (const auto wrong = fault(time_step_rule, *world_.time_step); !wrong.empty())
         values.fail("timestep", "{}", wrong);
     }
-    for (const MjcfNode& child : node.children) {
-      const XmlValues flags(child.element);
-      if (child.name() == "flag" &&
-          flags.word("gravity", {"enable", "disable"}, "enable") == std::string_view("disable"))
-        world_.gravity = Eigen::Vector3d::Zero();
+    for (const MjcfNode& child : node.children)
+      if (child.name() == "flag")
+        gravity_on = read_flags(child.element) && gravity_on;
       else
         model_.document().unused().element(child.element);
-    }
     if (!values.has("gravity")) continue;
     const Eigen::Vector3d gravity = values.vec3("gravity", {0, 0, 0});
     for (const double x : gravity)
@@ -382,6 +455,7 @@ void SceneReader::read_options() {
         values.fail("gravity", "{}", wrong);
     world_.gravity = gravity;
   }
+  if (!gravity_on) world_.gravity = Eigen::Vector3d::Zero();
 }
 
 void SceneReader::fail_empty() {
