@@ -201,6 +201,16 @@ TEST_CASE("resistance to free motion and compensation of gravity are a body's") 
   CHECK(world.bodies[1].body.free_damping == 0);
   CHECK(world.robots[0].robot.base.free_damping == 4);
   CHECK(world.robots[0].robot.links[0].body.gravity_compensation == 1);
+  std::vector<std::string> warnings;
+  ReadOptions options;
+  options.warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  read_world(folder.write("m.xml", R"(<mujoco><worldbody><body name='a'>
+<joint type='free' stiffness='1' springdamper='1 1'/><geom name='belt' size='0.1' surfacevel='1 0 0'/></body></worldbody></mujoco>)"),
+             options);
+  const std::string free = "m.xml:2: free joint of 'a': ";
+  CHECK(ToldRobot::has(warnings, free + "a spring holds no free body here; stiffness is not used"));
+  CHECK(ToldRobot::has(warnings, free + "springdamper is not used"));
+  CHECK(ToldRobot::has(warnings, "m.xml:2: geom 'belt': surfacevel is not used"));
 }
 
 TEST_CASE("a joint's time constant and damping ratio become spring and damper") {

@@ -95,7 +95,9 @@ TEST_CASE("switches of the simulation are followed or warned of by name") {
   CHECK_FALSE(off.world.collision_on);
   CHECK(off.told.list.empty());
   CHECK(off.noted("contacts are off"));
-  CHECK(flags("contact='enable' warmstart='disable' energy='enable'").told.list.empty());
+  const ToldWorld idle = flags("contact='enable' warmstart='disable' energy='enable'");
+  CHECK(idle.told.list.empty());
+  CHECK(idle.noted("m.xml:1: flag: of MuJoCo's solver alone, and not used: warmstart, energy"));
   CHECK(flags("contact='enable'").world.collision_on);
   const ToldWorld lost = flags("gravity='disable' limit='disable' override='enable'");
   CHECK(lost.warned("m.xml:1: flag: not used: limit=\"disable\", override=\"enable\""));

@@ -5,6 +5,7 @@
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/mjcf/mjcf_keyframes.h"
+#include "clench/io/mjcf/mjcf_options.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/spec/plausibility.h"
 
@@ -39,7 +40,6 @@ class SceneReader {
   std::string material(const std::vector<MjcfGeom>& geoms, const std::string& name);
   void dress_things();
   void set_friction();
-  void read_options();
   [[noreturn]] void fail_empty();
   void exclude();
   void never_meet();
@@ -47,7 +47,6 @@ class SceneReader {
                 bool fixed);
   std::vector<PartRef> parts_of(const XmlValues& exclude, const char* body) const;
   const ScenePart& part_of(PartRef ref) const;
-  bool read_flags(const XmlElement& element);
 
   FileCache& cache_;
   MjcfModel model_;
@@ -398,66 +397,6 @@ void SceneReader::never_meet() {
   contacts.tell([&](const std::string& name) { return geom_names_.contains(name); });
 }
 
-// --- what holds for all ---
-
-/// Switches of the simulation; those that change what would happen here are warned of by name.
-/// returns  is gravity on?
-bool SceneReader::read_flags(const XmlElement& element) {
-  // off unless a file says otherwise
-  const std::set<std::string> enabled = {"override", "energy",    "fwdinv", "invdiscrete",
-                                         "sleep",    "diagexact", "ipc",    "sensornoise"};
-  // of a solver that is not ours, or of what is computed beside the motion
-  const std::set<std::string> harmless = {"warmstart", "refsafe",   "sensor",      "sensornoise",
-                                          "midphase",  "eulerdamp", "autoreset",   "nativeccd",
-                                          "island",    "multiccd",  "energy",      "fwdinv",
-                                          "sleep",     "diagexact", "invdiscrete", "filterparent"};
-  const XmlValues flags(element);
-  bool gravity = true;
-  std::vector<std::string> lost;
-  for (const std::string& name : element.attributes()) {
-    const bool usual = !enabled.contains(name);
-    const bool on = flags.word(name.c_str(), {"enable", "disable"}, "enable") == "enable";
-    if (on == usual) continue;
-    if (name == "gravity") gravity = false;
-    if (name == "contact" || name == "constraint") world_.collision_on = false;
-    if (name != "gravity" && name != "contact" && !harmless.contains(name))
-      lost.push_back(fmt::format("{}=\"{}\"", excerpt(name), on ? "enable" : "disable"));
-  }
-  if (!world_.collision_on)
-    cache_.note(fmt::format("{}: flag: contacts are off, as the file says; nothing collides",
-                            element.place()));
-  if (!lost.empty())
-    cache_.warn(fmt::format("{}: flag: not used: {}", element.place(), name_list(lost)));
-  return gravity;
-}
-
-void SceneReader::read_options() {
-  world_.gravity = Eigen::Vector3d(0, 0, -9.81);  // where a file of MuJoCo says nothing
-  bool gravity_on = true;
-  for (const MjcfNode& node : model_.document().root().children) {
-    if (node.name() != "option") continue;
-    const XmlValues values(node.element);
-    model_.document().unused().attributes(node.element, {"gravity", "timestep"});
-    if (values.has("timestep")) {
-      world_.time_step = values.number("timestep", 0);
-      if (const auto wrong = fault(time_step_rule, *world_.time_step); !wrong.empty())
-        values.fail("timestep", "{}", wrong);
-    }
-    for (const MjcfNode& child : node.children)
-      if (child.name() == "flag")
-        gravity_on = read_flags(child.element) && gravity_on;
-      else
-        model_.document().unused().element(child.element);
-    if (!values.has("gravity")) continue;
-    const Eigen::Vector3d gravity = values.vec3("gravity", {0, 0, 0});
-    for (const double x : gravity)
-      if (const auto wrong = fault(gravity_rule, x); !wrong.empty())
-        values.fail("gravity", "{}", wrong);
-    world_.gravity = gravity;
-  }
-  if (!gravity_on) world_.gravity = Eigen::Vector3d::Zero();
-}
-
 void SceneReader::fail_empty() {
   const auto& types = model_.geoms().unused_types();
   fail("{}: expected bodies or geoms in <worldbody>, got {}", model_.document().file(),
@@ -488,7 +427,7 @@ WorldSpec SceneReader::read() {
         model_.document().unused().element(node->element);
   dress_things();
   set_friction();
-  read_options();
+  read_mjcf_options(model_.document(), cache_, world_);
   exclude();
   never_meet();
   read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, cache_, world_);

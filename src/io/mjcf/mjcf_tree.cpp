@@ -235,6 +235,7 @@ void MjcfTreeReader::read_free_motion(const XmlValues& values, BodySpec& body) {
   body.free_armature = values.not_negative("armature", 0, document_.repairs());
   if (linear_part(values, "stiffness", subject, document_, cache_) != 0)
     cache_.warn(subject + ": a spring holds no free body here; stiffness is not used");
+  if (values.has("springdamper")) cache_.warn(subject + ": springdamper is not used");
 }
 
 /// Stiffness and damping that follow from the inertia are set when that is known.
