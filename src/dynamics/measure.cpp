@@ -1,5 +1,7 @@
 #include "clench/dynamics/measure.h"
 
+#include <algorithm>
+
 #include "clench/dynamics/control/motors.h"
 
 namespace clench {
@@ -31,10 +33,16 @@ MechanicalEnergy mechanical_energy(const World& world) {
   each_moving(world, [&](const Body& body, const Eigen::Vector3d& com,
                          const Eigen::Matrix3d& inertia, const Twist& v) {
     out.kinetic += 0.5 * (body.mass * v.linear.squaredNorm() + v.angular.dot(inertia * v.angular));
-    out.potential -= body.mass * world.gravity().dot(com);
+    out.potential -= (1 - body.gravity_compensation) * body.mass * world.gravity().dot(com);
   });
   for (const auto id : world.robots()) {
     const Robot& robot = world.robot(id);
+    for (const JointTendonSpec& tendon : robot.joint_tendons) {
+      double length = 0;
+      for (const auto& [dof, arm] : tendon.arms) length += arm * world.dofs(id)[dof];
+      const double away = length - std::clamp(length, tendon.slack[0], tendon.slack[1]);
+      out.potential += 0.5 * tendon.stiffness * away * away;
+    }
     for (size_t j = 0; j < robot.joints.size(); ++j) {
       const Joint& joint = robot.joints[j];
       const double q = world.joints(id)[static_cast<int>(j)];

@@ -72,8 +72,10 @@ void Stepper::find_free_velocities(double h) {
       dynamics.add_angular(body, load.torque, 1, efforts);
     }
     auto v = v_.segment(tree.first, n);
-    dynamics.factor(forces_[t].added);
+    dynamics.factor(forces_[t].added, forces_[t].root_added);
     Eigen::VectorXd rhs = h * efforts - forces_[t].velocity_part.cwiseProduct(v);
+    if (const auto& damped = forces_[t].root_velocity_part; damped.size() > 0)
+      rhs.head<6>() -= damped * v.head<6>();
     if (!tree.floating) {
       Vector6d last;
       last << state.solved[tree.root.index].linear, state.solved[tree.root.index].angular;

@@ -4,6 +4,7 @@
 
 #include "clench/base/watched.h"
 #include "clench/contact/cone.h"
+#include "clench/dynamics/control/tendon_rows.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/model/near_bodies.h"
 
@@ -209,8 +210,18 @@ void Stepper::add_row(int number, double h) {
   block.law = {.row = row_count_, .low = row.low, .high = row.high};
   block.tree[0] = row.tree;
   block.column[0] = add_columns(row.tree, 1);
-  tree_rows_[row.tree].Y(row.coordinate, block.column[0]) = 1;
-  q_.push_back(v_[system_.trees[row.tree].first + row.coordinate] - row.target);
+  const int first = system_.trees[row.tree].first;
+  if (row.arms.empty()) {
+    tree_rows_[row.tree].Y(row.coordinate, block.column[0]) = 1;
+    q_.push_back(v_[first + row.coordinate] - row.target);
+  } else {
+    double velocity = 0;
+    for (const auto& [coordinate, arm] : row.arms) {
+      tree_rows_[row.tree].Y(coordinate, block.column[0]) = arm;
+      velocity += arm * v_[first + coordinate];
+    }
+    q_.push_back(velocity - row.target);
+  }
   double warm = 0;
   const auto key = [](const RowForce& last) { return std::pair(last.kind, last.index); };
   const std::pair wanted(row.kind, row.index);
@@ -240,11 +251,13 @@ void Stepper::find_rows(double h) {
   }
   for (size_t t = 0; t < trees_.size(); ++t) {
     check_stop();
+    add_free_friction_rows(world_, system_.trees[t], static_cast<int>(t), h, coordinate_rows_);
     if (system_.trees[t].coordinates.empty()) continue;
     Eigen::MatrixXd mass = trees_[t].mass_matrix();
     mass.diagonal() += forces_[t].added - forces_[t].velocity_part;
     add_coordinate_rows(world_, system_.trees[t], static_cast<int>(t), mass, h, state,
                         coordinate_rows_);
+    add_tendon_rows(world_, system_.trees[t], static_cast<int>(t), h, state, coordinate_rows_);
   }
   for (size_t i = 0; i < coordinate_rows_.size(); ++i) add_row(static_cast<int>(i), h);
   compliance_.setZero(row_count_);

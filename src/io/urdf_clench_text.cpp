@@ -32,6 +32,7 @@ class ClenchText {
   void add_joint(const UrdfJoint& joint);
   void add_link(const UrdfLink& link);
   void add_collision();
+  void add_tendon(const JointTendonSpec& tendon);
   void add_actuator(const ActuatorSpec& actuator);
   void line(const std::string& text) { out_ += "    " + text + "\n"; }
 
@@ -87,6 +88,10 @@ void ClenchText::add_link(const UrdfLink& link) {
   out += unless(plain.soft_layer, "soft_layer", body.soft_layer);
   out += unless(plain.poisson_ratio, "poisson_ratio", body.poisson_ratio);
   out += unless(plain.restitution, "restitution", body.restitution);
+  out += unless(0, "free_damping", body.free_damping);
+  out += unless(0, "free_friction", body.free_friction);
+  out += unless(0, "free_armature", body.free_armature);
+  out += unless(0, "gravity_compensation", body.gravity_compensation);
   if (body.tracker) out += fmt::format(" tracker=\"{}\"", *body.tracker);
   if (!out.empty()) line("<link" + attribute("name", link.name) + out + "/>");
 }
@@ -101,6 +106,9 @@ void ClenchText::add_collision() {
   for (const int part : rules.parts_off)
     inside += "      <never" + attribute("link", link_name(part)) + "/>\n";
   for (const auto& [a, b] : rules.pairs_off) pair(a, b);
+  for (const auto& [a, b] : rules.pairs_on)
+    inside += "      <pair" + attribute("link1", link_name(a)) + attribute("link2", link_name(b)) +
+              "/>\n";
   // in the file a link that two joints move is no neighbour of the base
   for (size_t l = 0; l < robot_.links.size(); ++l)
     if (!robot_.chain_links_collide && robot_.links[l].parent < 0 &&
@@ -112,6 +120,28 @@ void ClenchText::add_collision() {
   if (inside.empty() && flags.empty()) return;
   line("<collision" + flags + (inside.empty() ? "/>" : ">"));
   if (!inside.empty()) out_ += inside + "    </collision>\n";
+}
+
+/// Arms are lengths per unit of the DOF in the file.
+void ClenchText::add_tendon(const JointTendonSpec& tendon) {
+  std::string out;
+  if (!tendon.name.empty()) out += attribute("name", tendon.name);
+  const auto range = [&](const char* name, const std::array<double, 2>& bounds) {
+    out += fmt::format(" {}=\"{} {}\"", name, bounds[0], bounds[1]);
+  };
+  if (tendon.range) range("range", *tendon.range);
+  out += unless(0, "stiffness", tendon.stiffness);
+  if (tendon.stiffness != 0) range("slack", tendon.slack);
+  out += unless(0, "damping", tendon.damping) + unless(0, "friction", tendon.friction);
+  line("<joint_tendon" + out + ">");
+  for (const auto& [dof, arm] : tendon.arms) {
+    const int leader = plan_.leader_of[dof];
+    if (leader < 0) continue;
+    const UrdfJoint& joint = plan_.joints[leader];
+    line("  <arm" + attribute("joint", joint.name) + attribute("length", arm / joint.factor) +
+         "/>");
+  }
+  line("</joint_tendon>");
 }
 
 void ClenchText::add_actuator(const ActuatorSpec& actuator) {
@@ -153,6 +183,7 @@ std::string ClenchText::text(const UrdfBeside& beside) {
   for (const UrdfJoint& joint : plan_.joints) add_joint(joint);
   for (const UrdfLink& link : plan_.links) add_link(link);
   add_collision();
+  for (const JointTendonSpec& tendon : robot_.joint_tendons) add_tendon(tendon);
   for (const ActuatorSpec& actuator : robot_.actuators) add_actuator(actuator);
   const auto file = [&](const char* element, const std::string& name) {
     if (!name.empty()) line(fmt::format("<{}", element) + attribute("file", name) + "/>");

@@ -48,6 +48,13 @@ void add_softness(const BodySpec& body, std::vector<std::string>& out) {
     out.push_back(fmt::format("Poisson's ratio {}", body.poisson_ratio));
   if (body.restitution != plain.restitution)
     out.push_back(fmt::format("restitution {}", body.restitution));
+  const auto add = [&](const char* name, double x) {
+    if (x != 0) out.push_back(fmt::format("{} {}", name, x));
+  };
+  add("free damping", body.free_damping);
+  add("free friction", body.free_friction);
+  add("free armature", body.free_armature);
+  add("gravity compensation", body.gravity_compensation);
 }
 
 // --- Inventor ---

@@ -95,6 +95,13 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   if (now.poisson_ratio != was.poisson_ratio)
     out.emplace_back("poisson_ratio", number(now.poisson_ratio));
   if (now.restitution != was.restitution) out.emplace_back("restitution", number(now.restitution));
+  const auto add = [&](const char* key, double x, double y) {
+    if (x != y) out.emplace_back(key, number(x));
+  };
+  add("free_damping", now.free_damping, was.free_damping);
+  add("free_friction", now.free_friction, was.free_friction);
+  add("free_armature", now.free_armature, was.free_armature);
+  add("gravity_compensation", now.gravity_compensation, was.gravity_compensation);
   const Appearance &look = now.appearance, &old = was.appearance;
   if (look.color != old.color || (look.triangle_colors.empty() && !old.triangle_colors.empty()))
     out.emplace_back("color", list(look.color));

@@ -20,6 +20,10 @@ Body make_body(const BodySpec& spec, BodyKind kind) {
   body.soft_layer = spec.soft_layer;
   body.poisson_ratio = spec.poisson_ratio;
   body.restitution = spec.restitution;
+  body.free_damping = spec.free_damping;
+  body.free_friction = spec.free_friction;
+  body.free_armature = spec.free_armature;
+  body.gravity_compensation = spec.gravity_compensation;
   body.tracker = spec.tracker;
   return body;
 }

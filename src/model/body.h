@@ -29,6 +29,8 @@ struct Body {
   double soft_layer = 0.003;              ///< of an elastic body: height of its soft layer [m]
   double poisson_ratio = 0;               ///< likewise
   double restitution = 0;                 ///< speed after a blow by that before, in [0, 1]
+  double free_damping = 0, free_friction = 0, free_armature = 0;  ///< as in BodySpec
+  double gravity_compensation = 0;  ///< part of its weight that simulations leave out
   std::optional<int> tracker;
 
   // place in a robot, when it belongs to one

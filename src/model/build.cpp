@@ -230,6 +230,7 @@ World Builder::build() {
     if (!connected_[i]) add_connection(static_cast<int>(i));
   if (spec_.collision) switch_collision();
   for (const auto& [a, b] : spec_.never_meet) world_.set_collision(false, part(a), part(b));
+  if (!spec_.collision_on) world_.set_collision(false);
   if (spec_.gravity) world_.set_gravity(*spec_.gravity);
   if (spec_.time_step) {
     DynamicSettings settings = world_.dynamic_settings();

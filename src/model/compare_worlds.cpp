@@ -93,6 +93,11 @@ void Comparer::bodies(Id<Body> a_id, Id<Body> b_id) {
   if (!same(a.soft_layer, b.soft_layer)) add("the soft layer of '{}'", a.name);
   if (!same(a.poisson_ratio, b.poisson_ratio)) add("Poisson's ratio of '{}'", a.name);
   if (!same(a.restitution, b.restitution)) add("the restitution of '{}'", a.name);
+  if (!same(a.free_damping, b.free_damping) || !same(a.free_friction, b.free_friction) ||
+      !same(a.free_armature, b.free_armature))
+    add("the resistance to free motion of '{}'", a.name);
+  if (!same(a.gravity_compensation, b.gravity_compensation))
+    add("the gravity compensation of '{}'", a.name);
   if (a.tracker != b.tracker) add("the position sensor of '{}'", a.name);
   if (!same_look(a.appearance, b.appearance)) add("the colour of '{}'", a.name);
   if (!same_shape(a.shape, b.shape)) add("the surface of '{}'", a.name);

@@ -46,6 +46,10 @@ BodySpec Describer::body(Id<Body> id) const {
   out.soft_layer = b.soft_layer;
   out.poisson_ratio = b.poisson_ratio;
   out.restitution = b.restitution;
+  out.free_damping = b.free_damping;
+  out.free_friction = b.free_friction;
+  out.free_armature = b.free_armature;
+  out.gravity_compensation = b.gravity_compensation;
   out.tracker = b.tracker;
   return out;
 }
@@ -69,6 +73,7 @@ RobotSpec Describer::robot(const Robot& r) const {
   if (r.glove) out.glove = *r.glove;
   out.files = r.files;
   out.tracker = r.tracker;
+  out.joint_tendons = r.joint_tendons;
   if (r.passive) {
     out.tactile = r.passive->tactile;
     out.tendons = r.passive->tendons;

@@ -91,13 +91,27 @@ struct StepReport {
   int contacts = 0;         ///< points of the last step
 };
 
-/// What acts on one coordinate by itself; the lock is that of a joint that has left its DOF.
-enum class RowKind { motor, low_limit, high_limit, dry_friction, lock };
+/// Bounded forces on one coordinate, or on several in fixed ratios. The lock is that of a joint that
+/// has left its DOF; those from tendon_low on act on several.
+enum class RowKind {
+  motor,
+  low_limit,
+  high_limit,
+  dry_friction,
+  lock,
+  tendon_low,
+  tendon_high,
+  tendon_spring,
+  tendon_friction,
+  free_friction
+};
 
 /// What a motor, limit, clutch or dry friction gave in the last step.
 struct RowForce {
   RowKind kind = RowKind::motor;
-  int index = 0;     ///< of the DOF in the state's arrays; -1 - that of a joint by itself
+  /// of the DOF in the state's arrays; -1 - that of a joint by itself; of a joint tendon: its
+  /// number among those of all robots; of free friction: 6 times the root's index + its axis
+  int index = 0;
   double force = 0;  ///< [N or N m]
 };
 

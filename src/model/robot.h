@@ -55,6 +55,7 @@ struct Robot {
   RobotFiles files;  ///< where the three above came from
   std::optional<TrackerSpec> tracker;
   std::shared_ptr<const PassiveParts> passive;  ///< null: none; kept for scripts
+  std::vector<JointTendonSpec> joint_tendons;
 
   Id<Body> body_of(int link) const { return link < 0 ? base : links[link].body; }
 };

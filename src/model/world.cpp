@@ -144,6 +144,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
   robot.X_BA = spec.X_BA.value_or(Pose{});
   robot.files = spec.files;
   robot.tracker = spec.tracker;
+  robot.joint_tendons = spec.joint_tendons;
   if (PassiveParts parts{spec.tactile, spec.tendons, spec.wrappers, spec.actuators}; !parts.empty())
     robot.passive = std::make_shared<PassiveParts>(std::move(parts));
   if (spec.eigengrasps) robot.eigengrasps = std::make_shared<EigengraspSet>(*spec.eigengrasps);
@@ -210,6 +211,8 @@ void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
   }
   const Robot& made = robot(id);
   switch_off_neighbours(made, spec.chain_links_collide);
+  for (const auto& [a, b] : spec.collision_rules.pairs_on)
+    set_collision(true, made.body_of(a), made.body_of(b));
   for (const int off : spec.collision_rules.parts_off) set_collision(false, made.body_of(off));
   for (const auto& [a, b] : spec.collision_rules.pairs_off)
     set_collision(false, made.body_of(a), made.body_of(b));
@@ -408,6 +411,30 @@ void World::set_poisson_ratio(Id<Body> id, double ratio) {
 void World::set_restitution(Id<Body> id, double ratio) {
   check(restitution_rule, ratio, the_body(body(id).name));
   edit(id).restitution = ratio;
+}
+
+static void check_resistance(double value, const char* name, const std::string& subject) {
+  check(not_negative_rule.called(name), value, subject);
+}
+
+void World::set_free_damping(Id<Body> id, double damping) {
+  check_resistance(damping, "free damping", the_body(body(id).name));
+  edit(id).free_damping = damping;
+}
+
+void World::set_free_friction(Id<Body> id, double friction) {
+  check_resistance(friction, "free friction", the_body(body(id).name));
+  edit(id).free_friction = friction;
+}
+
+void World::set_free_armature(Id<Body> id, double armature) {
+  check_resistance(armature, "free armature", the_body(body(id).name));
+  edit(id).free_armature = armature;
+}
+
+void World::set_gravity_compensation(Id<Body> id, double part) {
+  check(number_rule.called("gravity compensation"), part, the_body(body(id).name));
+  edit(id).gravity_compensation = part;
 }
 
 void World::set_appearance(Id<Body> id, const Appearance& appearance) {

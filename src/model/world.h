@@ -94,9 +94,13 @@ class World {
   void set_com(Id<Body> body, const Eigen::Vector3d& com);
   void set_inertia(Id<Body> body, const Eigen::Matrix3d& inertia);  ///< about com [kg m^2]
   void set_elastic_modulus(Id<Body> body, std::optional<double> modulus);
-  void set_soft_layer(Id<Body> body, double height);    ///< > 0 [m]
-  void set_restitution(Id<Body> body, double ratio);    ///< in [0, 1]
-  void set_poisson_ratio(Id<Body> body, double ratio);  ///< in [0, 0.5)
+  void set_soft_layer(Id<Body> body, double height);     ///< > 0 [m]
+  void set_restitution(Id<Body> body, double ratio);     ///< in [0, 1]
+  void set_poisson_ratio(Id<Body> body, double ratio);   ///< in [0, 0.5)
+  void set_free_damping(Id<Body> body, double damping);  ///< these as in BodySpec, >= 0
+  void set_free_friction(Id<Body> body, double friction);
+  void set_free_armature(Id<Body> body, double armature);
+  void set_gravity_compensation(Id<Body> body, double part);
   void set_appearance(Id<Body> body, const Appearance& appearance);
 
   const MaterialTable& materials() const { return settings_->materials; }

@@ -21,6 +21,12 @@ void check_body(const BodySpec& spec, std::string_view what) {
   check(soft_layer_rule, spec.soft_layer, subject);
   check(poisson_ratio_rule, spec.poisson_ratio, subject);
   check(restitution_rule, spec.restitution, subject);
+  check_each(not_negative_rule,
+             {{"free damping", spec.free_damping},
+              {"free friction", spec.free_friction},
+              {"free armature", spec.free_armature}},
+             subject);
+  check(number_rule.called("gravity compensation"), spec.gravity_compensation, subject);
 }
 
 void check_appearance(const Appearance& appearance, std::string_view subject) {

@@ -36,10 +36,16 @@ struct BodySpec {
   std::optional<Eigen::Vector3d> com;
   std::optional<Eigen::Matrix3d> inertia_per_mass;  ///< about com [m^2]; else from the shape
   std::optional<double> elastic_modulus;            ///< Young's modulus [Pa]; absent: rigid
-  double soft_layer = 0.003;   ///< of an elastic body: height of its soft layer, > 0 [m]
-  double poisson_ratio = 0;    ///< likewise, in [0, 0.5)
-  double restitution = 0;      ///< speed after a blow by that before, in [0, 1]
-  std::optional<int> tracker;  ///< number of the position sensor that drives it
+  double soft_layer = 0.003;  ///< of an elastic body: height of its soft layer, > 0 [m]
+  double poisson_ratio = 0;   ///< likewise, in [0, 0.5)
+  double restitution = 0;     ///< speed after a blow by that before, in [0, 1]
+  /// resistance of a body that moves freely, or of the base of a robot that floats: alike for the
+  /// velocity of the origin of its frame [m/s] and for that of turning [rad/s]
+  double free_damping = 0;   ///< [N s/m] and [N m s/rad]
+  double free_friction = 0;  ///< dry, along each axis [N] and about each of its own axes [N m]
+  double free_armature = 0;  ///< added inertia without weight [kg] and [kg m^2]
+  double gravity_compensation = 0;  ///< part of its weight that simulations leave out
+  std::optional<int> tracker;       ///< number of the position sensor that drives it
 };
 
 /// what    it is, before its name

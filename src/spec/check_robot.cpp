@@ -79,10 +79,39 @@ static void check_tendons(const RobotSpec& robot) {
   }
 }
 
+static void check_joint_tendons(const RobotSpec& robot) {
+  const int dofs = static_cast<int>(robot.dofs.size());
+  for (const JointTendonSpec& tendon : robot.joint_tendons) {
+    check_name(tendon.name, excerpt(robot.name) + ": joint tendon");
+    const std::string subject =
+        fmt::format("{}: joint tendon '{}'", excerpt(robot.name), excerpt(tendon.name));
+    std::vector<bool> seen(robot.dofs.size());
+    for (const auto& [dof, arm] : tendon.arms) {
+      if (dof < 0 || dof >= dofs)
+        fail("{}: expected a DOF from 0 to {}, got {}", subject, dofs - 1, dof);
+      if (seen[dof]) fail("{}: expected each DOF once, got DOF {} twice", subject, dof);
+      seen[dof] = true;
+      check(positive_rule.called("arm"), std::abs(arm), subject);
+    }
+    check_each(not_negative_rule,
+               {{"stiffness", tendon.stiffness},
+                {"damping", tendon.damping},
+                {"friction", tendon.friction}},
+               subject);
+    for (const auto& range : {tendon.range, std::optional(tendon.slack)}) {
+      if (!range) continue;
+      check_each(number_rule, {{"length", (*range)[0]}, {"length", (*range)[1]}}, subject);
+      if ((*range)[0] > (*range)[1])
+        fail("{}: length {} exceeds {}", subject, (*range)[0], (*range)[1]);
+    }
+  }
+}
+
 static void check_parts(const RobotSpec& robot) {
   for (const int part : robot.collision_rules.parts_off) check_part(robot, part, "collision rule");
-  for (const auto& pair : robot.collision_rules.pairs_off)
-    for (const int part : pair) check_part(robot, part, "collision rule");
+  for (const auto* pairs : {&robot.collision_rules.pairs_off, &robot.collision_rules.pairs_on})
+    for (const auto& pair : *pairs)
+      for (const int part : pair) check_part(robot, part, "collision rule");
   for (const auto& sensor : robot.tactile) {
     check_part(robot, sensor.link, "tactile sensor");
     check(coordinate_rule, sensor.low_L, excerpt(robot.name) + ": tactile sensor");
@@ -180,6 +209,7 @@ void check_robot(const RobotSpec& robot) {
       fail("{}: DOF {}: {}", name, i, no_range(range));
   check_parts(robot);
   check_tendons(robot);
+  check_joint_tendons(robot);
   check_actuators(robot, name);
 }
 

@@ -10,6 +10,7 @@
 #include "clench/spec/body_spec.h"
 #include "clench/spec/eigengrasp_spec.h"
 #include "clench/spec/glove_spec.h"
+#include "clench/spec/joint_tendon.h"
 #include "clench/spec/passive_parts.h"
 #include "clench/spec/virtual_contact_spec.h"
 
@@ -69,11 +70,12 @@ struct TrackerSpec {
   Pose X_BS;
 };
 
-/// What of a robot may never collide, beside its neighbours.
+/// Which parts of a robot may not collide, beside neighbours: links and what carries them.
 struct CollisionRules {
   std::vector<int> parts_off;                 ///< links with nothing at all; -1: the base
   std::vector<std::array<int, 2>> pairs_off;  ///< with each other
   bool near_pairs_off = false;  ///< nor parts nearer than the contact threshold as it is loaded
+  std::vector<std::array<int, 2>> pairs_on;  ///< neighbours that collide all the same
 };
 
 /// Files that a robot's file names, resolved; empty: none.
@@ -106,6 +108,7 @@ struct RobotSpec {
   std::vector<TactileSpec> tactile;
   std::vector<TendonSpec> tendons;
   std::vector<TendonWrapper> wrappers;
+  std::vector<JointTendonSpec> joint_tendons;
   /// in the file's order; what motors take from them is in dofs
   std::vector<ActuatorSpec> actuators;
 };

@@ -110,6 +110,7 @@ struct WorldSpec {
   std::vector<std::string> larger_friction;
   std::optional<CollisionSpec> collision;          ///< absent: what the robots bring along
   std::vector<std::array<PartRef, 2>> never_meet;  ///< beside what the robots bring along
+  bool collision_on = true;                        ///< false: nothing collides
   /// in the world frame [m/s^2]; absent: standard_gravity along -z
   std::optional<Eigen::Vector3d> gravity;
   std::vector<KeyframeSpec> keyframes;

@@ -379,7 +379,7 @@ TEST_CASE("what a scene's bits and excludes keep apart never meets, nor what is 
   CHECK(count(Kind::body, Kind::body) == 2);
   CHECK(told.noted("4 pairs of bodies never collide, as contype and conaffinity say"));
   CHECK(told.warned("exclude: no body 'no' is read; this is not used"));
-  CHECK(told.warned("<pair> is not used"));
+  CHECK(told.warned("pairs of which a geom is not read are not used: 'x' and 'y'"));
 }
 
 TEST_CASE("what a scene holds and a world does not is told, one warning a kind of element") {

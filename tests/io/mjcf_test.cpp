@@ -82,8 +82,8 @@ TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
   CHECK(hand.joint("index_pip").dof == hand.joint("index_mcp").dof);
   CHECK(hand.joint("index_pip").ratio == 0.5);
   CHECK(
-      hand.noted("joints 'index_mcp' and 'index_pip' share a tendon; they are taken to turn as 1 "
-                 "to 0.5"));
+      hand.warned("joints 'index_mcp' and 'index_pip' share a tendon, 'index_tendon', and lose a "
+                  "DOF; they are taken to turn as 1 to 0.5"));
 }
 
 TEST_CASE("a tendon of two joints that an equality holds ties them") {

@@ -113,7 +113,16 @@ TEST_CASE("what is wrong in <clench> is told by file and line") {
   check_refused("<approach quat='1 0 0 0' xyz='0 0 2e9'/>",
                 "approach: xyz: expected a position within 1e+09 m of the origin");
   check_refused("<collision><a/></collision>",
-                "collision: expected <never> or <never_pair>, got <a>");
+                "collision: expected <never>, <never_pair> or <pair>, got <a>");
+  check_refused("<joint_tendon><a/></joint_tendon>", "joint_tendon: expected <arm>, got <a>");
+  check_refused("<joint_tendon range='2 1'/>", "joint_tendon: range: 2 exceeds 1");
+  check_refused("<joint_tendon stiffness='-1'/>",
+                "joint_tendon: stiffness: expected a number from 0 to 1e+30, got -1");
+  check_refused("<joint_tendon><arm joint='j' length='0'/></joint_tendon>",
+                "arm: length: expected a number from 1e-30 to 1e+30, got 0");
+  check_refused(
+      "<joint_tendon><arm joint='j' length='1'/><arm joint='j' length='1'/></joint_tendon>",
+      "arm: joint: expected each joint once");
   check_refused("<collision><never_pair link1='tip' link2='tip'/></collision>",
                 "never_pair: link2: expected another link than link1");
   check_refused("<actuator kind='motor' gain='1' bias='1'/>",

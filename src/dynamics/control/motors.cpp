@@ -17,6 +17,14 @@ static constexpr double steps_ahead = 8, always_near = 0.05;
 // [rad/s or m/s]
 static constexpr double returned_part = 0.2, returned_at_most = 1;
 
+bool limit_is_near(double gap, double velocity, double step) {
+  return gap < steps_ahead * std::abs(velocity) * step + always_near;
+}
+
+double limit_target(double beyond, double step) {
+  return beyond <= 0 ? beyond / step : std::min(returned_part * beyond / step, returned_at_most);
+}
+
 Gains gains_of(const World& world, Id<Robot> id, int dof, double inertia) {
   const RobotDynamics& settings = world.dynamic_settings().robot(id);
   if (dof < static_cast<int>(settings.gains.size()) && settings.gains[dof])
@@ -65,6 +73,14 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
     out.added[part.coordinate] += r * r * joint.armature;
   }
   out.added += out.velocity_part;
+  out.root_added.resize(0, 0);
+  out.root_velocity_part.resize(0, 0);
+  if (const Body& root = world.body(tree.root);
+      tree.floating && (root.free_damping != 0 || root.free_armature != 0)) {
+    const Eigen::Matrix<double, 6, 6> J = free_motion(world, tree), JJ = J.transpose() * J;
+    out.root_velocity_part = h * root.free_damping * JJ;
+    out.root_added = out.root_velocity_part + root.free_armature * JJ;
+  }
   out.weight.setZero(tree.size());
   if (tree.floating || tree.coordinates.empty()) return;
   const Eigen::VectorXd weight = dynamics.weight(world);
@@ -166,17 +182,12 @@ class RowMaker {
               : robot.limits[c.dof];
     // joints by themselves are numbered apart from DOFs
     const int index = alone ? -1 - static_cast<int>(c.joint_index) : static_cast<int>(c.dof_index);
-    const double step = std::max(world_.dynamic_settings().step, h_),
-                 near = steps_ahead * std::abs(v) * step + always_near;
-    // within them, as far as the next step may go; what stands beyond one comes back gently
-    const auto target = [&](double left) {
-      return left <= 0 ? left / step : std::min(returned_part * left / step, returned_at_most);
-    };
+    const double step = std::max(world_.dynamic_settings().step, h_);
     const bool endless = alone ? robot.joints[c.joint].endless : robot.endless[c.dof];
-    if (!endless && q - range[0] < near)
-      push(RowKind::low_limit, index, column, target(range[0] - q), 0, no_bound);
-    if (!endless && range[1] - q < near)
-      push(RowKind::high_limit, index, column, -target(q - range[1]), -no_bound, 0);
+    if (!endless && limit_is_near(q - range[0], v, step))
+      push(RowKind::low_limit, index, column, limit_target(range[0] - q, step), 0, no_bound);
+    if (!endless && limit_is_near(range[1] - q, v, step))
+      push(RowKind::high_limit, index, column, -limit_target(q - range[1], step), -no_bound, 0);
     double coulomb = 0;
     for (const ArticulationJoint& joint : tree_.joints)
       if (joint.coordinate == column)

@@ -14,6 +14,8 @@ struct CoordinateRow {
   double target = 0;         ///< [rad/s or m/s]
   double low = 0, high = 0;  ///< [N m s or N s]
   double compliance = 0;
+  /// coordinates and velocities per unit of each, where it acts on several; `coordinate` is one
+  std::vector<std::pair<int, double>> arms = {};
 };
 
 /// Forces on the coordinates of a tree, and what is added to its mass matrix so that springs and
@@ -24,6 +26,9 @@ struct JointForces {
   Eigen::VectorXd added;    ///< to the diagonal of the mass matrix
   /// the part of it that acts on velocities, not on their change: damping h d and springs h^2 k
   Eigen::VectorXd velocity_part;
+  /// of a root that floats and resists free motion: what is added to its part of the mass matrix,
+  /// and the part of that which acts on velocities; empty: nothing
+  Eigen::MatrixXd root_added, root_velocity_part;
 };
 
 /// Springs, friction, and what motors give to carry the robot's own weight where they are to.
@@ -36,6 +41,13 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
 void add_coordinate_rows(const World& world, const Articulation& tree, int number,
                          const Eigen::MatrixXd& mass_matrix, double h, const DynamicState& state,
                          std::vector<CoordinateRow>& out);
+
+/// Is a limit so near that the next steps may reach it?
+/// gap  to it, negative beyond; velocity  of what it limits; step  [s]
+bool limit_is_near(double gap, double velocity, double step);
+/// Velocity that a limit asks for: within it, what reaches it in a step; beyond it, a gentle
+/// return.   beyond  how far it is exceeded, negative within
+double limit_target(double beyond, double step);
 
 /// Gains of a DOF's motor: those set for it; else its file's, whose damping may be a ratio; else
 /// those of a motor of critical damping that swings back at 60 rad/s.   inertia  that the DOF feels

@@ -1,5 +1,6 @@
 #include "clench/dynamics/ode/ode_scene.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -191,11 +192,14 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
   for (const TreeBody& part : tree.bodies) {
     OdeNode& node = out.nodes[part.joint + 1];
     const Load& load = state.loads[part.body.index];
-    node.force += load.force;
-    node.torque +=
-        load.torque +
-        (world_.pose(part.body) * world_.body(part.body).com - node.com).cross(load.force);
+    const Body& body = world_.body(part.body);
+    Eigen::Vector3d force = load.force;
+    if (body.gravity_compensation != 0)
+      force -= body.gravity_compensation * body.mass * world_.gravity();
+    node.force += force;
+    node.torque += load.torque + (world_.pose(part.body) * body.com - node.com).cross(force);
   }
+  damp_root(tree, number);
   // springs and what motors are told to give; armature and dampers as motors that give way
   const JointForces& forces = problem_.forces[number];
   if (tree.floating && !tree.is_free_body()) {
@@ -215,6 +219,25 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
       add_motor(out, out.joints[lead], ratio * kept, h_ * ratio * ratio / added, dInfinity);
     }
   }
+}
+
+// viscous resistance to free motion, as it is when the step ends
+void OdeScene::damp_root(const Articulation& tree, int number) {
+  const Eigen::MatrixXd& damped = problem_.forces[number].root_velocity_part;
+  if (damped.size() == 0) return;
+  OdeNode& root = trees_[number].nodes[0];
+  // from the centre of the coordinates to that of the node
+  const Eigen::Vector3d arm = root.com - centre(world_, tree);
+  Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Identity() * root.mass, J = M;
+  M.bottomRightCorner<3, 3>() = root.inertia;
+  J.setIdentity();
+  J.topRightCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  const Eigen::Matrix<double, 6, 6> inertia = J.transpose() * M * J;
+  const Vector6d v = problem_.v.segment<6>(tree.first);
+  const Vector6d change = -(inertia + damped).ldlt().solve(damped * v);
+  const Vector6d force = J.transpose().lu().solve(inertia * change / h_);
+  root.force += force.head<3>();
+  root.torque += force.tail<3>();
 }
 
 void OdeScene::push(int tree, int number, double effort) {

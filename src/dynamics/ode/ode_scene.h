@@ -80,6 +80,7 @@ class OdeScene {
   void make_body(OdeNode& node);
   void base_impulse(const Articulation& tree, int number);
   void add_forces(const Articulation& tree, int number);
+  void damp_root(const Articulation& tree, int number);
   dJointID add_motor(const OdeTree& tree, const OdeJoint& joint, double velocity, double cfm,
                      double most);
   const OdeNode* node_of(Id<Body> id) const;

@@ -122,6 +122,14 @@ Eigen::Vector3d centre(const World& world, const Articulation& tree) {
   return moment / mass;
 }
 
+Eigen::Matrix<double, 6, 6> free_motion(const World& world, const Articulation& tree) {
+  const Eigen::Vector3d r = world.pose(tree.root).position - centre(world, tree);
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
+  // w x r
+  J.topRightCorner<3, 3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
+  return J;
+}
+
 Vector6d prescribed_twist(const World& world, const Articulation& tree) {
   Vector6d out = Vector6d::Zero();
   if (tree.floating) return out;

@@ -70,6 +70,10 @@ System find_system(const World& world);
 /// it, where nothing has joints [m].
 Eigen::Vector3d centre(const World& world, const Articulation& tree);
 
+/// How the six coordinates of a root that floats move the origin of its frame, and turn it:
+/// (velocity, angular velocity) = J v, in world axes.
+Eigen::Matrix<double, 6, 6> free_motion(const World& world, const Articulation& tree);
+
 /// Of a root that moves as prescribed, at centre() [m/s, rad/s]; 0 of one that floats, whose
 /// velocity is in the coordinates.
 Vector6d prescribed_twist(const World& world, const Articulation& tree);

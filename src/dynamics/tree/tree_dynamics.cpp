@@ -41,12 +41,17 @@ void TreeDynamics::place(const World& world, const Articulation& tree) {
   about_ = centre(world, tree);
   com_.resize(tree.bodies.size());
   own_.assign(tree.joints.size() + 1, {});
+  carried_.clear();
   for (size_t i = 0; i < tree.bodies.size(); ++i) {
     const TreeBody& part = tree.bodies[i];
     const Body& body = world.body(part.body);
     const Pose& X_WB = world.pose(part.body);
     com_[i] = X_WB * body.com;
     own_[part.joint + 1].add(SpatialInertia::of(body, X_WB, about_));
+    if (body.gravity_compensation == 0) continue;
+    carried_.resize(own_.size());
+    const double mass = body.gravity_compensation * body.mass;
+    carried_[part.joint + 1].add({mass, mass * (com_[i] - about_)});
   }
   if (tree.is_free_body()) {
     M_.setZero(6, 6);
@@ -126,6 +131,9 @@ void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* 
     force_[i] = own_[i] * acceleration_[i] + cross_force(velocity_[i], own_[i] * velocity_[i]);
     force_[i].head<3>() -= own_[i].mass * gravity;
     force_[i].tail<3>() -= own_[i].moment.cross(gravity);
+    if (carried_.empty()) continue;
+    force_[i].head<3>() += carried_[i].mass * gravity;
+    force_[i].tail<3>() += carried_[i].moment.cross(gravity);
   }
 }
 
@@ -136,6 +144,10 @@ const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const V
   if (tree_->is_free_body()) {
     // its turning keeps its momentum on the way: see Mover
     bias_.head<3>() = -own_[0].mass * gravity;
+    if (!carried_.empty()) {
+      bias_.head<3>() += carried_[0].mass * gravity;
+      bias_.tail<3>() += carried_[0].moment.cross(gravity);
+    }
     return bias_;
   }
   find_forces(v, nullptr, root_twist, gravity);
@@ -176,8 +188,9 @@ Eigen::VectorXd TreeDynamics::weight(const World& world) const {
     carry(i, all_[i + 1].mass, all_[i + 1].moment);
   for (size_t b = 0; b < tree_->bodies.size(); ++b) {
     const TreeBody& part = tree_->bodies[b];
-    const double mass = part.welded ? world.body(part.body).mass : 0;
-    if (mass > 0)
+    const Body& body = world.body(part.body);
+    const double mass = body.mass * (part.welded ? 1 : body.gravity_compensation);
+    if (mass != 0)
       for (int i = part.joint; i >= 0; i = joints[i].parent)
         carry(i, -mass, -mass * (com_[b] - about_));
   }
@@ -191,11 +204,13 @@ Eigen::VectorXd TreeDynamics::base_impulse(const Vector6d& change) const {
   return out;
 }
 
-void TreeDynamics::factor(const Eigen::VectorXd& added) {
+void TreeDynamics::factor(const Eigen::VectorXd& added, const Eigen::MatrixXd& added_to_root) {
   const int n = tree_->size();
   L_.resize(n, n);
   L_ = M_;
   L_.diagonal() += added;
+  root_is_coupled_ = added_to_root.size() > 0;
+  if (root_is_coupled_) L_.topLeftCorner<6, 6>() += added_to_root;
   // the textbook's, by columns: n is some ten
   for (int j = 0; j < n; ++j) {
     for (int k = 0; k < j; ++k)
@@ -208,7 +223,7 @@ void TreeDynamics::factor(const Eigen::VectorXd& added) {
 }
 
 void TreeDynamics::half_solve(Eigen::Ref<Eigen::MatrixXd> B) const {
-  if (tree_->is_free_body()) {
+  if (tree_->is_free_body() && !root_is_coupled_) {
     B.topRows<3>() /= L_(0, 0);
     B.row(3) /= L_(3, 3);
     B.row(4) = (B.row(4) - L_(4, 3) * B.row(3)) / L_(4, 4);

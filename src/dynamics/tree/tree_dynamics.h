@@ -56,7 +56,8 @@ class TreeDynamics {
   Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
   /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at
   /// the step's end), and factors.
-  void factor(const Eigen::VectorXd& added_to_diagonal);
+  /// added_to_root  6 x 6, likewise of a root that floats; or empty
+  void factor(const Eigen::VectorXd& added_to_diagonal, const Eigen::MatrixXd& added_to_root = {});
 
   const Eigen::MatrixXd& mass_matrix() const { return M_; }
   const Eigen::Vector3d& about() const { return about_; }
@@ -94,6 +95,8 @@ class TreeDynamics {
   std::vector<Vector6d> velocity_, acceleration_, force_;
   std::vector<double> joint_efforts_;
   Eigen::MatrixXd M_, L_;
+  bool root_is_coupled_ = false;  // does a free body's added mass couple its velocity and turning?
+  std::vector<SpatialInertia> carried_;  // as own_, of the weight that is left out; or empty
   Eigen::VectorXd bias_;
   RobotFrames frames_;
 };

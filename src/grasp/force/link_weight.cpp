@@ -14,7 +14,7 @@ double link_weight(const World& world, const JointRef& ref) {
   for (const Id<Body> id : world.bodies()) {
     if (!world.body(id).robot || !joint_moves(world, ref.robot, ref.joint, id)) continue;
     const Body& body = world.body(id);
-    const Eigen::Vector3d weight = world.gravity() * body.mass;
+    const Eigen::Vector3d weight = world.gravity() * (body.mass * (1 - body.gravity_compensation));
     const Eigen::Vector3d arm = world.pose(id) * body.com - origin;
     sum += turns ? z.dot(arm.cross(weight)) : z.dot(weight);
   }

@@ -24,7 +24,8 @@ void tell_world_geoms(const Worldbody& world, const FileCache& cache) {
 
 /// The body with the most joints is the robot; others that move freely are things beside it. One
 /// body alone is the base, as long as it has no joints of its own; else the world is.
-MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
+/// fixed_base  is the tree's first body fixed to the world?
+MjcfTree read_one_robot(MjcfModel& model, FileCache& cache, bool& fixed_base) {
   std::vector<TopBody> bodies = model.worldbody().bodies;
   if (bodies.empty()) fail("{}: expected bodies in <worldbody>, got none", model.document().file());
   const auto robot =
@@ -47,7 +48,9 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
                     "one of them, and clench.load a world with all of them",
                     model.document().file(), name_list(trees)));
   MjcfTreeReader reader(model.document(), model.geoms(), cache, "robot");
+  fixed_base = true;
   if (bodies.size() == 1 && !bodies.front().own_joints) {
+    fixed_base = !bodies.front().free && !bodies.front().mocap;
     reader.read_body(bodies.front(), true);
   } else {
     reader.add_world();
@@ -63,7 +66,9 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache) {
 RobotSpec read_robot_mjcf(const fs::path& path, FileCache& cache) {
   MjcfModel model(path, cache, "robot");
   tell_world_geoms(model.worldbody(), cache);
-  RobotSpec robot = model.make(read_one_robot(model, cache), model.name(), {}, true).robot;
+  bool fixed_base = true;
+  MjcfTree tree = read_one_robot(model, cache, fixed_base);
+  RobotSpec robot = model.make(std::move(tree), model.name(), {}, true, fixed_base).robot;
   model.tell();
   return robot;
 }

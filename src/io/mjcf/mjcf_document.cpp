@@ -1,6 +1,7 @@
 #include "clench/io/mjcf/mjcf_document.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "clench/base/suggest.h"
@@ -136,18 +137,25 @@ void MjcfDocument::check_class(const XmlElement& element, const std::string& nam
                did_you_mean(name, names_in(class_numbers_)));
 }
 
-XmlValues MjcfDocument::values(const XmlElement& element, const std::string& child_class,
-                               const char* also) const {
+std::vector<XmlElement> MjcfDocument::defaults(const XmlElement& element,
+                                               const std::string& child_class,
+                                               std::span<const std::string_view> names) const {
   const std::string own = element.attribute("class").value_or("");
   const std::string& name = own.empty() ? child_class : own;
   check_class(element, name);
-  std::vector<XmlElement> behind;
+  std::vector<XmlElement> out;
   int at = name.empty() ? 0 : class_numbers_.at(name);
   for (; at >= 0; at = classes_[at].parent)
     // the last of several in a class counts
     for (auto it = classes_[at].elements.rbegin(); it != classes_[at].elements.rend(); ++it)
-      if (it->name() == element.name() || (also && it->name() == also)) behind.push_back(*it);
-  return {element, behind};
+      if (std::ranges::find(names, it->name()) != names.end()) out.push_back(*it);
+  return out;
+}
+
+XmlValues MjcfDocument::values(const XmlElement& element, const std::string& child_class,
+                               const char* also) const {
+  const std::array<std::string_view, 2> names = {element.name(), also ? also : element.name()};
+  return {element, defaults(element, child_class, names)};
 }
 
 // --- poses ---

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clench/io/mjcf/mjcf_settings.h"
@@ -44,6 +46,9 @@ class MjcfDocument {
   /// under the element's own name, or `also`.
   XmlValues values(const XmlElement& element, const std::string& child_class = "",
                    const char* also = nullptr) const;
+  /// Elements of these names that give the defaults of an element, the nearest first.
+  std::vector<XmlElement> defaults(const XmlElement& element, const std::string& child_class,
+                                   std::span<const std::string_view> names) const;
   void check_class(const XmlElement& element, const std::string& name) const;
 
   /// Settings of the file that an element comes from.

@@ -14,6 +14,10 @@ MjcfGeoms::MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene)
       meshes_(document, cache, geometry_),
       scene_(scene) {
   read_assets();
+  for (const MjcfNode* node : document_.section("contact"))
+    if (node->name() == "pair")
+      for (const char* geom : {"geom1", "geom2"})
+        paired_.insert(XmlValues(node->element).text(geom, ""));
 }
 
 // --- assets ---
@@ -188,6 +192,13 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
                     : fmt::format("a {} is no part of a {} here", type, scene_ ? "body" : "robot"));
   MjcfGeom geom;
   read_friction(values, geom.friction);
+  geom.name = values.text("name", "");
+  if (values.has("surfacevel"))
+    cache_.warn(
+        fmt::format("{}: geom '{}': surfacevel is not used; surface_velocity of its body "
+                    "makes a conveyor",
+                    element.place(), excerpt(geom.name)));
+  geom.paired = !geom.name.empty() && paired_.contains(geom.name);
   geom.type = static_cast<unsigned>(values.integer("contype", 1));
   geom.affinity = static_cast<unsigned>(values.integer("conaffinity", 1));
   const int group = values.integer("group", 0);

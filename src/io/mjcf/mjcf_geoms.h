@@ -29,10 +29,12 @@ struct MjcfGeom {
   double mass = 0;       ///< [kg]
   bool weighed = true;   ///< is it of the compiler's groups?
   MassProperties solid;  ///< for unit density, of a shell per area
+  std::string name;      ///< empty: it has none
+  bool paired = false;   ///< does a <pair> name it? then it collides with what that says
 
   MjcfFriction friction;
 
-  bool collides() const { return type != 0 || affinity != 0; }
+  bool collides() const { return type != 0 || affinity != 0 || paired; }
 };
 
 class MjcfGeoms {
@@ -65,7 +67,7 @@ class MjcfGeoms {
   MjcfMeshes meshes_;
   bool scene_;
   std::map<std::string, PieceColor> materials_;
-  std::set<std::string> unused_types_;
+  std::set<std::string> unused_types_, paired_;
   size_t count_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf_couplings.h"
 #include "clench/io/mjcf/mjcf_expand.h"
+#include "clench/io/mjcf/mjcf_spring_damper.h"
 #include "clench/io/tree/tree_robot.h"
 
 namespace clench {
@@ -14,7 +15,8 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
     : cache_(cache),
       whole_(whole),
       document_(path, cache),
-      geoms_(expand_mjcf(document_, cache), cache, whole == std::string_view("world")) {
+      geoms_(expand_mjcf(document_, cache), cache, whole == std::string_view("world")),
+      contacts_(document_, cache) {
   name_ = document_.root().element.attribute("model").value_or("");
   if (name_.empty()) name_ = document_.path().stem().string();
   std::vector<std::string_view> known = {"compiler", "default",  "asset",  "worldbody",
@@ -100,7 +102,8 @@ MjcfRobot MjcfModel::scene_robot(const TopBody& body, bool first) {
   std::set<std::string> elsewhere;
   for (const TopBody* other : trees)
     if (other->node != body.node) find_joints(*other->node, elsewhere);
-  MjcfRobot out = make(read_tree(body), trees.size() == 1 ? name_ : body.name, elsewhere, first);
+  MjcfRobot out = make(read_tree(body), trees.size() == 1 ? name_ : body.name, elsewhere, first,
+                       !body.free && !body.mocap);
   out.robot.files.body = body.name;
   return out;
 }
@@ -110,6 +113,7 @@ MjcfRobot MjcfModel::scene_robot(const TopBody& body, bool first) {
 void MjcfModel::read_excludes(MjcfTree& tree) {
   const bool alone = whole_ == std::string_view("robot");
   for (const MjcfNode* node : document_.section("contact")) {
+    if (node->name() == "pair") continue;
     if (node->name() != "exclude") {
       if (alone) document_.unused().element(node->element);
       continue;
@@ -118,8 +122,8 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
     const XmlValues values(node->element);
     const auto a = tree.links.find(values.text("body1")), b = tree.links.find(values.text("body2"));
     if (a == tree.links.end() || b == tree.links.end()) {
-      // a scene looks at them all
-      if (alone)
+      // a scene looks at them all, and a robot alone has no world around it
+      if (alone && values.text("body1") != "world" && values.text("body2") != "world")
         cache_.warn(fmt::format(
             "{}: exclude: '{}' and '{}' are not both bodies of the robot; not used",
             node->element.place(), excerpt(values.text("body1")), excerpt(values.text("body2"))));
@@ -127,27 +131,6 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
       tree.model.never_meet.emplace_back(a->second, b->second);
     }
   }
-}
-
-/// Pairs that the geoms' bits keep apart. Geoms of one link are one surface here, so bits count for
-/// the link whole.
-void MjcfModel::keep_masks(MjcfTree& tree) {
-  const int count = static_cast<int>(tree.model.links.size());
-  std::vector<unsigned> type(count), affinity(count);
-  for (int i = 0; i < count; ++i)
-    for (const MjcfGeom& geom : tree.geoms[i]) type[i] |= geom.type, affinity[i] |= geom.affinity;
-  int apart = 0;
-  for (int i = 0; i < count; ++i)
-    for (int j = i + 1; j < count; ++j) {
-      if ((type[i] | affinity[i]) == 0 || (type[j] | affinity[j]) == 0) continue;
-      if ((type[i] & affinity[j]) || (type[j] & affinity[i])) continue;
-      tree.model.never_meet.emplace_back(i, j);
-      ++apart;
-    }
-  if (apart > 0)
-    cache_.note(
-        fmt::format("{}: {} pair{} of links never collide{}, as contype and conaffinity say",
-                    document_.file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
 }
 
 // --- robots ---
@@ -169,12 +152,11 @@ void MjcfModel::warn_of_starts(const TreeModel& tree) const {
 }
 
 MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
-                          const std::set<std::string>& elsewhere, bool tells) {
+                          const std::set<std::string>& elsewhere, bool tells, bool fixed_base) {
   TreeModel& model = tree.model;
   model.name = robot_name;
   model.class_name = document_.root().element.attribute("model").value_or("");
   read_excludes(tree);
-  keep_masks(tree);
   read_mjcf_couplings(document_, cache_, model, elsewhere, tells);
   warn_of_starts(model);
   for (size_t i = 0; i < tree.geoms.size(); ++i)
@@ -183,6 +165,14 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
       if (geom.drawn) tree.pieces[i].visual.push_back(geom.piece);
     }
   dress_links(model, tree.pieces, geoms_.geometry(), document_.file(), cache_, true);
+  contacts_.filter_links(tree, fixed_base);
+  set_springs_and_dampers(model, !fixed_base);
+  if (whole_ != std::string_view("world")) {
+    std::set<std::string> names;
+    for (const auto& geoms : tree.geoms)
+      for (const MjcfGeom& geom : geoms) names.insert(geom.name);
+    contacts_.tell([&](const std::string& name) { return names.contains(name); });
+  }
   if (whole_ != std::string_view("world"))
     cache_.note(
         fmt::format("{}: read as a robot, its links count as plastic; as a scene, by clench.load, "

@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 
+#include "clench/io/mjcf/mjcf_contacts.h"
 #include "clench/io/mjcf/mjcf_tree.h"
 
 namespace clench {
@@ -22,6 +23,7 @@ class MjcfModel {
   const Worldbody& worldbody() const { return worldbody_; }
   MjcfDocument& document() { return document_; }
   MjcfGeoms& geoms() { return geoms_; }
+  MjcfContacts& contacts() { return contacts_; }
   const std::string& name() const { return name_; }  ///< its own, else the file's stem
   /// Bodies directly in the world that joints hang on.
   std::vector<const TopBody*> joint_trees() const;
@@ -31,9 +33,10 @@ class MjcfModel {
   void scale_masses(MjcfTree& tree);
   /// The tree that begins with a body, as one of the robots of a scene.
   MjcfRobot scene_robot(const TopBody& body, bool first);
-  /// elsewhere  joints of other robots; tells  of what concerns no joint at all?
+  /// elsewhere  joints of other robots; tells  of what concerns no joint at all?; fixed_base  is its
+  ///            first body fixed to the world?
   MjcfRobot make(MjcfTree tree, const std::string& robot_name,
-                 const std::set<std::string>& elsewhere, bool tells);
+                 const std::set<std::string>& elsewhere, bool tells, bool fixed_base);
   /// Tells what is left to tell of the whole file.
   void tell();
 
@@ -41,12 +44,12 @@ class MjcfModel {
   void leave_out(const MjcfNode& section);
   void warn_of_starts(const TreeModel& tree) const;
   void read_excludes(MjcfTree& tree);
-  void keep_masks(MjcfTree& tree);
 
   FileCache& cache_;
   const char* whole_;
   MjcfDocument document_;
   MjcfGeoms geoms_;
+  MjcfContacts contacts_;
   Worldbody worldbody_;
   std::string name_;
   std::optional<double> mass_scale_;  // computed when first needed

@@ -5,6 +5,7 @@
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/mjcf/mjcf_keyframes.h"
+#include "clench/io/mjcf/mjcf_options.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/spec/plausibility.h"
 
@@ -17,8 +18,9 @@ namespace fs = std::filesystem;
 /// A body or a part of a robot, as far as what meets what goes.
 struct ScenePart {
   PartRef ref;
-  unsigned type = 0, affinity = 0;
-  bool fixed = false;  // to the world
+  std::string name;
+  std::vector<MjcfGeom> geoms;  // those that collide
+  bool fixed = false;           // to the world
 };
 
 class SceneReader {
@@ -38,11 +40,13 @@ class SceneReader {
   std::string material(const std::vector<MjcfGeom>& geoms, const std::string& name);
   void dress_things();
   void set_friction();
-  void read_options();
   [[noreturn]] void fail_empty();
   void exclude();
   void never_meet();
-  ScenePart part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const;
+  void add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
+                bool fixed);
+  std::vector<PartRef> parts_of(const XmlValues& exclude, const char* body) const;
+  const ScenePart& part_of(PartRef ref) const;
 
   FileCache& cache_;
   MjcfModel model_;
@@ -51,6 +55,8 @@ class SceneReader {
   std::vector<LinkPieces> thing_pieces_;
   std::vector<ScenePart> parts_;
   std::map<std::string, PartRef> by_name_;
+  std::vector<PartRef> of_world_;  // geoms of the world itself
+  std::set<std::string> geom_names_;
   std::vector<SceneBody> scene_;  // one per body directly in the world
   std::map<MjcfFriction, std::string> materials_;
   std::vector<std::string> mixed_;  // bodies of several coefficients
@@ -110,10 +116,20 @@ void SceneReader::set_friction() {
 
 // --- bodies ---
 
-ScenePart SceneReader::part_of(PartRef ref, const std::vector<MjcfGeom>& geoms, bool fixed) const {
-  ScenePart out{ref, 0, 0, fixed};
-  for (const MjcfGeom& geom : geoms) out.type |= geom.type, out.affinity |= geom.affinity;
-  return out;
+void SceneReader::add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
+                           bool fixed) {
+  ScenePart part{ref, name, {}, fixed};
+  for (const MjcfGeom& geom : geoms) {
+    if (geom.collides()) part.geoms.push_back(geom);
+    geom_names_.insert(geom.name);
+  }
+  parts_.push_back(std::move(part));
+}
+
+const ScenePart& SceneReader::part_of(PartRef ref) const {
+  return *std::ranges::find_if(parts_, [&](const ScenePart& part) {
+    return part.ref.kind == ref.kind && part.ref.index == ref.index && part.ref.link == ref.link;
+  });
 }
 
 /// An object or obstacle, whose shape is made when all are known.   returns  its number in the
@@ -135,7 +151,7 @@ int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB,
   world_.bodies.push_back(std::move(placed));
   world_.order.push_back({WorldEntry::Kind::body, number});
   const PartRef ref{WorldEntry::Kind::body, number, -1};
-  parts_.push_back(part_of(ref, geoms, role == Role::obstacle));
+  add_part(ref, name, geoms, role == Role::obstacle);
   return number;
 }
 
@@ -160,8 +176,10 @@ void SceneReader::add_geom(const WorldGeom& from) {
     for (GeometryPiece& piece : *list) piece.X_LG = Pose{};
   BodySpec weighed;
   weighed.mass = geom->mass;
-  add_thing(name.empty() ? "world_geom" : name, Role::obstacle, X, std::move(pieces), {*geom},
-            mass_rule.allows(geom->mass) ? &weighed : nullptr);
+  const int number =
+      add_thing(name.empty() ? "world_geom" : name, Role::obstacle, X, std::move(pieces), {*geom},
+                mass_rule.allows(geom->mass) ? &weighed : nullptr);
+  of_world_.push_back({WorldEntry::Kind::body, number, -1});
 }
 
 std::vector<Pose> tree_poses(const TreeModel& tree) {
@@ -212,6 +230,17 @@ std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) 
   return out;
 }
 
+/// Part of the weight of all links together that is left out.
+double mean_gravity_compensation(const MjcfTree& tree) {
+  double mass = 0, carried = 0;
+  for (const TreeLink& link : tree.model.links) {
+    mass += link.body.mass;
+    carried += link.body.mass * link.body.gravity_compensation;
+  }
+  return tree.model.links.size() == 1 ? tree.model.links[0].body.gravity_compensation
+                                      : carried / mass;
+}
+
 /// A free body, and what is fixed to it, as one.
 void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
@@ -228,6 +257,12 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   const auto weighed = weigh(tree, X);
   const int number = add_thing(body.name, Role::object, scene.X_WB, std::move(pieces), geoms,
                                weighed ? &*weighed : nullptr);
+  const BodySpec& first = tree.model.links[0].body;
+  BodySpec& made = things_.links.back().body;
+  made.free_damping = first.free_damping;
+  made.free_friction = first.free_friction;
+  made.free_armature = first.free_armature;
+  made.gravity_compensation = mean_gravity_compensation(tree);
   scene.bodies.push_back({number, Pose{}});
   scene.free = true;
   for (const auto& [name, link] : tree.links) by_name_[name] = {WorldEntry::Kind::body, number, -1};
@@ -268,7 +303,7 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
     BodySpec& part = link < 0 ? robot.base : robot.links[link].body;
     part.material = material(geoms, part.name);
     const PartRef ref{WorldEntry::Kind::robot, number, link};
-    parts_.push_back(part_of(ref, geoms, stands && (link < 0 || fixed[link])));
+    add_part(ref, part.name, geoms, stands && (link < 0 || fixed[link]));
     by_name_[name] = ref;
   }
   for (const DofSpec& dof : robot.dofs) placed.dofs.push_back(dof.default_value);
@@ -309,41 +344,48 @@ void SceneReader::dress_things() {
 
 // --- what may meet ---
 
+/// The parts that a body of an <exclude> is; empty, with a warning, for one that is not read.
+std::vector<PartRef> SceneReader::parts_of(const XmlValues& exclude, const char* body) const {
+  const std::string name = exclude.text(body);
+  if (name == "world") return of_world_;
+  if (const auto found = by_name_.find(name); found != by_name_.end()) return {found->second};
+  cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
+                          exclude.element().place(), in_quotes(name)));
+  return {};
+}
+
 void SceneReader::exclude() {
   for (const MjcfNode* node : model_.document().section("contact")) {
+    if (node->name() == "pair") continue;
     if (node->name() != "exclude") {
       model_.document().unused().element(node->element);
       continue;
     }
     model_.document().unused().attributes(node->element, {"name", "class", "body1", "body2"});
     const XmlValues values(node->element);
-    std::array<PartRef, 2> pair;
-    bool known = true;
-    for (int i = 0; i < 2; ++i) {
-      const std::string name = values.text(i ? "body2" : "body1");
-      const auto found = by_name_.find(name);
-      if (found == by_name_.end())
-        cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
-                                node->element.place(), in_quotes(name)));
-      else
-        pair[i] = found->second;
-      known = known && found != by_name_.end();
-    }
-    const bool one = pair[0].kind == pair[1].kind && pair[0].index == pair[1].index;
-    if (known && !one) world_.never_meet.push_back(pair);
+    const auto first = parts_of(values, "body1"), second = parts_of(values, "body2");
+    for (const PartRef& a : first)
+      for (const PartRef& b : second) {
+        const bool one = a.kind == b.kind && a.index == b.index;
+        if (!one && !model_.contacts().listed(part_of(a).geoms, part_of(b).geoms))
+          world_.never_meet.push_back({a, b});
+      }
   }
 }
 
-/// What is fixed never meets what is fixed, nor do geoms whose bits keep them apart.
+/// Fixed parts never collide with each other, nor do geoms that bits keep apart.
 void SceneReader::never_meet() {
   int apart = 0;
+  MjcfContacts& contacts = model_.contacts();
   for (size_t i = 0; i < parts_.size(); ++i)
     for (size_t j = i + 1; j < parts_.size(); ++j) {
       const ScenePart &a = parts_[i], &b = parts_[j];
       if (a.ref.kind == b.ref.kind && a.ref.index == b.ref.index) continue;  // of one robot
-      if ((a.type | a.affinity) == 0 || (b.type | b.affinity) == 0) continue;
-      const bool meet = (a.type & b.affinity) || (b.type & a.affinity);
-      if (meet && !(a.fixed && b.fixed)) continue;
+      if (a.geoms.empty() || b.geoms.empty()) continue;
+      const bool fixed = a.fixed && b.fixed;
+      const bool meet = fixed ? contacts.collide(a.geoms.front(), b.geoms.front())
+                              : contacts.collide(a.geoms, b.geoms, a.name, b.name);
+      if (meet && !fixed) continue;
       apart += !meet;
       world_.never_meet.push_back({a.ref, b.ref});
     }
@@ -352,36 +394,7 @@ void SceneReader::never_meet() {
         fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
                     "conaffinity say",
                     model_.document().file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
-}
-
-// --- what holds for all ---
-
-void SceneReader::read_options() {
-  world_.gravity = Eigen::Vector3d(0, 0, -9.81);  // where a file of MuJoCo says nothing
-  for (const MjcfNode& node : model_.document().root().children) {
-    if (node.name() != "option") continue;
-    const XmlValues values(node.element);
-    model_.document().unused().attributes(node.element, {"gravity", "timestep"});
-    if (values.has("timestep")) {
-      world_.time_step = values.number("timestep", 0);
-      if (const auto wrong = fault(time_step_rule, *world_.time_step); !wrong.empty())
-        values.fail("timestep", "{}", wrong);
-    }
-    for (const MjcfNode& child : node.children) {
-      const XmlValues flags(child.element);
-      if (child.name() == "flag" &&
-          flags.word("gravity", {"enable", "disable"}, "enable") == std::string_view("disable"))
-        world_.gravity = Eigen::Vector3d::Zero();
-      else
-        model_.document().unused().element(child.element);
-    }
-    if (!values.has("gravity")) continue;
-    const Eigen::Vector3d gravity = values.vec3("gravity", {0, 0, 0});
-    for (const double x : gravity)
-      if (const auto wrong = fault(gravity_rule, x); !wrong.empty())
-        values.fail("gravity", "{}", wrong);
-    world_.gravity = gravity;
-  }
+  contacts.tell([&](const std::string& name) { return geom_names_.contains(name); });
 }
 
 void SceneReader::fail_empty() {
@@ -414,7 +427,7 @@ WorldSpec SceneReader::read() {
         model_.document().unused().element(node->element);
   dress_things();
   set_friction();
-  read_options();
+  read_mjcf_options(model_.document(), cache_, world_);
   exclude();
   never_meet();
   read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, cache_, world_);

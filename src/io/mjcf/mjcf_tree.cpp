@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clench/base/text.h"
+#include "clench/io/mjcf/mjcf_tendons.h"
 
 namespace clench {
 
@@ -140,13 +141,15 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
                                const Pose& X_frame, bool base, const std::string& name) {
   const XmlElement& element = node.element;
   document_.unused().attributes(element, {"name", "pos", "quat", "axisangle", "euler", "xyaxes",
-                                          "zaxis", "childclass", "mocap"});
+                                          "zaxis", "childclass", "mocap", "gravcomp"});
   const XmlValues values(element);
   const std::string inherited = values.text("childclass", child_class);
   document_.check_class(element, inherited);
   const Pose X = X_frame * document_.pose(values);
+  const double carried = values.number("gravcomp", 0);
   // where the base stands is the world's to say
   const int link = add_link(element, name, parent, base ? Pose{} : X);
+  tree_.model.links[link].body.gravity_compensation = carried;
   if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
     cache_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
                             element.place(), excerpt(tree_.model.links[link].body.name)));
@@ -230,12 +233,32 @@ void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int l
   tree_.model.links[link].joints.push_back(number);
 }
 
+/// A free joint's resistance to motion is its body's.
+void MjcfTreeReader::read_free_motion(const XmlValues& values, BodySpec& body) {
+  const std::string subject =
+      fmt::format("{}: free joint of '{}'", values.element().place(), excerpt(body.name));
+  body.free_damping = linear_part(values, "damping", subject, document_, cache_);
+  body.free_friction = values.not_negative("frictionloss", 0, document_.repairs());
+  body.free_armature = values.not_negative("armature", 0, document_.repairs());
+  if (linear_part(values, "stiffness", subject, document_, cache_) != 0)
+    cache_.warn(subject + ": a spring holds no free body here; stiffness is not used");
+  if (values.has("springdamper")) cache_.warn(subject + ": springdamper is not used");
+}
+
+/// Stiffness and damping that follow from the inertia are set when that is known.
+void MjcfTreeReader::set_spring_damper(const XmlValues& values, TreeJoint& joint) {
+  if (!values.has("springdamper")) return;
+  const auto given = values.numbers("springdamper", 2, 2);
+  if (given[0] > 0 && given[1] > 0) joint.spring_damper = std::array{given[0], given[1]};
+}
+
 void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::string& child_class,
                                 const Pose& X_frame) {
   const XmlValues values = document_.values(element, child_class);
   values.tell_unused(document_.unused(),
                      {"name", "class", "type", "pos", "axis", "range", "limited", "ref",
-                      "stiffness", "springref", "damping", "frictionloss", "armature"});
+                      "stiffness", "springref", "damping", "frictionloss", "armature",
+                      "springdamper", "actuatorfrcrange", "actuatorfrclimited"});
   const std::string type = element.name() == "freejoint"
                                ? "free"
                                : values.word("type", {"hinge", "slide", "ball", "free"}, "hinge");
@@ -250,7 +273,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   if (type == "free") {
     tree_.slots[link].push_back({QposSlot::Kind::free});
     // the base goes where the world puts it
-    if (link == 0) return;
+    if (link == 0) return read_free_motion(values, tree_.model.links[link].body);
     warn(element, fmt::format("joint '{}' is free; body '{}' stays where the file puts it",
                               excerpt(joint.name), excerpt(body)));
     return;
@@ -261,10 +284,14 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   const Eigen::Vector3d axis = values.vec3("axis", {0, 0, 1});
   if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "expected a direction, got none");
   joint.axis = (X_frame.rotation * axis.stableNormalized()).normalized();
-  joint.viscous = values.not_negative("damping", 0, document_.repairs());
+  const std::string subject = fmt::format("{}: joint '{}'", joint.place, excerpt(joint.name));
+  joint.viscous = linear_part(values, "damping", subject, document_, cache_);
   joint.coulomb = values.not_negative("frictionloss", 0, document_.repairs());
   joint.armature = values.not_negative("armature", 0, document_.repairs());
-  joint.spring = values.not_negative("stiffness", 0, document_.repairs());
+  joint.spring = linear_part(values, "stiffness", subject, document_, cache_);
+  set_spring_damper(values, joint);
+  if (values.has("actuatorfrcrange") && values.text("actuatorfrclimited", "auto") != "false")
+    joint.force_range = values.range("actuatorfrcrange", document_.repairs());
   joint.rest = values.number("springref", 0) * unit;
   if (type != "ball") {
     joint.zero = values.number("ref", 0) * unit;

@@ -79,6 +79,8 @@ class MjcfTreeReader {
                      const Pose& X_frame);
   void read_joint(const XmlElement& element, int link, const std::string& child_class,
                   const Pose& X_frame);
+  void read_free_motion(const XmlValues& values, BodySpec& body);
+  static void set_spring_damper(const XmlValues& values, TreeJoint& joint);
   std::string own_name(const XmlElement& element, const std::string& name,
                        const std::map<std::string, int>& taken);
   void add_joint(TreeJoint joint, const XmlElement& element, int link);

@@ -28,6 +28,7 @@ static void repair_robot_names(RobotSpec& robot, const std::string& place,
     repair(link.body.name);
   }
   for (TendonSpec& tendon : robot.tendons) repair(tendon.name);
+  for (JointTendonSpec& tendon : robot.joint_tendons) repair(tendon.name);
   for (ActuatorSpec& actuator : robot.actuators)
     for (std::string* name : {&actuator.name, &actuator.kind, &actuator.joint, &actuator.tendon})
       repair(*name);

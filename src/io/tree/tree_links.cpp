@@ -62,9 +62,10 @@ static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
 }
 
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
-                 const std::string& file, const FileCache& cache, bool friction_known) {
-  const bool any = std::any_of(pieces.begin(), pieces.end(),
-                               [](const LinkPieces& p) { return !p.collision.empty(); });
+                 const std::string& file, const FileCache& cache, bool contacts_known) {
+  const bool any_collision = std::any_of(pieces.begin(), pieces.end(),
+                                         [](const LinkPieces& p) { return !p.collision.empty(); });
+  const bool any = any_collision || contacts_known;
   const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
                                       [](const LinkPieces& p) { return !p.visual.empty(); });
   std::vector<std::string> ghosts, weightless, open;
@@ -89,10 +90,12 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     if (shape && !has_volume && open.empty()) first_open = pieces[i].place;
     if (shape) (has_volume ? weightless : open).push_back(body.name);
   }
-  if (!any && any_visual)
+  if (contacts_known && !any_collision && any_visual)
+    cache.note(fmt::format("{}: nothing collides, as contype and conaffinity say", file));
+  else if (!any && any_visual)
     cache.note(fmt::format(
         "{}: no link has geometry to collide with; that for pictures is used for both", file));
-  if (!ghosts.empty())
+  if (!ghosts.empty() && any_collision)
     cache.note(
         fmt::format("{}: links that have geometry for pictures only collide with nothing: {}", file,
                     some_names(ghosts)));
@@ -104,7 +107,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
         fmt::format("{}: links without a mass whose surface is open, and so bounds no "
                     "volume, weigh {} kg: {}",
                     first_open, frame_mass, some_names(open)));
-  if (!friction_known)
+  if (!contacts_known)
     cache.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
 }
 

@@ -20,9 +20,10 @@ struct LinkPieces {
 /// weigh what water of their volume does, frames without geometry and open surfaces a gram. Tells
 /// what it guesses.
 /// `pieces`  one per link
-/// `friction_known`  does the file say it?
+/// `contacts_known`  does the file say what collides, and with which friction? then nothing collides
+///                   that has only visual pieces
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
-                 const std::string& file, const FileCache& cache, bool friction_known = false);
+                 const std::string& file, const FileCache& cache, bool contacts_known = false);
 
 /// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
 Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,

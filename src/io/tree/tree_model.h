@@ -1,6 +1,7 @@
 // A robot as files of today describe it: a tree of links, joints between them that stand anywhere.
 // URDF and MJCF become this, whose joints may follow each other; make_robot makes ours of it.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +20,11 @@ struct TreeJoint : JointSpec {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
   double zero = 0;                                   ///< q at which it changes no pose [rad or m]
   bool passive = false;                              ///< no motor closes it
-  int leader = -1;                                   ///< index into joints; -1: a DOF of its own
+  /// of the forces of all its actuators together [N m or N]; absent: not limited
+  std::optional<std::array<double, 2>> force_range = {};
+  /// time constant [s] and damping ratio from which spring and damping are to follow
+  std::optional<std::array<double, 2>> spring_damper = {};
+  int leader = -1;  ///< index into joints; -1: a DOF of its own
   double offset = 0;
 };
 
@@ -35,8 +40,10 @@ struct TreeModel {
   std::string name, class_name;
   std::vector<TreeLink> links;  ///< [0] is the root, and becomes the base
   std::vector<TreeJoint> joints;
-  std::vector<ActuatorSpec> actuators;          ///< `dof`: the joint that each moves
-  std::vector<std::pair<int, int>> never_meet;  ///< links whose collisions the file switches off
+  std::vector<ActuatorSpec> actuators;           ///< `dof`: the joint that each moves
+  std::vector<JointTendonSpec> tendons;          ///< `arms`: of joints that lead
+  std::vector<std::pair<int, int>> never_meet;   ///< links whose collisions the file switches off
+  std::vector<std::pair<int, int>> always_meet;  ///< neighbours that collide all the same
 };
 
 /// How far searches go from where a joint without limits is: a full turn [rad]; so far [m].

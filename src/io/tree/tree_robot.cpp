@@ -185,6 +185,12 @@ RobotSpec RobotMaker::make() {
   const auto part = [&](int link) { return link == 0 ? -1 : now[link - 1]; };
   for (const auto& [a, b] : tree_.never_meet)
     robot_.collision_rules.pairs_off.push_back({part(a), part(b)});
+  for (const auto& [a, b] : tree_.always_meet)
+    robot_.collision_rules.pairs_on.push_back({part(a), part(b)});
+  for (JointTendonSpec tendon : tree_.tendons) {
+    for (auto& [joint, arm] : tendon.arms) joint = dof_of_[joint];
+    robot_.joint_tendons.push_back(std::move(tendon));
+  }
   for (ActuatorSpec actuator : tree_.actuators) {
     if (const int joint = actuator.dof; joint >= 0)
       actuator.dof = dof_of_[tree_.joints[joint].leader < 0 ? joint : tree_.joints[joint].leader];

@@ -1,6 +1,7 @@
 #include "clench/io/urdf/urdf_clench.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -25,6 +26,7 @@ class ClenchReader {
   void read_joint(const XmlElement& element);
   void read_link(const XmlElement& element);
   void read_collision(const XmlElement& element);
+  void read_tendon(const XmlElement& element);
   void read_actuator(const XmlElement& element);
   void read_file(const XmlElement& element, NamedFile& into);
   Pose pose(const XmlValues& values) const;
@@ -145,7 +147,8 @@ void ClenchReader::read_joint(const XmlElement& element) {
 
 void ClenchReader::read_link(const XmlElement& element) {
   expect_only(element, {"name", "material", "elastic_modulus", "soft_layer", "poisson_ratio",
-                        "restitution", "tracker"});
+                        "restitution", "tracker", "free_damping", "free_friction", "free_armature",
+                        "gravity_compensation"});
   const XmlValues values(element);
   BodySpec& body = this->body(part(values, "name"));
   once(element, body.name);
@@ -158,6 +161,10 @@ void ClenchReader::read_link(const XmlElement& element) {
   body.soft_layer = checked(values, "soft_layer", body.soft_layer, soft_layer_rule);
   body.poisson_ratio = checked(values, "poisson_ratio", body.poisson_ratio, poisson_ratio_rule);
   body.restitution = checked(values, "restitution", body.restitution, restitution_rule);
+  body.free_damping = checked(values, "free_damping", 0, not_negative_rule);
+  body.free_friction = checked(values, "free_friction", 0, not_negative_rule);
+  body.free_armature = checked(values, "free_armature", 0, not_negative_rule);
+  body.gravity_compensation = checked(values, "gravity_compensation", 0, number_rule);
   if (values.has("tracker")) body.tracker = values.integer("tracker", 0);
 }
 
@@ -172,15 +179,48 @@ void ClenchReader::read_collision(const XmlElement& element) {
     if (child.name() == "never") {
       expect_only(child, {"link"});
       robot_.collision_rules.parts_off.push_back(part(names, "link"));
-    } else if (child.name() == "never_pair") {
+    } else if (child.name() == "never_pair" || child.name() == "pair") {
       expect_only(child, {"link1", "link2"});
       const int a = part(names, "link1"), b = part(names, "link2");
       if (a == b) names.fail("link2", "expected another link than link1");
-      robot_.collision_rules.pairs_off.push_back({a, b});
+      CollisionRules& rules = robot_.collision_rules;
+      (child.name() == "pair" ? rules.pairs_on : rules.pairs_off).push_back({a, b});
     } else {
-      child.fail("collision: expected <never> or <never_pair>, got <{}>", excerpt(child.name()));
+      child.fail("collision: expected <never>, <never_pair> or <pair>, got <{}>",
+                 excerpt(child.name()));
     }
   }
+}
+
+void ClenchReader::read_tendon(const XmlElement& element) {
+  expect_only(element, {"name", "range", "stiffness", "slack", "damping", "friction"}, true);
+  const XmlValues values(element);
+  JointTendonSpec out;
+  out.name = values.text("name", "");
+  const auto range = [&](const char* name) {
+    const auto both = values.numbers(name, 2, 2);
+    if (both[0] > both[1]) values.fail(name, "{} exceeds {}", both[0], both[1]);
+    return std::array{both[0], both[1]};
+  };
+  if (values.has("range")) out.range = range("range");
+  if (values.has("slack")) out.slack = range("slack");
+  out.stiffness = checked(values, "stiffness", 0, not_negative_rule);
+  out.damping = checked(values, "damping", 0, not_negative_rule);
+  out.friction = checked(values, "friction", 0, not_negative_rule);
+  for (const XmlElement& child : element.children()) {
+    if (child.name() != "arm")
+      child.fail("joint_tendon: expected <arm>, got <{}>", excerpt(child.name()));
+    expect_only(child, {"joint", "length"});
+    const XmlValues arm(child);
+    const int number = dof(arm, "joint");
+    for (const auto& [other, length] : out.arms)
+      if (other == number) arm.fail("joint", "expected each joint once");
+    const double length = arm.number("length");
+    if (const auto wrong = fault(positive_rule, std::abs(length)); !wrong.empty())
+      arm.fail("length", "{}", wrong);
+    out.arms.emplace_back(number, length);
+  }
+  robot_.joint_tendons.push_back(std::move(out));
 }
 
 void ClenchReader::read_actuator(const XmlElement& element) {
@@ -231,6 +271,8 @@ void ClenchReader::read_child(const XmlElement& child) {
     read_link(child);
   } else if (name == "collision") {
     read_collision(child);
+  } else if (name == "joint_tendon") {
+    read_tendon(child);
   } else if (name == "actuator") {
     read_actuator(child);
   } else if (name == "eigengrasps") {
@@ -250,8 +292,8 @@ void ClenchReader::read_child(const XmlElement& child) {
   } else {
     child.fail("clench: unknown element <{}>{}", excerpt(name),
                did_you_mean(std::string(name),
-                            {"dof", "joint", "link", "collision", "actuator", "eigengrasps",
-                             "virtual_contacts", "glove", "approach", "tracker"}));
+                            {"dof", "joint", "link", "collision", "joint_tendon", "actuator",
+                             "eigengrasps", "virtual_contacts", "glove", "approach", "tracker"}));
   }
 }
 

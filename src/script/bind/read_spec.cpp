@@ -120,6 +120,10 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.soft_layer = options.number("soft_layer", spec.soft_layer);
   spec.poisson_ratio = options.number("poisson_ratio", spec.poisson_ratio);
   spec.restitution = options.number("restitution", spec.restitution);
+  spec.free_damping = options.number("free_damping", spec.free_damping);
+  spec.free_friction = options.number("free_friction", spec.free_friction);
+  spec.free_armature = options.number("free_armature", spec.free_armature);
+  spec.gravity_compensation = options.number("gravity_compensation", spec.gravity_compensation);
   if (options.has("color")) {
     spec.appearance.color = options.vec3("color").cast<float>();
     spec.appearance.triangle_colors.clear();

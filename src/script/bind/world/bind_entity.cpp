@@ -132,6 +132,31 @@ what holds for their materials.
 > flask.restitution  --> 0.0
 > flask.restitution = 2  --> error: restitution)",
      setter<[](const Entity& x, double value) { x.world->set_restitution(x.id, value); }>},
+    {"free_damping", getter<[](const Entity& x) { return x->free_damping; }>, R"(
+Viscous resistance of an object that moves freely, or of the base of a robot that floats: a force on the origin of its frame
+against that point's velocity, and a torque against its turning.
+@type number  [N s/m and N m s/rad]
+> flask.free_damping = 2
+> flask.free_damping  --> 2.0
+> flask.free_damping = -1  --> error: free damping)",
+     setter<[](const Entity& x, double value) { x.world->set_free_damping(x.id, value); }>},
+    {"free_friction", getter<[](const Entity& x) { return x->free_friction; }>, R"(
+Dry resistance of an object that moves freely, or of the base of a robot that floats: at most this force on the origin of
+its frame along each axis of the world, and at most this torque about each axis of its own.
+@type number  [N and N m]
+> flask.free_friction  --> 0.0)",
+     setter<[](const Entity& x, double value) { x.world->set_free_friction(x.id, value); }>},
+    {"free_armature", getter<[](const Entity& x) { return x->free_armature; }>, R"(
+Inertia without weight of an object that moves freely, or of the base of a robot that floats: a mass at the origin of its
+frame, and a moment about every axis.
+@type number  [kg and kg m^2]
+> flask.free_armature  --> 0.0)",
+     setter<[](const Entity& x, double value) { x.world->set_free_armature(x.id, value); }>},
+    {"gravity_compensation", getter<[](const Entity& x) { return x->gravity_compensation; }>, R"(
+Part of its weight that simulations leave out: 1 for a body that floats. MuJoCo calls it `gravcomp`.
+@type number
+> flask.gravity_compensation  --> 0.0)",
+     setter<[](const Entity& x, double value) { x.world->set_gravity_compensation(x.id, value); }>},
     {"elastic_modulus", getter<[](const Entity& x) { return x->elastic_modulus; }>, R"(
 Young's modulus; nil when it is rigid.
 @type number?  [Pa]

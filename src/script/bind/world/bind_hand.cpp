@@ -241,6 +241,29 @@ static int get_tactile_sensors(lua_State* L) {
   });
 }
 
+static int get_joint_tendons(lua_State* L) {
+  const auto& robot = self<RobotHandle>(L);
+  return push_list_of(L, robot->joint_tendons, [&](const JointTendonSpec& t) {
+    std::vector<int> dofs;
+    std::vector<double> arms;
+    double length = 0;
+    for (const auto& [dof, arm] : t.arms) {
+      dofs.push_back(dof + 1);
+      arms.push_back(arm);
+      length += arm * robot.world->dofs(robot.id)[dof];
+    }
+    push_record(L, {{"name", t.name},
+                    {"dofs", dofs},
+                    {"arms", arms},
+                    {"length", length},
+                    {"range", t.range},
+                    {"stiffness", t.stiffness},
+                    {"slack", t.slack},
+                    {"damping", t.damping},
+                    {"friction", t.friction}});
+  });
+}
+
 static int get_actuators(lua_State* L) {
   return push_parts(L, &PassiveParts::actuators, [L](const ActuatorSpec& a, auto) {
     push_record(L, {{"kind", a.kind},
@@ -318,6 +341,12 @@ Posts that tendons wrap around, each an endless cylinder; `exempt` names the ten
 side of it the others lie. They have no effect.
 @type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
 > #hand.tendon_wrappers  --> 0)"},
+    {"joint_tendons", guarded<get_joint_tendons>, R"(
+Fixed tendons of an MJCF file that have a range, a spring or friction: `length` is the sum of `arms` times `dofs`. In
+simulations the length stays in `range`, a spring acts where it is outside `slack`, and each DOF feels its arm times the
+force of the tendon. What sets DOFs without a simulation does not look at them, nor does the engine "ode".
+@type {name: string, dofs: integer[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[]
+> #hand.joint_tendons  --> 0)"},
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +

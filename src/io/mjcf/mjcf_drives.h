@@ -1,0 +1,24 @@
+// What actuators of MJCF do to the DOFs of a robot: which they drive, with which gains and largest
+// efforts; and which joints a tendon that is pulled ties together.
+#pragma once
+#include <vector>
+
+#include "clench/io/mjcf/mjcf_actuator.h"
+#include "clench/io/mjcf/mjcf_tendons.h"
+
+namespace clench {
+
+/// An actuator and its target: a joint of the tree, or a fixed tendon with joints.
+struct MjcfDrive {
+  MjcfActuator actuator;
+  int joint = -1;                      ///< -1: the tendon is the target
+  const MjcfTendon* tendon = nullptr;  ///< null: the joint is the target
+};
+
+/// Sets ranges, gains, efforts and `driven` of the DOFs, ties joints that share a tendon, and adds
+/// tree.actuators. Joints that share one tendon move in proportion to their coefficients where no
+/// other actuator pulls them in another ratio; where one does, they stay independent.
+void apply_mjcf_drives(const std::vector<MjcfDrive>& drives, MjcfDocument& document,
+                       const FileCache& cache, TreeModel& tree);
+
+}  // namespace clench

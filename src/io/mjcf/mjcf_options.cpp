@@ -1,0 +1,73 @@
+#include "clench/io/mjcf/mjcf_options.h"
+
+#include <set>
+
+#include "clench/base/text.h"
+
+namespace clench {
+
+/// Switches of the simulation; those that change what would happen here are warned of by name.
+/// returns  is gravity on?
+static bool read_flags(const XmlElement& element, const FileCache& cache, WorldSpec& world) {
+  // off unless a file says otherwise
+  const std::set<std::string> enabled = {"override", "energy",    "fwdinv", "invdiscrete",
+                                         "sleep",    "diagexact", "ipc",    "sensornoise"};
+  // of a solver that is not ours, or of what is computed beside the motion
+  const std::set<std::string> harmless = {"warmstart", "refsafe",   "sensor",     "sensornoise",
+                                          "midphase",  "eulerdamp", "autoreset",  "nativeccd",
+                                          "island",    "multiccd",  "energy",     "fwdinv",
+                                          "sleep",     "diagexact", "invdiscrete"};
+  const XmlValues flags(element);
+  bool gravity = true;
+  std::vector<std::string> lost, idle;
+  for (const std::string& name : element.attributes()) {
+    const bool usual = !enabled.contains(name);
+    const bool on = flags.word(name.c_str(), {"enable", "disable"}, "enable") == "enable";
+    if (on == usual) continue;
+    if (name == "gravity") gravity = false;
+    if (name == "contact" || name == "constraint") world.collision_on = false;
+    if (name == "gravity" || name == "contact" || name == "filterparent") continue;
+    if (harmless.contains(name))
+      idle.push_back(name);
+    else
+      lost.push_back(fmt::format("{}=\"{}\"", excerpt(name), on ? "enable" : "disable"));
+  }
+  if (!world.collision_on)
+    cache.note(fmt::format("{}: flag: contacts are off, as the file says; nothing collides",
+                           element.place()));
+  if (!idle.empty())
+    cache.note(fmt::format("{}: flag: of MuJoCo's solver alone, and not used: {}", element.place(),
+                           name_list(idle)));
+  if (!lost.empty())
+    cache.warn(fmt::format("{}: flag: not used: {}", element.place(), name_list(lost)));
+  return gravity;
+}
+
+void read_mjcf_options(MjcfDocument& document, const FileCache& cache, WorldSpec& world) {
+  world.gravity = Eigen::Vector3d(0, 0, -9.81);  // where a file of MuJoCo says nothing
+  bool gravity_on = true;
+  for (const MjcfNode& node : document.root().children) {
+    if (node.name() != "option") continue;
+    const XmlValues values(node.element);
+    document.unused().attributes(node.element, {"gravity", "timestep"});
+    if (values.has("timestep")) {
+      world.time_step = values.number("timestep", 0);
+      if (const auto wrong = fault(time_step_rule, *world.time_step); !wrong.empty())
+        values.fail("timestep", "{}", wrong);
+    }
+    for (const MjcfNode& child : node.children)
+      if (child.name() == "flag")
+        gravity_on = read_flags(child.element, cache, world) && gravity_on;
+      else
+        document.unused().element(child.element);
+    if (!values.has("gravity")) continue;
+    const Eigen::Vector3d gravity = values.vec3("gravity", {0, 0, 0});
+    for (const double x : gravity)
+      if (const auto wrong = fault(gravity_rule, x); !wrong.empty())
+        values.fail("gravity", "{}", wrong);
+    world.gravity = gravity;
+  }
+  if (!gravity_on) world.gravity = Eigen::Vector3d::Zero();
+}
+
+}  // namespace clench

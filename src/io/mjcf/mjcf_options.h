@@ -1,0 +1,12 @@
+// <option> of an MJCF scene: gravity, time step, and the switches of <flag>.
+#pragma once
+#include "clench/io/mjcf/mjcf_document.h"
+#include "clench/spec/world_spec.h"
+
+namespace clench {
+
+/// Sets gravity, time_step and collision_on. Warns of what else would change the simulation.
+/// throws  Error for a number or word that is none
+void read_mjcf_options(MjcfDocument& document, const FileCache& cache, WorldSpec& world);
+
+}  // namespace clench

@@ -1,0 +1,20 @@
+// Springs and dampers of joints that MJCF describes by a time constant and a damping ratio.
+#pragma once
+#include <Eigen/Core>
+
+#include "clench/io/tree/tree_model.h"
+
+namespace clench {
+
+/// Of each joint with `spring_damper`: stiffness I / (t z)^2 and damping 2 I / t, for the time
+/// constant t, the damping ratio z and the inertia I = 1 / (M^-1)_jj, where M is the mass matrix at
+/// the reference. The turns of a ball share the mean of 1 / I. The masses of the links are known.
+/// floating  does the first link move freely?
+/// source    MuJoCo 3: XML reference, "joint: springdamper"
+void set_springs_and_dampers(TreeModel& tree, bool floating);
+
+/// Mass matrix where no joint moves anything, armature included [kg m^2, kg m or kg]: one row per
+/// joint, then six of a first link that moves freely.
+Eigen::MatrixXd reference_mass_matrix(const TreeModel& tree, bool floating);
+
+}  // namespace clench

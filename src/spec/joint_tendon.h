@@ -1,0 +1,24 @@
+// Tendons whose length is a weighted sum of DOFs: they couple joints without tying them.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clench {
+
+/// length = sum of arm * dof. Forces act along the length: a DOF feels its arm times as much. In
+/// simulations alone: whatever sets DOFs is free to exceed the range.
+struct JointTendonSpec {
+  std::string name = {};  ///< as its file calls it; empty: it has none
+  /// DOFs, each once, and how the length changes per unit of each, not 0
+  std::vector<std::pair<int, double>> arms = {};
+  std::optional<std::array<double, 2>> range = {};  ///< of the length; absent: nothing limits it
+  double stiffness = 0;                             ///< [N or N m per unit of length]
+  std::array<double, 2> slack = {0, 0};             ///< lengths between which the spring is slack
+  double damping = 0;                               ///< [N or N m per unit of length per second]
+  double friction = 0;                              ///< dry, of the length [N or N m]
+};
+
+}  // namespace clench
