@@ -83,7 +83,7 @@ function batch.try(job, told, next_state, options)
     show()
   end
 
-  job:interruptible(function()
+  job:search_in_time(function()
     while next_state and job:goes_on() and (not options.count or unlike < options.count) do
       local items = {}
       for i = 1, chunks do
