@@ -163,7 +163,7 @@ function batch.try(job, told, next_state, options)
     return next_state and job:goes_on() and not journal:is_ended() and not exhausted and (not is_enough() or next(journal.known) ~= nil)
   end
 
-  job:interruptible(function()
+  job:search_in_time(function()
     while goes_on() do run_round() end
   end)
   told.candidates = number

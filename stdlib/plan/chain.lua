@@ -12,7 +12,7 @@ function chain.run(job, search, steps, told)
   told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0, trace = {}}
   local bar <close> = clench.progress(steps, job.subject)
   local done, before = 0, search.counts
-  job:interruptible(function()
+  job:search_in_time(function()
     while done < steps and job:goes_on() do
       local asked = math.min(piece, steps - done)
       local taken = on_behalf_of(job.subject, search.run, search, asked)

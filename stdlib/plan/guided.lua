@@ -89,9 +89,10 @@ return function(options)
       local asked = math.min(piece, job.steps - done)
       local searches, steps = {parent}, {asked}
       for i, child in ipairs(running) do searches[i + 1], steps[i + 1] = child.search, steps_of_child end
-      local taken = on_behalf_of(job.subject, clench.run_annealings, searches, steps, job.threads)
+      local taken = job:in_time(function() return on_behalf_of(job.subject, clench.run_annealings, searches, steps, job.threads) end)
       for _, child in ipairs(running) do merge(child) end
       running = {}
+      if not taken then break end
       done = done + taken[1]
       bar:step(taken[1], ("%d grasps"):format(#found))
       told.best = math.min(told.best, parent.best[1] and parent.best[1].energy or parent.energy)

@@ -73,6 +73,16 @@ function Job:end_deadline()
   return over
 end
 
+--- Calls what the end of the time of the options ends.
+---@return any result  nil when it did
+function Job:in_time(work)
+  self:begin_deadline()
+  local ok, result = pcall(work)
+  local over = self:end_deadline()
+  if ok then return result end
+  if not (over and type(result) == "table" and result.kind == "stopped") then error(result, 0) end
+end
+
 --- Between two pieces of work: false when the time of the options has run out, Ctrl-C was pressed or the search is cancelled.
 function Job:goes_on()
   local search = self.search
@@ -86,7 +96,7 @@ function Job:has_time() return self.seconds == nil or clench.clock() - self.bega
 --- What the first candidate needs: make(job, options); nil when Ctrl-C or the end of the time came first.
 ---@param make fun(job: table, options: table): any
 function Job:prepare(make, options)
-  return self:interruptible(function() return make(self, options) end)
+  return self:search_in_time(function() return make(self, options) end)
 end
 
 --- Why no candidate was tried, if it is for want of time.
@@ -100,28 +110,42 @@ local patience = 0.25  -- half of what a script has after Ctrl-C [s]
 --- After Ctrl-C, is there time to look at what was found?
 function Job:has_patience() return not self.stopped or clench.clock() - self.stopped_at < patience end
 
---- Calls what prepares a search, or searches. Ctrl-C and the end of the time of the options end it, and the planner continues with
---- what was found; any other error puts the hand back.
+-- How long the hand may still close from states that were found; nil: as long as it takes [s]
+function Job:time_to_close()
+  if self.stopped then return self.stopped_at + patience - clench.clock() end
+  return self.seconds and self.began + 1.1 * self.seconds + 1 - clench.clock()
+end
+
+--- Calls what searches. Ctrl-C ends it, and the planner continues with what was found; any other error puts the hand back.
 ---@return any result  nil when it was ended
 function Job:interruptible(search)
-  self:begin_deadline()
   local ok, result = pcall(search)
-  local over = self:end_deadline()
   if ok then return result end
-  local problem = result
-  if type(problem) == "table" and problem.kind == "stopped" then
-    if not over then self.stopped, self.stopped_at = true, clench.clock() end
+  if type(result) == "table" and result.kind == "stopped" then
+    self.stopped, self.stopped_at = true, clench.clock()
     return
   end
   self:finish()
-  error(problem, 0)
+  error(result, 0)
+end
+
+--- The same, which the end of the time ends, too.
+function Job:search_in_time(search)
+  return self:interruptible(function() return self:in_time(search) end)
 end
 
 --- The hand closes from a state; why it gave no grasp is counted in what the report tells.
 ---@param approach? number  as of closing.close [m]
 function Job:close(hand, object, state, told, approach)
   local silence <close> = quiet()
-  local grasp, why = closing.close(hand, object, state, {approach = approach, grasp = self.grasp_options})
+  local left = self:time_to_close()
+  local limit = left and deadline(left)
+  local ok, grasp, why = pcall(closing.close, hand, object, state, {approach = approach, grasp = self.grasp_options})
+  local over = limit and limit:close()
+  if not ok then
+    if not (over and type(grasp) == "table" and grasp.kind == "stopped") then error(grasp, 0) end
+    grasp, why = nil, "no time left"
+  end
   why = why or touch.fault(self.touch, grasp)
   if not why then return grasp end
   told.rejected = told.rejected or {}

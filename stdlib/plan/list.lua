@@ -76,7 +76,7 @@ return function(options)
   end
   local told = {planner = "plan.list", candidates = 0, rejected = {}}
   local found = {}
-  job:interruptible(function()
+  job:search_in_time(function()
     for i, state in ipairs(states) do
       if not job:goes_on() then break end
       told.candidates = told.candidates + 1
