@@ -42,8 +42,7 @@ class MjcfExpander {
   void attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into);
   MjcfNode* attached_model(const XmlValues& values, MjcfNode& root);
   void copy_assets(const MjcfNode& from, MjcfNode& root, const std::string& prefix);
-  void copy_sections(const MjcfNode& from, MjcfNode& root, const MjcfNames& names,
-                     const Rename& rename, const XmlElement& reason);
+  void copy_sections(const MjcfNode& from, MjcfNode& root, const Rename& rename);
   MjcfNode copy(const MjcfNode& node, const Rename& rename, XmlCopies::Attributes more = {});
   MjcfNode frame(const XmlElement& original, XmlCopies::Attributes attributes);
 
@@ -153,27 +152,17 @@ void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<M
       const bool refers = names.has(referred_kind(attribute), value);
       return refers ? value + suffix : in_tree(at, attribute, value);
     };
-    copy_sections(referring, root, names, in_sections, node.element);
+    copy_sections(referring, root, in_sections);
     X = X * step;
   }
 }
 
-/// Appends copies of elements all of whose references are among the names.
-void MjcfExpander::copy_sections(const MjcfNode& from, MjcfNode& root, const MjcfNames& names,
-                                 const Rename& rename, const XmlElement& reason) {
+/// Appends renamed copies of elements.
+void MjcfExpander::copy_sections(const MjcfNode& from, MjcfNode& root, const Rename& rename) {
   for (const MjcfNode& section : from.children) {
     MjcfNode out{section.element, {}};
-    for (const MjcfNode& element : section.children) {
-      if (names.references(element).outside == 0)
-        out.children.push_back(copy(element, rename));
-      else
-        document_.repairs_.add(
-            std::string("refers to others"),
-            fmt::format("{}: {}: refers to elements inside and outside of the {} at {}; not used",
-                        element.element.place(), excerpt(element.name()), excerpt(reason.name()),
-                        reason.place()));
-    }
-    if (!out.children.empty()) root.children.push_back(std::move(out));
+    for (const MjcfNode& element : section.children) out.children.push_back(copy(element, rename));
+    root.children.push_back(std::move(out));
   }
 }
 

@@ -148,9 +148,13 @@ void MjcfTreeReader::check_moving_masses() {
   for (int l = 0; l < count; ++l) {
     if (!moves(l) || heavy[l]) continue;
     links[l].body.mass = least;
-    document_.losses().add("massless",
-                           fmt::format("{}: body '{}' moves and has no mass; {} kg is used",
-                                       tree_.pieces[l].place, excerpt(links[l].body.name), least));
+    const std::string sentence =
+        fmt::format("{}: body '{}' moves and has no mass; {} kg is used", tree_.pieces[l].place,
+                    excerpt(links[l].body.name), least);
+    if (tree_.geoms[l].empty())
+      cache_.note(sentence);  // a frame
+    else
+      document_.losses().add("massless", sentence);
   }
 }
 
