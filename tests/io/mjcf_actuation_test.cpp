@@ -113,6 +113,12 @@ TEST_CASE("tendons that pull joints in two ratios leave them independent") {
   CHECK(told.dof("a").driven);
   CHECK(told.dof("a").max_effort == 0.5 * 2 + 0.5 * 4);
   CHECK(told.warned("joints 'a', 'b'; tendons 'forward', 'turn'"));
+  // coefficients of joints that an equality ties may cancel
+  const ToldRobot cancels = three(
+      "<equality><joint joint1='b' joint2='a' polycoef='0 -1'/></equality><tendon>"
+      "<fixed name='t'><joint joint='a' coef='1'/><joint joint='b' coef='1'/><joint joint='c' "
+      "coef='1'/></fixed></tendon><actuator><motor tendon='t'/><motor joint='a'/></actuator>");
+  CHECK(cancels.robot.dofs.size() == 2);
   // so does a motor on one of the joints
   const ToldRobot motor =
       three("<tendon>" + fixed("t", 1, 1) +

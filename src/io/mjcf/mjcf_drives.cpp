@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 
 #include "clench/base/disjoint_sets.h"
 #include "clench/base/text.h"
@@ -121,11 +121,23 @@ void Drives::take_control_ranges() {
 void Drives::tie(const MjcfDrive& drive) {
   const MjcfTendon& tendon = *drive.tendon;
   const XmlElement& at = drive.actuator.values.element();
-  const auto [first, c_first] = tendon.joints.front();
+  // joints that others tie may cancel out
+  std::map<int, double> arms;
+  for (const auto& [number, c] : tendon.joints)
+    if (const TiedJoint tied = by_leader(tree_, number); tied.leader >= 0)
+      arms[tied.leader] += c * tied.ratio;
+  const auto counts = [&](const auto& part) {
+    return std::abs(arms[leader_of(tree_, part.first)]) > 1e-12;
+  };
+  const auto found = std::ranges::find_if(tendon.joints, counts);
+  if (found == tendon.joints.end()) return;
+  const auto [first, c_first] = *found;
   const int leader = leader_of(tree_, first);
-  for (const auto& [number, c] : tendon.joints) {
+  for (const auto& part : tendon.joints) {
+    const auto& [number, c] = part;
     TreeJoint& joint = tree_.joints[number];
-    if (number == first || joint.leader >= 0 || leader_of(tree_, number) == leader) continue;
+    if (number == first || joint.leader >= 0 || leader_of(tree_, number) == leader || !counts(part))
+      continue;
     const double ratio = c / c_first;
     const TreeJoint& lead = tree_.joints[first];
     const double offset = joint.zero - ratio * lead.zero;
@@ -149,10 +161,11 @@ void Drives::tie(const MjcfDrive& drive) {
 void Drives::tell_independent(const std::vector<int>& group) {
   std::vector<std::string> tendons, joints;
   const MjcfDrive* first = nullptr;
+  const auto in_group = [&](const auto& part) {
+    return std::ranges::find(group, leader_of(tree_, part.first)) != group.end();
+  };
   for (const MjcfDrive& drive : drives_) {
-    if (!drive.tendon ||
-        std::ranges::find(group, leader_of(tree_, drive.tendon->joints[0].first)) == group.end())
-      continue;
+    if (!drive.tendon || std::ranges::none_of(drive.tendon->joints, in_group)) continue;
     if (!first) first = &drive;
     if (std::ranges::find(tendons, drive.tendon->name) == tendons.end())
       tendons.push_back(drive.tendon->name);
