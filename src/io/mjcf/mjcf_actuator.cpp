@@ -85,7 +85,7 @@ std::optional<std::array<double, 2>> actuator_range(const XmlValues& values, Mjc
   const auto both = values.range(range, document.repairs());
   // two zeros undo what a class says
   if (limited == "auto" && both[0] == 0 && both[1] == 0) return {};
-  if (limited == "auto" && !document.autolimits())
+  if (limited == "auto" && !document.settings(values.element()).autolimits)
     document.repairs().add(
         "autolimits", fmt::format("{}: expected {}=\"true\" beside it, as autolimits is off; the "
                                   "range is used",
