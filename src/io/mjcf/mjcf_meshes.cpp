@@ -10,7 +10,7 @@
 
 namespace clench {
 
-static constexpr int max_numbers = 3'000'000;  // of vertices or faces in the model itself
+static constexpr int max_mesh_numbers = 3'000'000;  // of vertices or faces in the model itself
 
 void MjcfMeshes::add(const XmlElement& element) {
   const XmlValues values = document_.values(element);
@@ -40,7 +40,7 @@ static Mesh with_hull(Mesh mesh, const XmlValues& values, const char* attribute)
 
 /// Points and faces that stand in the model itself; points alone mean their convex hull.
 Mesh MjcfMeshes::own_points(const XmlValues& values) const {
-  const auto numbers = values.numbers("vertex", 12, max_numbers);
+  const auto numbers = values.numbers("vertex", 12, max_mesh_numbers);
   if (numbers.size() % 3 != 0)
     values.fail("vertex", "expected three numbers for each vertex, got {}", numbers.size());
   Mesh mesh;
@@ -48,7 +48,7 @@ Mesh MjcfMeshes::own_points(const XmlValues& values) const {
     mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
   const int count = static_cast<int>(mesh.vertices.size());
   if (!values.has("face")) return with_hull(std::move(mesh), values, "vertex");
-  const auto faces = values.numbers("face", 3, max_numbers);
+  const auto faces = values.numbers("face", 3, max_mesh_numbers);
   if (faces.size() % 3 != 0)
     values.fail("face", "expected three vertices for each face, got {}", faces.size());
   for (size_t i = 0; i < faces.size(); i += 3) {
