@@ -22,7 +22,7 @@ std::string_view referred_kind(std::string_view attribute) {
 }
 
 /// Tendons and actuators are named by their kinds of elements.
-static std::string kind_of(const std::string& element) {
+static std::string named_kind(const std::string& element) {
   if (element == "freejoint") return "joint";
   if (element == "fixed" || element == "spatial") return "tendon";
   return element;
@@ -30,7 +30,7 @@ static std::string kind_of(const std::string& element) {
 
 void MjcfNames::add(const MjcfNode& node) {
   if (const std::string name = node.element.attribute("name").value_or(""); !name.empty())
-    names_[kind_of(node.name())].insert(name);
+    names_[named_kind(node.name())].insert(name);
   add(node.children);
 }
 
