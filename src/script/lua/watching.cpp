@@ -12,16 +12,16 @@
 
 namespace clench {
 
-static double now() {
+static double bar_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-static constexpr double patience = 0.5, pause = 0.1;  // before it shows, and between two bars [s]
+static constexpr double bar_delay = 0.5, pause = 0.1;  // before it shows, and between two bars [s]
 
 Bar::Bar() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Bar::begin() {
-  if (depth_++ == 0) began_ = last_ = now();
+  if (depth_++ == 0) began_ = last_ = bar_time();
 }
 
 void Bar::end() {
@@ -36,8 +36,8 @@ void Bar::show(double fraction, std::string_view text) {
 
 void Bar::draw(double fraction, std::string_view text) {
   if (!terminal_ || depth_ == 0) return;
-  const double time = now();
-  if (time - began_ < patience || time - last_ < pause) return;
+  const double time = bar_time();
+  if (time - began_ < bar_delay || time - last_ < pause) return;
   last_ = time;
   drawn_ = true;
   std::string line = "\r\x1b[K";
