@@ -1308,8 +1308,8 @@ function clench.energy.clearance(options) end
 ---@return energy
 function clench.energy.reach(options) end
 
----Depth of the hand in what it collides with, as `world:penetration` gives it, but up to 0.1 mm + 10 %, summed over the pairs of bodies [mm]; 0 only where nothing collides. A search with this term and `collisions = false` may cross states that collide.
----@param options {hand: robot}
+---Depth of the hand in what it collides with, by points on its bodies, summed over the pairs of bodies [mm]; 0 only where nothing collides. Where no point lies inside, the depth counts that `world:penetration` gives. A search with this term and `collisions = false` may cross states that collide.
+---@param options {hand: robot, points?: integer} # points: on each body, 64
 ---@return energy
 function clench.energy.penetration(options) end
 
