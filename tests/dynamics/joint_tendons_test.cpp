@@ -12,12 +12,12 @@ using namespace clench::test;
 namespace {
 
 /// Two rods side by side on one base, about vertical axes, so that their weight does nothing.
-struct Pair {
+struct TendonPair {
   World world;
   Id<Robot> id;
   double inertia;
 
-  explicit Pair(const JointTendonSpec& tendon) {
+  explicit TendonPair(const JointTendonSpec& tendon) {
     RobotSpec spec = pendulum(2, {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX()});
     spec.links[1].parent = -1;
     spec.links[1].joints[0].X_PJ = Pose::translation({5, 0, 0});
@@ -40,7 +40,7 @@ struct Pair {
 }  // namespace
 
 TEST_CASE("a tendon's range holds the weighted sum of DOFs, which share its force by their arms") {
-  Pair pair({.arms = {{0, 1}, {1, -2}}, .range = std::array{-0.1, 0.2}});
+  TendonPair pair({.arms = {{0, 1}, {1, -2}}, .range = std::array{-0.1, 0.2}});
   pair.push(3, 0);
   run(pair.world, 1);
   const double length = pair.q(0) - 2 * pair.q(1);
@@ -54,7 +54,7 @@ TEST_CASE("a tendon's range holds the weighted sum of DOFs, which share its forc
 
 TEST_CASE("a tendon's spring and damper swing its DOFs as one oscillator") {
   const double k = 40, d = 0.5;
-  Pair pair({.arms = {{0, 1}, {1, -1}}, .stiffness = k, .slack = {0.1, 0.1}, .damping = d});
+  TendonPair pair({.arms = {{0, 1}, {1, -1}}, .stiffness = k, .slack = {0.1, 0.1}, .damping = d});
   set_step(pair.world, 1e-4);
   run(pair.world, 0.3);
   // length x from rest: x'' = -(2/I) (k (x - 0.1) + d x')
@@ -68,11 +68,11 @@ TEST_CASE("a tendon's spring and damper swing its DOFs as one oscillator") {
 
 TEST_CASE(
     "within its slack lengths a tendon's spring does nothing, and its dry friction stops it") {
-  Pair slack({.arms = {{0, 1}, {1, 1}}, .stiffness = 40, .slack = {-1, 1}});
+  TendonPair slack({.arms = {{0, 1}, {1, 1}}, .stiffness = 40, .slack = {-1, 1}});
   slack.start(0.5, 0.5);
   run(slack.world, 0.5);
   CHECK(slack.v(0) == doctest::Approx(0.5).epsilon(1e-9));
-  Pair dry({.arms = {{0, 1}, {1, 1}}, .friction = 0.3});
+  TendonPair dry({.arms = {{0, 1}, {1, 1}}, .friction = 0.3});
   dry.start(0.5, 0.5);
   run(dry.world, 0.2);
   CHECK(dry.v(0) == doctest::Approx(0.5 - 0.2 * 0.3 / dry.inertia).epsilon(1e-6));

@@ -8,8 +8,8 @@ using namespace clench::test;
 
 namespace {
 
-ToldRobot chain(const std::string& base, const std::string& bits = "",
-                const std::string& rest = "") {
+ToldRobot linked_bodies(const std::string& base, const std::string& bits = "",
+                        const std::string& rest = "") {
   TemporaryFolder folder;
   return ToldRobot(
       folder.write("m.xml", "<mujoco model='m'><worldbody><body name='base'>" + base +
@@ -18,12 +18,12 @@ ToldRobot chain(const std::string& base, const std::string& bits = "",
                                 bits + "/></body></body></worldbody>" + rest + "</mujoco>"));
 }
 
-struct ToldWorld {
+struct ContactWorld {
   Warnings told;
   std::vector<std::string> notes;
   WorldSpec world;
 
-  explicit ToldWorld(const std::string& text) {
+  explicit ContactWorld(const std::string& text) {
     TemporaryFolder folder;
     ReadOptions options = told.options();
     options.note = [this](const std::string& s) { notes.push_back(s); };
@@ -35,14 +35,14 @@ struct ToldWorld {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-const std::string ball =
+const std::string ball_xml =
     "<worldbody><body name='ball'><freejoint/><geom size='1'/></body></worldbody>";
 
 }  // namespace
 
 TEST_CASE("a link collides with what carries it when that is fixed to the world") {
-  CHECK(chain("").robot.collision_rules.pairs_on == Pairs{{-1, 0}});
-  CHECK(chain("<freejoint/>").robot.collision_rules.pairs_on.empty());
+  CHECK(linked_bodies("").robot.collision_rules.pairs_on == Pairs{{-1, 0}});
+  CHECK(linked_bodies("<freejoint/>").robot.collision_rules.pairs_on.empty());
   // between links that move a carrier never collides, whatever is fixed to it
   TemporaryFolder folder;
   const ToldRobot told(folder.write("m.xml", R"(<mujoco><worldbody><body name='base'>
@@ -53,32 +53,32 @@ TEST_CASE("a link collides with what carries it when that is fixed to the world"
 }
 
 TEST_CASE("geoms without bits collide with nothing") {
-  const ToldRobot told = chain("", "contype='0' conaffinity='0'");
+  const ToldRobot told = linked_bodies("", "contype='0' conaffinity='0'");
   CHECK_FALSE(told.body("a").shape);
   CHECK(told.body("a").appearance.visual);
   CHECK(told.noted("m.xml: nothing collides, as contype and conaffinity say"));
 }
 
 TEST_CASE("pairs collide though nothing else lets them") {
-  const ToldRobot told = chain("<freejoint/>", "contype='0' conaffinity='0'",
-                               "<contact><pair geom1='h' geom2='g'/></contact>");
+  const ToldRobot told = linked_bodies("<freejoint/>", "contype='0' conaffinity='0'",
+                                       "<contact><pair geom1='h' geom2='g'/></contact>");
   CHECK(told.body("a").shape);
   CHECK(told.robot.collision_rules.pairs_on == Pairs{{-1, 0}});
   CHECK(told.robot.collision_rules.pairs_off.empty());
-  CHECK(chain("", "", "<contact><pair geom1='h' geom2='x'/></contact>")
+  CHECK(linked_bodies("", "", "<contact><pair geom1='h' geom2='x'/></contact>")
             .warned("pairs of which a geom is not read are not used: 'h' and 'x'"));
-  CHECK(chain("", "", "<contact><pair geom1='h' geom2='g' friction='1 1 1 1 1'/></contact>")
+  CHECK(linked_bodies("", "", "<contact><pair geom1='h' geom2='g' friction='1 1 1 1 1'/></contact>")
             .warned("friction and condim of pairs are not used; those of the geoms count: 'h' and "
                     "'g'"));
   // bodies are one surface each
-  const ToldRobot mixed = chain("<geom size='1' contype='2' conaffinity='2'/>");
+  const ToldRobot mixed = linked_bodies("<geom size='1' contype='2' conaffinity='2'/>");
   CHECK(
       mixed.warned("let only some geoms of these bodies collide; here all of them do: 'base' and "
                    "'a'"));
 }
 
 TEST_CASE("bodies may be excluded from colliding with the world") {
-  const ToldWorld told(
+  const ContactWorld told(
       "<worldbody><geom name='x' size='1'/><geom name='y' size='1'/><body name='ball'><freejoint/>"
       "<geom size='1'/></body></worldbody><contact><exclude body1='ball' "
       "body2='world'/></contact>");
@@ -88,20 +88,20 @@ TEST_CASE("bodies may be excluded from colliding with the world") {
 
 TEST_CASE("switches of the simulation are followed or warned of by name") {
   const auto flags = [](const std::string& text) {
-    return ToldWorld("<option gravity='0 0 -5'><flag " + text + "/></option>" + ball);
+    return ContactWorld("<option gravity='0 0 -5'><flag " + text + "/></option>" + ball_xml);
   };
-  const ToldWorld off = flags("gravity='disable' contact='disable'");
+  const ContactWorld off = flags("gravity='disable' contact='disable'");
   CHECK(off.world.gravity->isZero());
   CHECK_FALSE(off.world.collision_on);
   CHECK(off.told.list.empty());
   CHECK(off.noted("contacts are off"));
-  const ToldWorld idle = flags("contact='enable' warmstart='disable' energy='enable'");
+  const ContactWorld idle = flags("contact='enable' warmstart='disable' energy='enable'");
   CHECK(idle.told.list.empty());
   CHECK(idle.noted("m.xml:1: flag: of MuJoCo's solver alone, and not used: warmstart, energy"));
   CHECK(flags("contact='enable'").world.collision_on);
-  const ToldWorld lost = flags("gravity='disable' limit='disable' override='enable'");
+  const ContactWorld lost = flags("gravity='disable' limit='disable' override='enable'");
   CHECK(lost.warned("m.xml:1: flag: not used: limit=\"disable\", override=\"enable\""));
-  const ToldWorld all = flags("constraint='disable'");
+  const ContactWorld all = flags("constraint='disable'");
   CHECK_FALSE(all.world.collision_on);
   CHECK(all.warned("constraint=\"disable\""));
 }

@@ -18,7 +18,7 @@ using Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-MatrixXd random_matrix(Random& random, int rows, int columns) {
+MatrixXd random_entries(Random& random, int rows, int columns) {
   MatrixXd m(rows, columns);
   for (double& x : m.reshaped()) x = random.normal();
   return m;
@@ -26,7 +26,7 @@ MatrixXd random_matrix(Random& random, int rows, int columns) {
 
 // with a diagonal that makes it positive definite
 MatrixXd random_symmetric(Random& random, int rows) {
-  MatrixXd m = random_matrix(random, rows, rows);
+  MatrixXd m = random_entries(random, rows, rows);
   m = (m + m.transpose()).eval();
   m.diagonal().array() += 4 * rows;
   return m;
@@ -39,8 +39,8 @@ TEST_CASE("large and small matrices are factored with the bits of Eigen's own fa
   // below and above the size from which blocks are ours, whole blocks and not
   for (const int rows : {1, 2, 17, 40, 300, 512, 601}) {
     CAPTURE(rows);
-    const MatrixXd m = random_matrix(random, rows, rows), s = random_symmetric(random, rows);
-    const VectorXd right = random_matrix(random, rows, 1);
+    const MatrixXd m = random_entries(random, rows, rows), s = random_symmetric(random, rows);
+    const VectorXd right = random_entries(random, rows, 1);
     DenseLu lu;
     lu.factor(m);
     CHECK(lu.solve(right) == VectorXd(Eigen::PartialPivLU<MatrixXd>(m).solve(right)));
@@ -55,7 +55,8 @@ TEST_CASE("a product in parts has the bits of the undivided one") {
   Random random(2);
   for (const int columns : {1, 3, 39, 45}) {
     CAPTURE(columns);
-    const MatrixXd a = random_matrix(random, 1500, 4000), b = random_matrix(random, 4000, columns);
+    const MatrixXd a = random_entries(random, 1500, 4000),
+                   b = random_entries(random, 4000, columns);
     const Watched watched{Progress()};
     const MatrixXd parts = product(a, b);
     CHECK(parts == MatrixXd(a * b));
@@ -74,7 +75,7 @@ TEST_CASE("a sparse factorization has the bits of Eigen's own") {
     const SparseLdl::Matrix lower = MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
     Eigen::SimplicialLDLT<SparseLdl::Matrix, Eigen::Lower> expected(lower);
     SparseLdl ldl(lower);
-    const VectorXd right = random_matrix(random, rows, 1);
+    const VectorXd right = random_entries(random, rows, 1);
     for (int again = 0; again < 2; ++again) {
       REQUIRE(ldl.factor(lower));
       CHECK(ldl.solve(right) == VectorXd(expected.solve(right)));
@@ -85,8 +86,8 @@ TEST_CASE("a sparse factorization has the bits of Eigen's own") {
 TEST_CASE("factorizations stop between their blocks, and the next one is as if nothing had been") {
   Random random(4);
   const int rows = 600;
-  const MatrixXd m = random_matrix(random, rows, rows), s = random_symmetric(random, rows);
-  const VectorXd right = random_matrix(random, rows, 1);
+  const MatrixXd m = random_entries(random, rows, rows), s = random_symmetric(random, rows);
+  const VectorXd right = random_entries(random, rows, 1);
   DenseLu lu(m);
   DenseCholesky cholesky;
   REQUIRE(cholesky.factor(s));
@@ -108,7 +109,7 @@ TEST_CASE("pivots of a complementarity problem are checked one by one") {
   Random random(5);
   const int rows = 40;
   const MatrixXd M = random_symmetric(random, rows);
-  const VectorXd q = random_matrix(random, rows, 1);
+  const VectorXd q = random_entries(random, rows, 1);
   Watched watched{Progress()};
   const LcpSolution solution = solve_lcp(M, q);
   CHECK(solution.status == LcpStatus::solved);
