@@ -1,4 +1,4 @@
---- The motors of a hand, in sentences: DOFs that no motor closes, and motors without a limit of their effort.
+-- The motors of a hand, in sentences: DOFs that no motor closes, and motors without a limit of their effort.
 local name_list = require "clench.name_list"
 local drives = {}
 
@@ -13,13 +13,13 @@ end
 
 local function closes(info) return info.default_velocity ~= 0 end
 
---- Does a motor close any DOF?
+-- Does a motor close any DOF?
 function drives.close(hand)
   return #names_of(hand, function(info) return info.can_close end) > 0
 end
 
---- The DOFs that would close the hand but that no motor closes; nil: there are none.
----@return string?
+-- The DOFs that would close the hand but that no motor closes; nil: there are none.
+--@return string?
 function drives.missing(hand)
   local undriven = names_of(hand, function(info) return closes(info) and not info.driven end)
   local opening = names_of(hand, function(info) return closes(info) and info.driven and not info.can_close end)
@@ -29,15 +29,15 @@ function drives.missing(hand)
   return #parts > 0 and table.concat(parts, "; ") or nil
 end
 
---- Why a hand that closes holds nothing by force; nil: some motor closes it, or no DOF does.
----@return string?
+-- Why a hand that closes holds nothing by force; nil: some motor closes it, or no DOF does.
+--@return string?
 function drives.no_force(hand)
   local missing = drives.missing(hand)
   if not missing or drives.close(hand) then return nil end
   return ("no grasp of %s can be verified, for it exerts no force: %s"):format(hand.name, missing)
 end
 
---- Has the hand neither motors nor springs? Then its links push on nothing.
+-- Has the hand neither motors nor springs? Then its links push on nothing.
 function drives.is_inert(hand)
   for _, info in ipairs(hand.dof_info) do
     if info.driven then return false end
@@ -50,16 +50,16 @@ function drives.is_inert(hand)
   return true
 end
 
---- Names of the DOFs whose motors have no limit; nil: there are none.
----@return string[]?
+-- Names of the DOFs whose motors have no limit; nil: there are none.
+--@return string[]?
 function drives.unlimited(hand)
   local names = names_of(hand, function(_, range) return range[1] == -math.huge or range[2] == math.huge end)
   return #names > 0 and names or nil
 end
 
---- States which efforts have no limit.
----@param names string[]?  of drives.unlimited
----@return string?
+-- States which efforts have no limit.
+--@param names string[]?  of drives.unlimited
+--@return string?
 function drives.unlimited_text(names)
   return names and ("effort of %s %s: unlimited (none given)"):format(#names == 1 and "joint" or "joints", name_list(names)) or nil
 end

@@ -8,11 +8,9 @@
 
 namespace clench {
 
-namespace {
-
 // Eigen's, with a factorization that can be stopped; its numbers are the same to the bit.
 // source  Davis (2005), Algorithm 849: a concise sparse Cholesky factorization package
-class Simplicial : public Eigen::SimplicialLDLT<SparseLdl::Matrix, Eigen::Lower> {
+class StoppableLdlt : public Eigen::SimplicialLDLT<SparseLdl::Matrix, Eigen::Lower> {
  public:
   void factor(const SparseLdl::Matrix& lower) {
     SparseLdl::Matrix upper(lower.rows(), lower.cols());
@@ -72,10 +70,8 @@ class Simplicial : public Eigen::SimplicialLDLT<SparseLdl::Matrix, Eigen::Lower>
   std::vector<int> visited_, order_;
 };
 
-}  // namespace
-
 struct SparseLdl::Parts {
-  Simplicial solver;
+  StoppableLdlt solver;
 };
 
 SparseLdl::SparseLdl(const Matrix& lower) : parts_(std::make_unique<Parts>()) {

@@ -15,7 +15,7 @@ local report_rows = require "clench.plan.report_rows"
 local plan = {}
 local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
-local function shown(text) return printable(in_utf8(text), "\n") end
+local function visible(text) return printable(in_utf8(text), "\n") end
 
 local function fail(text) error({usage = text}, 0) end
 
@@ -113,7 +113,7 @@ end
 
 local function tell(problem)
   io.stdout:flush()
-  io.stderr:write("clench plan: ", shown(problem), "\n")
+  io.stderr:write("clench plan: ", visible(problem), "\n")
 end
 
 local function sentence(problem)
@@ -183,10 +183,10 @@ local function show()
   local grasps, words = run.grasps, tostring(run.report)
   local title = ("%s grasps %s"):format(job.hand.name, job.object.name)
   local is_interrupted = run.is_rescued or type(run.report) == "table" and run.report.stopped
-  print(shown(title) .. (is_interrupted and ": interrupted" or ""))
+  print(visible(title) .. (is_interrupted and ": interrupted" or ""))
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
-  print(shown(words))
-  if job.note then print(shown(job.note)) end
+  print(visible(words))
+  if job.note then print(visible(job.note)) end
   local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
   return #grasps

@@ -54,6 +54,8 @@ end
 local writers = {
   ["clench.convert"] = function(path) clench.convert(inside .. "/flask.iv", path .. ".obj") end,
   ["clench.files.save_text"] = function(path) clench.files.save_text(path, "text") end,
+  ["clench.files.append_text"] = function(path) clench.files.append_text(path, "text") end,
+  ["clench.files.check_writable"] = clench.files.check_writable,
   ["clench.files.save_arrays"] = function(path) clench.files.save_arrays(path, {a = {1}}) end,
   ["clench.files.save_object_contacts"] = function(path) clench.files.save_object_contacts(path, {}) end,
   ["clench.files.save_pregrasps"] = function(path) clench.files.save_pregrasps(path, {}) end,
@@ -66,6 +68,7 @@ local writers = {
   ["picture:save"] = function(path) picture:save(path .. ".png") end,
   ["plot:save"] = function(path) clench.plot {series = {{x = {0, 1}, y = {0, 1}}}}:save(path .. ".svg") end,
   ["grasps:save"] = function(path) clench.grasps():save(path .. ".jsonl") end,
+  ["grasps:check_save"] = function(path) clench.grasps():check_save(path .. ".jsonl") end,
   ["log:save"] = function(path) log:save(path .. ".csv") end,
   ["recording:save"] = function(path) recording:save(path .. ".gif", {size = {16, 16}}) end,
   -- what is written beside a file, in a folder that is a link

@@ -42,7 +42,7 @@ TEST_CASE("the pair that overlaps most counts, with its point in world axes") {
   CHECK_FALSE(penetration(world, std::array{away}, std::array{slab}).a);
 }
 
-TEST_CASE("of an open mesh the surface counts; two that cross have no depth that is finite") {
+TEST_CASE("of an open mesh the surface counts, and two that cross have no finite depth") {
   World world;
   const auto add = [&](const char* name, const Mesh& mesh, double z) {
     return world.add_body(body_spec(name, mesh), BodyKind::object, Pose::translation({0, 0, z}));

@@ -77,7 +77,7 @@ static int grasps_save(lua_State* L) {
 
 static int grasps_check_save(lua_State* L) {
   self<GraspList>(L);
-  const std::string path = check_string(L, 2, "path");
+  const std::string path = check_output(L, 2);
   Table options(L, 3);
   const std::string format = options.string("format", "");
   options.done();

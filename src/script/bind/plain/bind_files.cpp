@@ -40,14 +40,14 @@ static int save_text(lua_State* L) {
 }
 
 static int append_text(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1);
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
   append_file(path, string_at(L, 2));
   return 0;
 }
 
 static int check_writable_file(lua_State* L) {
-  check_writable(check_string(L, 1, "path"));
+  check_writable(check_output(L, 1));
   return 0;
 }
 
