@@ -18,10 +18,12 @@ function drives.close(hand)
   return #names_of(hand, function(info) return info.can_close end) > 0
 end
 
--- The DOFs that would close the hand but that no motor closes; nil: there are none.
+-- The DOFs that would close the hand but that no motor closes; nil: there are none. Where no DOF is known to close it, as none is driven,
+-- all count.
 --@return string?
 function drives.missing(hand)
-  local undriven = names_of(hand, function(info) return closes(info) and not info.driven end)
+  local any_closes = #names_of(hand, closes) > 0
+  local undriven = names_of(hand, function(info) return (closes(info) or not any_closes) and not info.driven end)
   local opening = names_of(hand, function(info) return closes(info) and info.driven and not info.can_close end)
   local parts = {}
   if #undriven > 0 then parts[1] = "no motor drives " .. name_list(undriven) end

@@ -1,6 +1,7 @@
 --- What a file holds, as tables: what `clench check` prints, or writes as JSON.
 local blamed = require "clench.blamed"
 local error_text = require "clench.host.error_text"
+local is_stopped = require "clench.is_stopped"
 local reading = require "clench.host.reading"
 local report = {}
 
@@ -16,7 +17,7 @@ end
 
 -- Ctrl-C is no fault of a file
 local function pass_stop(ok, problem)
-  if not ok and type(problem) == "table" and problem.kind == "stopped" then error(problem, 0) end
+  if not ok and is_stopped(problem) then error(problem, 0) end
 end
 
 -- what is logged while a file is read, by what it is about; a script's own messages by their level

@@ -2,6 +2,7 @@
 local error_text = require "clench.host.error_text"
 local error_value = require "clench.error_value"
 local described = require "clench.described"
+local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
 local task_order = require "clench.dynamics.task_order"
 
@@ -9,7 +10,7 @@ local tiny = 1e-9  -- parts of a period, and seconds, that are rounding
 
 -- With where it happened. Ctrl-C stays what it is.
 local function explained(problem, name, trace)
-  if type(problem) == "table" and problem.kind == "stopped" then return problem end
+  if is_stopped(problem) then return problem end
   local ours = getmetatable(problem) == error_value
   local place, said = ours and problem.place or "", ours and problem.sentence or error_text(problem)
   return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input"}, error_value)

@@ -1,5 +1,6 @@
 --- `clench convert`: what a file holds, written as another format.
 local error_text = require "clench.host.error_text"
+local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
 local reading = require "clench.host.reading"
 local convert = {}
@@ -25,7 +26,7 @@ function convert.main(root, folder, package, unit, strict, from, to, format, dof
     return clench.convert(from, to, options)
   end)
   if not ok then
-    if type(kind) == "table" and kind.kind == "stopped" then error(kind, 0) end
+    if is_stopped(kind) then error(kind, 0) end
     io.stderr:write("clench convert: ", printable(error_text(kind), "\n"), "\n")
     return 1
   end

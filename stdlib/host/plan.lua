@@ -5,6 +5,7 @@ local in_utf8 = require "clench.in_utf8"
 local batch = require "clench.plan.batch"
 local distinct = require "clench.plan.distinct"
 local identity = require "clench.host.plan_identity"
+local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
 local plan_files = require "clench.host.plan_files"
 local plan_list = require "clench.host.plan_list"
@@ -137,7 +138,7 @@ end
 function plan.search(...)
   local ok, problem = pcall(search, ...)
   if ok then return "finish" end
-  if type(problem) == "table" and problem.kind == "stopped" then return plan.stopped() end
+  if is_stopped(problem) then return plan.stopped() end
   local text, code = sentence(problem)
   tell(text)
   return tostring(code)

@@ -1,10 +1,10 @@
---- What identifies a search of `clench plan`: the scene and the options on which its grasps depend.
+--- Identifies a search of `clench plan` by its scene and the options on which its grasps depend.
 local in_utf8 = require "clench.in_utf8"
 local identity = {}
 
 -- grasps do not depend on these
 local about_the_run = {"count", "format", "o", "overwrite", "report", "resume", "seconds", "sheet", "threads"}
--- the fingerprint of the scene covers these, which are compared for a message only
+-- covered by the fingerprint of the scene; compared only for the message
 local about_the_scene = {"hand", "object", "obstacle", "pose", "obstacle-pose", "mass"}
 local defaults = {contacts = "any", ["force-ratio"] = "10", seed = "1"}
 
@@ -15,7 +15,9 @@ local function set_of(names)
 end
 local is_about_the_run, is_about_the_scene = set_of(about_the_run), set_of(about_the_scene)
 
+-- deterministic, and exact for numbers
 local function text_of(value)
+  if math.type(value) == "float" then return ("%.17g"):format(value) end
   if type(value) ~= "table" then return tostring(value) end
   local keys = {}
   for key in pairs(value) do keys[#keys + 1] = key end
@@ -31,13 +33,36 @@ local function fingerprint(text)
   return ("%016x"):format(h)
 end
 
--- "1e1" and "10" are one number
+-- equal text for equal numbers, such as "1e1" and "10"
 local function plain(value)
   local number = tonumber(value)
   return number and ("%.17g"):format(number) or value
 end
 
---- Of the search for grasps in this world.
+local joint_fields = {"name", "kind", "dof", "axis", "ratio", "min", "max", "endless", "spring", "rest", "damping", "friction", "armature"}
+
+-- A table per chain. The axes of the joints enter by the Jacobians of the links.
+local function chains_of(hand)
+  local chains = {}
+  for c, chain in ipairs(hand.chains) do
+    local joints, jacobians = {}, {}
+    for j, joint in ipairs(chain.joints) do
+      joints[j] = {}
+      for _, field in ipairs(joint_fields) do joints[j][field] = joint[field] end
+    end
+    for l, link in ipairs(chain.links) do jacobians[l] = hand:jacobian(link) end
+    chains[c] = {parent = chain.parent.name, joints = joints, jacobians = jacobians}
+  end
+  return chains
+end
+
+-- properties of the hand on which grasps depend and that the hash of the world does not cover
+local function mechanics_of(hand)
+  return {dof_info = hand.dof_info, effort_ranges = hand.effort_ranges, actuators = hand.actuators, joint_tendons = hand.joint_tendons,
+          chains = chains_of(hand)}
+end
+
+--- The identity of the search for grasps in this world.
 ---@param given table<string, string|string[]>  options by name
 ---@param world world
 ---@param hand robot
@@ -53,7 +78,7 @@ function identity.of(given, world, hand)
     end
   end
   for name, value in pairs(defaults) do options[name] = options[name] or value end
-  return in_utf8 {scene = world:hash() .. fingerprint(text_of(hand.dof_info)), named = named, options = options}
+  return in_utf8 {scene = world:hash() .. fingerprint(text_of(mechanics_of(hand))), named = named, options = options}
 end
 
 local function sorted_keys(a, b)
@@ -87,9 +112,9 @@ end
 
 local function table_at(value, key) return type(value[key]) == "table" and value[key] or {} end
 
---- How two searches differ, in words; nil: they are the same.
----@param there table  of the list on the disk
----@param here table
+--- The first difference of two searches, in words; nil: they are the same.
+---@param there table  from the list on the disk
+---@param here table  of this search
 ---@return string?
 function identity.difference(there, here)
   local options = table_at(there, "options")

@@ -1,7 +1,8 @@
 --- The list that `clench plan -o` writes. Grasps are appended as they are found; at the end the list is replaced by the best, best first.
---- Beside a list of JSON lines stands the journal of its search, which --resume reads, until the search is complete.
+--- Until the search is complete, a list of JSON lines is accompanied by the journal of its search, which --resume reads.
 local error_text = require "clench.host.error_text"
 local identity = require "clench.host.plan_identity"
+local is_stopped = require "clench.is_stopped"
 local journal = require "clench.plan.journal"
 
 local List = {}
@@ -15,7 +16,7 @@ local function folder_of(path)
   return folder == "" and "/" or folder or "."
 end
 
---- Looks at the options and at the disk, and changes nothing. nil: there is no -o.
+--- Checks the options and the files on the disk, and changes nothing. Returns nil without -o.
 ---@param given {o?: string, format?: string, overwrite?: string, resume?: string}
 function List.check(given)
   if given.format and not given.o then fail "--format says how -o FILE is written, and there is no -o" end
@@ -29,7 +30,7 @@ function List.check(given)
   local ok, format = pcall(function() return self.kept:check_save(self.path, {format = given.format}) end)
   if not ok and format.kind == "input" then fail("-o: %s", format.sentence) end
   if not ok then error(format, 0) end
-  -- /dev/stdout may lead to a file, which has another name once the list takes its place
+  -- /dev/stdout may be a link to a file, which the list would replace under another name
   if self.path:find "^/dev/" then refuse("-o: %s: expected a file to write, got a special file", self.path) end
   self.format, self.journal_path = format, self.path .. ".search"
   if self.is_resuming and format ~= "jsonl" then
@@ -47,7 +48,7 @@ local function first_line(path)
   return line
 end
 
--- the first line as a table, and is there another? nil: there is no file, or an empty one
+-- the first line as a table, and true if more follows; nil: the file does not exist or is empty
 local function look_at(path)
   local file, why, code = io.open(path, "rb")
   if not file then
@@ -59,12 +60,13 @@ local function look_at(path)
   file:close()
   if not line then return nil end
   local ok, head = pcall(clench.json.decode, line)
+  if not ok and is_stopped(head) then error(head, 0) end
   return ok and type(head) == "table" and head.format == "clench grasps" and head or {}, has_more
 end
 
 local function search_in(head) return type(head.notes) == "table" and type(head.notes.search) == "table" and head.notes.search or nil end
 
--- what is there may only be replaced when that is asked for
+-- an existing list is replaced only with --overwrite
 function List:refuse_to_replace(head, has_grasps)
   if not head.format then refuse("-o: %s exists already; --overwrite replaces it", self.path) end
   if not has_grasps then return end
@@ -81,12 +83,14 @@ function List:check_same(path, there)
   if difference then refuse("--resume: %s is of another search: %s", path, difference) end
 end
 
--- the journal, if there is a readable one
+-- Reads the journal, if it exists. Raises an error if it cannot be read.
 function List:read_journal()
-  local head = journal.head_of(self.journal_path)
+  local head, is_damaged = journal.head_of(self.journal_path)
+  self.is_journal_damaged = is_damaged
   if not head then return end
   self:check_same(self.journal_path, head.search)
-  local known, text = journal.read(self.journal_path)
+  local known, text
+  known, text, self.is_journal_damaged = journal.read(self.journal_path)
   if not known then return end
   self.known, self.pending, self.has_journal = known, text, true
   self.earlier_count = math.max(self.earlier_count or 0, math.tointeger(head.count) or 0)
@@ -110,9 +114,9 @@ function List:resume(head)
   end
 end
 
---- Compares the search with that of a list on the disk. Still changes nothing.
+--- Compares the search with that of a list on the disk. Changes nothing.
 ---@param search table  of plan_identity
----@param count? integer  grasps that are searched for; nil: as many as the list that is continued asks for
+---@param count? integer  number of grasps searched for; nil: the number of the list that is continued
 function List:compare(search, count)
   self.search, self.count = search, count
   local head, has_more = look_at(self.path)
@@ -137,33 +141,45 @@ function List:notes(more)
   return {search = search}
 end
 
--- Another program may have put its own file there, which must not be changed. A file that is gone is written at the end.
+-- Raises an error if another program has replaced the list. A list that was removed is written at the end.
 function List:check_ours()
   local line = first_line(self.path)
   if line and line ~= self.first_line then refuse("%s was replaced by another program: it is not written", self.path) end
   return line ~= nil
 end
 
--- From now on what is worth keeping is on the disk, in files that take the place of older ones.
+-- keeps a damaged journal under another name
+function List:put_aside_journal()
+  if not self.is_journal_damaged then return end
+  local aside = self.path .. ".search.damaged"
+  local ok, why = os.rename(self.journal_path, aside)
+  if not ok then refuse("%s is damaged and cannot be renamed to %s: %s", self.journal_path, aside, why) end
+  self.is_journal_damaged = nil
+  io.stderr:write(("clench plan: warning: %s is damaged; it is renamed to %s, and what it has lost is searched again\n"):format(
+    self.journal_path, aside))
+end
+
+-- From here on, grasps and pieces are stored in files, which replace older ones.
 function List:start()
   self:check_ours()
   self.started = true
   self.kept:save(self.path, {format = "jsonl", notes = self:notes()})
   self.first_line = first_line(self.path)
+  self:put_aside_journal()
   clench.files.save_text(self.journal_path, journal.head(self.search, self.keep) .. self.pending)
   self.pending = nil
 end
 
--- after the first fault nothing more is written, and the search ends
+-- after the first error nothing more is written, and the search ends
 function List:try(write)
   if self.fault then return end
   local ok, problem = pcall(write)
   if ok then return end
-  if type(problem) == "table" and problem.kind == "stopped" then error(problem, 0) end
+  if is_stopped(problem) then error(problem, 0) end
   self.fault = error_text(problem)
 end
 
---- Stores a grasp at once: a process that is killed keeps it.
+--- Stores a grasp immediately, so that it survives the end of the process.
 function List:add(grasp)
   if self.format ~= "jsonl" then return end
   self:try(function()
@@ -176,7 +192,7 @@ function List:add(grasp)
   end)
 end
 
--- While the search goes on, grasps of the journal and of the earlier list are listed.
+-- During the search the list holds the grasps of the journal and of the earlier list, too.
 local function add_known(list, record, earlier)
   local numbers = {}
   local function add(grasp)
@@ -201,12 +217,12 @@ function List:write_piece(lines)
   end
 end
 
---- For clench.plan.sample; nil: no search can be continued.
+--- The journal for clench.plan.sample; nil: lists of this format cannot be continued.
 function List:journal()
   if self.format ~= "jsonl" then return nil end
   local earlier = {}
   for i, grasp in ipairs(self.kept) do earlier[i] = grasp end
-  -- a search for fewer grasps than before drops none of the list
+  -- a search for fewer grasps than before keeps the complete list
   local keep = (self.earlier_count or 0) > self.count and #earlier or 0
   self.keep = math.max(keep, self.count)
   local record = journal.new {
@@ -219,10 +235,10 @@ function List:journal()
   return record
 end
 
---- Replaces the list by these, best first.
+--- Replaces the list by the grasps found, best first.
 ---@param grasps grasps
 ---@param is_search_complete boolean
----@return string? note  what the user ought to know
+---@return string? note  for the user
 function List:save(grasps, is_search_complete)
   if self.is_complete then return nil end
   if #grasps == 0 and self.is_replacing then

@@ -1,13 +1,14 @@
---- What the planners that try many starts share: starts in rounds, over threads, until there are grasps enough.
+--- Shared by the planners that try many starts: starts are tried in rounds, over threads, until enough grasps are found.
 local closing = require "clench.plan.closing"
 local distinct = require "clench.plan.distinct"
+local is_stopped = require "clench.is_stopped"
 local neighbour = require "clench.plan.neighbour"
 local batch = {}
 
-local chunk, chunks = 2, 32  -- states that one call tries, so few that what is found is soon told; calls of a round
+local chunk, chunks = 2, 32  -- states per call, few so that grasps are reported soon; calls per round
 
--- Once there are grasps, each second pair of starts begins near those, as long as that succeeds no less often than elsewhere; otherwise
--- each eighth.
+-- Once there are grasps, every second pair of starts is sampled near them while such starts succeed at least as often as others;
+-- otherwise every eighth.
 local function near_by_turns(founders, tally)
   local function near_is_good()
     local near, elsewhere = tally.near, tally.elsewhere
@@ -20,7 +21,7 @@ end
 
 local function start_near(job, founders, number)
   local hand = job.hand
-  local approach = hand.pose:inverse() * hand.approach.point  -- in its base
+  local approach = hand.pose:inverse() * hand.approach.point  -- in the frame of its base
   local random = clench.random(job.seed, -number)
   local founder = founders[random:integer(1, #founders)]
   local state = neighbour(founder.start, founder.grasp.pose * approach, random, random:uniform(0.5, 3), hand, job.object)
@@ -30,19 +31,19 @@ end
 
 local nothing_recorded = {known = {}, is_ended = function() return false end, note = function() end}
 
---- Tries one start after the other, in rounds that do not depend on the threads.
+--- Tries starts in rounds whose results do not depend on the number of threads.
 ---@param job table  of clench.plan.job
----@param told table  of clench.plan.report; `complete`: did the search end by itself, rather than by time or a signal?
----@param next_state? fun(number: integer): table?  nil: no more; absent: the search ended before its starts were prepared
----@param options {planner: string, limit: integer, count?: integer, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp), journal?: table}  journal: of clench.plan.journal: starts that it knows are not tried again
----@return grasp[]  more than `count`: rounds are tried to their end, and what is alike does not count
-function batch.try(job, told, next_state, options)
-  told.candidates, told.rejected = 0, {}
+---@param stats table  of clench.plan.report; sets `complete`: false if the time, a signal or a cancellation ended the search
+---@param next_state? fun(number: integer): table?  returns nil after the last start; absent: the search ended before its starts were prepared
+---@param options {planner: string, limit: integer, count?: integer, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp), journal?: table}  journal: of clench.plan.journal; starts that it records are not tried again
+---@return grasp[]  may be more than `count`: rounds are completed, and similar grasps count once
+function batch.try(job, stats, next_state, options)
+  stats.candidates, stats.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
   local shakes = options.verify and options.verify.shake
-  told.verify = options.verify
-  if shakes then told.shaken, told.survived = 0, 0 end
+  stats.verify = options.verify
+  if shakes then stats.shaken, stats.survived = 0, 0 end
   local found, founders, number, unlike = {}, {}, 0, 0
   local is_new = distinct(job.hand, job.object, options.distance or 0)
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
@@ -50,7 +51,7 @@ function batch.try(job, told, next_state, options)
   local function tally_of(is_near) return is_near and tally.near or tally.elsewhere end
   local bar <close> = clench.progress(options.limit, job.subject)
   local tried = 0
-  -- whichever ends the search: all that may be tried, or grasps enough
+  -- progress towards the limit of starts or towards `count` grasps, whichever is further
   local function show()
     tried = tried + chunk
     local part = math.min(1, math.max(tried / options.limit, options.count and unlike / options.count or 0))
@@ -63,28 +64,31 @@ function batch.try(job, told, next_state, options)
   ---@param piece {first: integer, count: integer, known?: table}
   local function take(result, piece)
     if result.error then
-      if result.kind == "stopped" then return end  -- by Ctrl-C, which is told apart
-      told.rejected[result.error] = (told.rejected[result.error] or 0) + 1
+      if is_stopped(result) then  -- by the deadline or by Ctrl-C
+        out_of_time = true
+        return
+      end
+      stats.rejected[result.error] = (stats.rejected[result.error] or 0) + 1
       return
     end
     if not result.counted then
       result.counted = true
       for why, count in pairs(result.rejected) do
-        told.rejected[why] = (told.rejected[why] or 0) + count
-        if why == "lost when shaken" then told.shaken = told.shaken + count end
+        stats.rejected[why] = (stats.rejected[why] or 0) + count
+        if why == "lost when shaken" then stats.shaken = stats.shaken + count end
       end
     end
     if result.rejected["no time left"] then out_of_time = true end
-    if result.best_load then told.best_load = math.max(result.best_load, told.best_load or 0) end
+    if result.best_load then stats.best_load = math.max(result.best_load, stats.best_load or 0) end
     for _, new in ipairs(result.grasps) do
       local numbers = new.numbers or {}
       numbers.number, numbers.seed = new.number, job.seed
-      -- a call that Ctrl-C has broken off is made again
+      -- `take` is called again with the same result if Ctrl-C interrupted it
       if not new.taken then
         new.taken = true
         if shakes then
-          told.shaken = told.shaken + 1
-          if numbers.survived == 1 then told.survived = told.survived + 1 end
+          stats.shaken = stats.shaken + 1
+          if numbers.survived == 1 then stats.survived = stats.survived + 1 end
         end
         found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
         founders[#founders + 1] = new
@@ -97,13 +101,13 @@ function batch.try(job, told, next_state, options)
     if piece.known then
       journal.known[piece.first] = nil
     elseif not result.noted and not result.rejected["no time left"] then
-      result.noted = true
       journal:note(piece.first, piece.count, result)
+      result.noted = true
     end
     show()
   end
 
-  -- the next starts of one call; nil: no more
+  -- the next starts for one call; nil: there are no more
   local function next_piece()
     local first, states = number + 1, {}
     local known = journal.known[first]
@@ -122,7 +126,7 @@ function batch.try(job, told, next_state, options)
 
   local exhausted = false
 
-  -- what is known takes its place among what is tried, so that the order is that of a search without a break
+  -- recorded pieces are taken in their place among the tried ones: the order is that of an uninterrupted search
   local function run_round()
     local pieces, items, tried_pieces = {}, {}, {}
     for i = 1, chunks do
@@ -158,23 +162,25 @@ function batch.try(job, told, next_state, options)
   end
 
   local function is_enough() return options.count and unlike >= options.count end
-  -- a round of which something is known is tried to its end
+  -- rounds with recorded pieces are completed
   local function goes_on()
     return next_state and job:goes_on() and not journal:is_ended() and not exhausted and (not is_enough() or next(journal.known) ~= nil)
   end
 
-  job:search_in_time(function()
+  local ended = job:search_in_time(function()
     while goes_on() do run_round() end
+    return true
   end)
-  told.candidates = number
-  if number == 0 then told.late_start = job:late_start() end
-  told.complete = not job.stopped and not job.cancelled and not journal:is_ended() and not out_of_time and (exhausted or is_enough() or false)
-  -- what was known of later starts is kept when the search ends before them
+  stats.candidates = number
+  if number == 0 then stats.late_start = job:late_start() end
+  stats.complete = ended == true and not job.stopped and not job.cancelled and not journal:is_ended() and not out_of_time
+    and (exhausted or is_enough() or false)
+  -- recorded pieces of later starts are kept if the search ends before them
   for _, piece in ipairs(options.journal and options.journal:rest() or {}) do take(piece.known, piece) end
   return found
 end
 
---- the largest epsilon first; of equal ones the earlier; those that no search has numbered last
+--- Sorts by decreasing epsilon, then by start number; grasps without a number come last.
 function batch.sort(found)
   table.sort(found, function(a, b)
     if a.epsilon ~= b.epsilon then return a.epsilon > b.epsilon end

@@ -1,11 +1,12 @@
---- What all planners are given: a hand, an object, and a world to move, which is a clone unless a script's function looks
---- at the world itself.
+--- Input shared by all planners: a hand, an object and the world that they move, which is a clone unless a function of the script
+--- reads the world itself.
 local drives = require "clench.drives"
 local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
 local deadline = require "clench.deadline"
 local described = require "clench.described"
+local is_stopped = require "clench.is_stopped"
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
 local running = require "clench.plan.running"
@@ -14,7 +15,7 @@ local touch = require "clench.plan.touch"
 local Job = {}
 Job.__index = Job
 
--- what clench.annealing reads
+-- options of clench.annealing
 local space_keys = {"position", "posture", "semi_axes", "limits", "jumps", "values", "targets", "fixed", "start",
                     "variables", "collisions", "max_tries"}
 
@@ -26,7 +27,7 @@ local function check(read, name, kind)
   return value
 end
 
---- an energy by its name, or what was given
+--- The energy of this name; a value that is not a string is returned unchanged.
 function Job:energy_of(energy)
   if type(energy) ~= "string" then return energy end
   local known, make = pcall(function() return clench.energy[energy] end)
@@ -34,20 +35,20 @@ function Job:energy_of(energy)
   return on_behalf_of(self.subject, make, {hand = self.hand, object = self.object})
 end
 
---- Another chain of annealing in a world of its own, or in the job's.
----@param options table  of clench.annealing, over what the planner was given
+--- Another annealing chain, in a separate world or in the job's.
+---@param options table  of clench.annealing; they override the options of the planner
 function Job:annealing(options)
   local all = {hand = self.hand, object = self.object, world = self.world}
   for key, value in pairs(self.space) do all[key] = value end
   for key, value in pairs(options) do all[key] = value end
-  -- a state whose energy is infinite is worse than any, and none that is kept
+  -- states of infinite energy are never kept
   local best = {max_energy = largest_energy}
   for key, value in pairs(type(all.best) == "table" and all.best or {}) do best[key] = value end
   if all.best == nil or type(all.best) == "table" then all.best = best end
   return on_behalf_of(self.subject, clench.annealing, all)
 end
 
--- Waits while the search is paused. What an energy of the script moves is meanwhile as the script left it.
+-- Waits while the search is paused. Meanwhile the given world has the state in which the script left it.
 function Job:rest()
   self:end_deadline()
   local paused_at, here = clench.clock(), self.before and self.world:snapshot()
@@ -61,29 +62,29 @@ function Job:rest()
   self:begin_deadline()
 end
 
--- From now on what runs in the engine fails when the time of the options has run out, as by Ctrl-C.
+-- From here on, calls of the engine fail as by Ctrl-C once `seconds` have passed.
 function Job:begin_deadline()
   self.deadline = self.seconds and deadline(self.began + self.seconds - clench.clock())
 end
 
--- returns whether that time has run out
+---@return boolean  true if the deadline has passed
 function Job:end_deadline()
   local over = self.deadline and self.deadline:close() or false
   self.deadline = nil
   return over
 end
 
---- Calls what the end of the time of the options ends.
----@return any result  nil when it did
+--- Calls a function that the deadline stops.
+---@return any result  of the function; nil if it was stopped
 function Job:in_time(work)
   self:begin_deadline()
   local ok, result = pcall(work)
   local over = self:end_deadline()
   if ok then return result end
-  if not (over and type(result) == "table" and result.kind == "stopped") then error(result, 0) end
+  if not (over and is_stopped(result)) then error(result, 0) end
 end
 
---- Between two pieces of work: false when the time of the options has run out, Ctrl-C was pressed or the search is cancelled.
+--- Called between two pieces of work: false once the time has run out, Ctrl-C was pressed or the search was cancelled.
 function Job:goes_on()
   local search = self.search
   if search and search.pause_at and clench.clock() >= search.pause_at and not search.cancelled then self:rest() end
@@ -93,35 +94,35 @@ end
 
 function Job:has_time() return self.seconds == nil or clench.clock() - self.began < self.seconds end
 
---- What the first candidate needs: make(job, options); nil when Ctrl-C or the end of the time came first.
+--- Prepares the first candidate: returns make(job, options), or nil if Ctrl-C or the deadline stopped it.
 ---@param make fun(job: table, options: table): any
 function Job:prepare(make, options)
   return self:search_in_time(function() return make(self, options) end)
 end
 
---- Why no candidate was tried, if it is for want of time.
+--- The sentence reported if the time ran out before the first candidate; nil: it did not.
 function Job:late_start()
   if self.stopped or self.cancelled or self:has_time() then return end
   return ("the search ended before its first candidate: for this hand and object its start takes longer than the %.6g s that were given; allow more"):format(self.seconds)
 end
 
-local patience = 0.25  -- half of what a script has after Ctrl-C [s]
+local patience = 0.25  -- half of the time that a script has left after Ctrl-C [s]
 
---- After Ctrl-C, is there time to look at what was found?
+--- Is there time left to evaluate the grasps found before Ctrl-C?
 function Job:has_patience() return not self.stopped or clench.clock() - self.stopped_at < patience end
 
--- How long the hand may still close from states that were found; nil: as long as it takes [s]
+-- Time left for closing the hand from states that were found [s]; nil: unlimited
 function Job:time_to_close()
   if self.stopped then return self.stopped_at + patience - clench.clock() end
   return self.seconds and self.began + 1.1 * self.seconds + 1 - clench.clock()
 end
 
---- Calls what searches. Ctrl-C ends it, and the planner continues with what was found; any other error puts the hand back.
----@return any result  nil when it was ended
+--- Calls a search. Ctrl-C ends it, and the planner continues with the grasps found so far; any other error restores the hand.
+---@return any result  of the search; nil if Ctrl-C ended it
 function Job:interruptible(search)
   local ok, result = pcall(search)
   if ok then return result end
-  if type(result) == "table" and result.kind == "stopped" then
+  if is_stopped(result) then
     self.stopped, self.stopped_at = true, clench.clock()
     return
   end
@@ -129,37 +130,39 @@ function Job:interruptible(search)
   error(result, 0)
 end
 
---- The same, which the end of the time ends, too.
+--- As interruptible; the deadline ends the search, too.
+---@return any result  of the search; nil if it was ended
 function Job:search_in_time(search)
   return self:interruptible(function() return self:in_time(search) end)
 end
 
---- The hand closes from a state; why it gave no grasp is counted in what the report tells.
+--- Closes the hand from a state; reasons for rejected grasps are counted in `stats.rejected`.
+---@param stats table  of clench.plan.report
 ---@param approach? number  as of closing.close [m]
-function Job:close(hand, object, state, told, approach)
+function Job:close(hand, object, state, stats, approach)
   local silence <close> = quiet()
   local left = self:time_to_close()
   local limit = left and deadline(left)
   local ok, grasp, why = pcall(closing.close, hand, object, state, {approach = approach, grasp = self.grasp_options})
   local over = limit and limit:close()
   if not ok then
-    if not (over and type(grasp) == "table" and grasp.kind == "stopped") then error(grasp, 0) end
+    if not (over and is_stopped(grasp)) then error(grasp, 0) end
     grasp, why = nil, "no time left"
   end
   why = why or touch.fault(self.touch, grasp)
   if not why then return grasp end
-  told.rejected = told.rejected or {}
-  told.rejected[why] = (told.rejected[why] or 0) + 1
+  stats.rejected = stats.rejected or {}
+  stats.rejected[why] = (stats.rejected[why] or 0) + 1
 end
 
 function Job:elapsed() return clench.clock() - self.began end
 
---- the hand as it was given is put back, where the planner moved it
+--- Restores the given world where the planner moved it.
 function Job:finish()
   if self.before then self.given_world:restore(self.before) end
 end
 
--- before the search rather than in each of its grasps; how many normal forces there are to be is known of a grasp alone
+-- Checks the options once, before the search. The number of normal forces is known only once there is a grasp.
 local function check_grasp_options(job)
   local silence <close> = quiet()
   local options = {}
@@ -176,7 +179,7 @@ local function is_part_of(robot, body)
   return false
 end
 
---- a hand that an arm carries is planned for alone: a clone of the world without the arm
+--- A clone of the world without the arm that carries the hand.
 local function freed(world, name)
   local free = world:clone()
   local hand = free:robot(name)
@@ -186,7 +189,7 @@ local function freed(world, name)
   return free
 end
 
--- what a thing overlaps, but for robots that are moved anyway
+-- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway; false: none
 local function overlaps(world, thing, moved)
   local names = {}
   for _, pair in ipairs(world:colliding(thing)) do
@@ -198,7 +201,7 @@ local function overlaps(world, thing, moved)
   return #names > 0 and table.concat(names, ", ")
 end
 
-local function tell_overlaps(subject, world, hand, object)
+local function warn_of_overlaps(subject, world, hand, object)
   local moved = {[hand.name] = true}
   local of_arm = hand.parent and overlaps(world, hand.parent, {})
   if of_arm then
@@ -238,7 +241,7 @@ return function(subject, given, own)
   for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
   if own then own(read, job) end
   read:done()
-  tell_overlaps(subject, world, hand, object)
+  warn_of_overlaps(subject, world, hand, object)
 
   local energy = job.energy
   local has_function = type(energy) == "function" or described(energy) == "a energy" and not energy.any_thread

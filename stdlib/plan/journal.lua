@@ -1,17 +1,18 @@
---- Records what a search by clench.plan.batch has tried, piece by piece, so that a later run of the same search continues where it ended
---- and finds the same grasps as one without a break. A file of JSON lines: a head, then for each piece the grasps that it found and a line
+--- Records the starts that a search by clench.plan.batch has tried, piece by piece, so that a later run of the same search continues there
+--- and finds the same grasps as an uninterrupted one. A file of JSON lines: a head, then for each piece the grasps that it found and a line
 --- `{"search": ...}` that ends it.
+local is_stopped = require "clench.is_stopped"
 local journal = {}
 
 local format, version = "clench search", 1
-local piece_mark = '{"search":'  -- how the line begins that ends a piece
+local piece_mark = '{"search":'  -- beginning of the line that ends a piece
 
 local Journal = {}
 Journal.__index = Journal
 
 local function same(a, b) return clench.json.encode(a) == clench.json.encode(b) end
 
--- the grasp with the start in place of its pregrasp, which is written to the bit
+-- a copy of the grasp with the start as its pregrasp, which is stored bit-exactly
 local function carrying(grasp, start)
   local list = clench.grasps()
   list:add(grasp)
@@ -21,13 +22,13 @@ local function carrying(grasp, start)
 end
 
 --- The first line of the file.
----@param search table  what identifies the search, plain data
----@param count? integer  grasps that are searched for
+---@param search table  identity of the search, plain data
+---@param count? integer  number of grasps searched for
 function journal.head(search, count)
   return clench.json.encode {format = format, version = version, search = search, count = count} .. "\n"
 end
 
---- The lines of a piece: `count` starts from number `first` on.
+--- The lines of a piece: `count` starts, the first of which has the number `first`.
 ---@param result table  of clench.plan.batch_worker
 function journal.lines(first, count, result)
   local lines, notes = {}, {}
@@ -44,22 +45,47 @@ function journal.lines(first, count, result)
   return table.concat(lines, "\n") .. "\n"
 end
 
+-- the table that a line of JSON holds; nil: it holds none, or is damaged
 local function decoded(line)
   local ok, value = pcall(clench.json.decode, line)
+  if not ok and is_stopped(value) then error(value, 0) end
   return ok and type(value) == "table" and value or nil
 end
 
--- the pieces up to the first line that is cut short or damaged, and the lines of all their grasps
+local function is_count(value) return math.type(value) == "integer" and value >= 1 end
+local function is_number_or_nil(value) return value == nil or type(value) == "number" end
+local function is_boolean_or_nil(value) return value == nil or type(value) == "boolean" end
+
+local function is_note(note)
+  return type(note) == "table" and is_count(note.number) and is_number_or_nil(note.retreat) and is_number_or_nil(note.reach)
+    and is_boolean_or_nil(note.is_near) and is_boolean_or_nil(note.moved)
+end
+
+-- Is this the valid end of a piece?
+local function is_piece(piece)
+  if type(piece) ~= "table" or not is_count(piece.first) or not is_count(piece.count) or not is_number_or_nil(piece.best_load) then return false end
+  if type(piece.found) ~= "table" or type(piece.rejected) ~= "table" then return false end
+  for why, count in pairs(piece.rejected) do
+    if type(why) ~= "string" or type(count) ~= "number" then return false end
+  end
+  for i, note in pairs(piece.found) do
+    if math.type(i) ~= "integer" or not is_note(note) then return false end
+  end
+  return true
+end
+
+-- The pieces before the first invalid one, and the lines of all their grasps. A last piece that is cut short is no damage.
+---@return table[] pieces, string[] grasps, boolean is_damaged
 local function read_pieces(text)
   local pieces, grasps, pending = {}, {}, {}
   for line in text:gmatch "([^\n]*)\n" do
     if line:sub(1, #piece_mark) == piece_mark then
       local value = decoded(line)
       local piece = value and value.search
-      if type(piece) ~= "table" or type(piece.found) ~= "table" then break end
+      if not is_piece(piece) then return pieces, grasps, true end
       local lines = 0
       for _, note in ipairs(piece.found) do lines = lines + (note.moved and 2 or 1) end
-      if lines ~= #pending then break end
+      if lines ~= #pending then return pieces, grasps, true end
       pieces[#pieces + 1] = piece
       table.move(pending, 1, #pending, #grasps + 1, grasps)
       pending = {}
@@ -67,18 +93,23 @@ local function read_pieces(text)
       pending[#pending + 1] = line
     end
   end
-  return pieces, grasps
+  return pieces, grasps, false
 end
 
--- grasps from their lines, by a list that is written and read
+-- The grasps of these lines, by a list that is written and read; nil: a line is damaged. Errors of the temporary file are raised.
 local function read_grasps(lines)
   local path = os.tmpname()
   local gone <close> = setmetatable({}, {__close = function() os.remove(path) end})
   clench.grasps():save(path, {format = "jsonl"})
   if #lines > 0 then clench.files.append_text(path, table.concat(lines, "\n")) end
-  return clench.grasps(path, {format = "jsonl", confine = path:match "^(.*)/"})
+  local ok, list = pcall(clench.grasps, path, {format = "jsonl", confine = path:match "^(.*)/"})
+  if ok then return #list == #lines and list or nil end
+  local kind = type(list) == "table" and rawget(list, "kind")
+  if kind == "file" or kind == "input" then return nil end
+  error(list, 0)
 end
 
+-- the pieces by the number of their first start; nil: a grasp lacks its start
 local function restored(pieces, grasps)
   local known, at = {}, 0
   for _, piece in ipairs(pieces) do
@@ -88,46 +119,71 @@ local function restored(pieces, grasps)
       local grasp = grasps[at]
       if note.moved then at = at + 1 end
       local before = grasps[at].pregrasp
+      if not before then return nil end
       list[i] = {grasp = grasp, number = note.number, numbers = grasp.info,
                  start = {pose = before.pose, dofs = before.dofs, retreat = note.retreat, reach = note.reach, is_near = note.is_near}}
     end
-    -- a piece may have been written twice when a signal came in between
-    known[piece.first] = known[piece.first] or {count = piece.count, grasps = list, rejected = piece.rejected or {}, best_load = piece.best_load}
+    -- a piece is written twice if a signal interrupts its first note
+    known[piece.first] = known[piece.first] or {count = piece.count, grasps = list, rejected = piece.rejected, best_load = piece.best_load}
   end
   return known
 end
 
---- The head of the file; nil: there is none, or it is no journal.
----@param path string
----@return {search: table, count?: integer}?
-function journal.head_of(path)
-  local file = io.open(path, "rb")
-  if not file then return nil end
-  local head = decoded(file:read "l" or "")
+-- "No such file or directory"
+local no_such_file = 2
+
+local function refuse(path, why)
+  -- the system's sentence may begin with the path
+  if why:sub(1, #path + 2) == path .. ": " then why = why:sub(#path + 3) end
+  error(("%s: the journal of the search cannot be read: %s"):format(path, why), 0)
+end
+
+-- what `read` returns of the file; nil: it does not exist. Raises an error if it exists and cannot be read.
+local function read_file(path, amount)
+  local file, why, code = io.open(path, "rb")
+  if not file then
+    if code == no_such_file then return nil end
+    refuse(path, why)
+  end
+  local text, fault = file:read(amount)
   file:close()
-  return head and head.format == format and head.version == version and head or nil
+  if fault then refuse(path, fault) end
+  return text or ""
 end
 
---- What the file records.
+--- The head of a journal; nil: the file does not exist, or has no valid head. Raises an error if it cannot be read.
 ---@param path string
----@return table<integer, table>? known  pieces by the number of their first start; nil: the file is damaged
----@return string? text  of these pieces, for a new file
-function journal.read(path)
-  local ok, known, text = pcall(function()
-    local all = clench.files.read_text(path, {confine = path:match "^(.*)/" or "."})
-    local pieces, grasps = read_pieces(all:match "^[^\n]*\n(.*)$" or "")
-    local known = restored(pieces, read_grasps(grasps))
-    local lines, first_of = {}, {}
-    for first in pairs(known) do first_of[#first_of + 1] = first end
-    table.sort(first_of)
-    for i, first in ipairs(first_of) do lines[i] = journal.lines(first, known[first].count, known[first]) end
-    return known, table.concat(lines)
-  end)
-  if ok then return known, text end
+---@return {search: table, count?: integer}? head
+---@return boolean? is_damaged  true: the file has another first line
+function journal.head_of(path)
+  local line = read_file(path, "l")
+  if not line then return nil end
+  local head = decoded(line)
+  if head and head.format == format and head.version == version and type(head.search) == "table" then return head end
+  return nil, line ~= ""
 end
 
---- What clench.plan.batch is given.
----@param options {known?: table, write: fun(lines: string), is_ended: fun(): boolean, listed?: grasp[], keep?: integer}  known: of journal.read; write: stores a piece; is_ended: is the search to end? listed: grasps of the same search that need not be known; keep: at least so many grasps are kept
+--- The pieces that a journal records. Raises an error if the file exists and cannot be read.
+---@param path string
+---@return table<integer, table>? known  pieces by the number of their first start; nil: the file does not exist, or its grasps are damaged
+---@return string? text  of these pieces, for a new file
+---@return boolean? is_damaged  true: pieces are lost
+function journal.read(path)
+  local all = read_file(path, "a")
+  if not all then return nil end
+  local pieces, lines_of_grasps, is_damaged = read_pieces(all:match "^[^\n]*\n(.*)$" or "")
+  local grasps = read_grasps(lines_of_grasps)
+  local known = grasps and restored(pieces, grasps)
+  if not known then return nil, nil, true end
+  local lines, first_of = {}, {}
+  for first in pairs(known) do first_of[#first_of + 1] = first end
+  table.sort(first_of)
+  for i, first in ipairs(first_of) do lines[i] = journal.lines(first, known[first].count, known[first]) end
+  return known, table.concat(lines), is_damaged
+end
+
+--- A journal for clench.plan.batch.
+---@param options {known?: table, write: fun(lines: string), is_ended: fun(): boolean, listed?: grasp[], keep?: integer}  known: of journal.read; write: stores a piece; is_ended: true if the search must end; listed: grasps of the same search that need not be known; keep: the smallest number of grasps to keep
 function journal.new(options)
   return setmetatable({known = options.known or {}, write = options.write, is_ended = options.is_ended, listed = options.listed or {},
                        keep = options.keep}, Journal)
@@ -135,7 +191,7 @@ end
 
 function Journal:note(first, count, result) self.write(journal.lines(first, count, result)) end
 
---- Known pieces that were not taken, in order.
+--- Recorded pieces that were not taken, in order.
 function Journal:rest()
   local rest = {}
   for first, known in pairs(self.known) do rest[#rest + 1] = {first = first, count = known.count, known = known} end
@@ -143,7 +199,7 @@ function Journal:rest()
   return rest
 end
 
---- Adds those of the listed grasps that were not found.
+--- Adds the listed grasps that were not found.
 ---@param found grasp[]
 function Journal:add_listed(found)
   local numbers = {}

@@ -1,12 +1,15 @@
---- The primitives that an object is approached by where a script names none: those of a file primitives/<name>.iv beside the object's
---- file or below the root, else those among the nodes of its own file, else its bounding box.
+--- Default primitives of an object for the primitive planner: those of a file primitives/<name>.iv beside the file of the object or below
+--- the root, else those among the nodes of its own file, else its bounding box.
+local error_text = require "clench.host.error_text"
+local is_stopped = require "clench.is_stopped"
 local on_behalf_of = require "clench.on_behalf_of"
 local quiet = require "clench.plan.quiet"
+local script_line = require "clench.script_line"
 
--- where GraspIt! keeps objects, below its root
+-- folder of the objects below the root of GraspIt!
 local shelf = "models/objects"
 
--- paths where a file of primitives may lie, in order
+-- paths of possible files of primitives, in order of preference
 local function places(source, root)
   local folder, file = source:match "^(.*/)([^/]*)$"
   if not folder then folder, file = "", source end
@@ -14,23 +17,44 @@ local function places(source, root)
   local list = {folder .. name}
   root = root or folder:match("^(.*)/" .. shelf .. "/")
   if root then
-    list[#list + 1] = ("%s/%s/%s"):format(root, shelf, name)
+    local on_shelf = ("%s/%s/%s"):format(root, shelf, name)
+    if on_shelf ~= list[1] then list[#list + 1] = on_shelf end
     list[#list + 1] = ("%s/%s"):format(root, name)
   end
   return list
 end
 
--- the primitives of a file of them; nil where there is no such file
+-- Warns of a file that exists, or may exist, and cannot be used: the next source is tried. Ctrl-C is raised again.
+local function skip(subject, problem)
+  if is_stopped(problem) then error(problem, 0) end
+  local sentence = type(problem) == "table" and rawget(problem, "sentence") or error_text(problem)
+  if not sentence:find("no such file", 1, true) then
+    clench.log.warning(script_line() .. ("%s: primitives: %s"):format(subject, sentence))
+  end
+end
+
+-- the primitives of a file that holds nothing else; nil if it does not exist or may not be read
 local function of_file(subject, path)
-  if not pcall(clench.file_kind, path) then return nil end
+  local ok, problem = pcall(clench.file_kind, path)
+  if not ok then return skip(subject, problem) end
   return on_behalf_of(subject, clench.files.primitives, path)
 end
 
--- the primitives among the nodes of the object's own file; a mesh has none, and warnings about its other nodes are of no interest
-local function of_geometry(path)
-  local silence <close> = quiet()
-  local ok, list = pcall(clench.files.primitives, path)
-  return ok and #list > 0 and list or nil
+local function may_hold_primitives(path)
+  local ending = path:lower():match "%.[^./]*$"
+  return ending == ".iv" or ending == ".wrl" or ending == ".vrml"
+end
+
+-- the primitives among the nodes of the object's own file, without warnings about its other nodes; nil: there are none
+local function of_geometry(subject, path)
+  local ok, list
+  do
+    local silence <close> = quiet()
+    ok, list = pcall(clench.files.primitives, path)
+  end
+  if ok then return #list > 0 and list or nil end
+  -- that other formats hold no primitives is no news
+  if is_stopped(list) or may_hold_primitives(path) then skip(subject, list) end
 end
 
 local function bounding_box(object)
@@ -38,20 +62,20 @@ local function bounding_box(object)
   return {{kind = "box", pose = clench.pose {xyz = (bounds.low + bounds.high) / 2}, size = bounds.high - bounds.low}}
 end
 
----@param read table  options of the planner, for its messages
+---@param read table  options of the planner, for error messages
 ---@param object body
 ---@param root? string
 ---@return table[] primitives, string source  a path, or "bounding box"
 return function(read, object, root)
   if not object.mesh then read:fail("object: '%s' has no surface; the option primitives says what it is like", object.name) end
   local source, report = object.source, object.mesh_report
-  -- sizes in files are those of the object only where the script does not scale it
+  -- lengths in files apply only if the script does not scale the object
   if source ~= "" and not (report and report.unit_source == "option") then
     for _, path in ipairs(places(source, root)) do
       local list = of_file(read.subject, path)
       if list and #list > 0 then return list, path end
     end
-    local list = of_geometry(source)
+    local list = of_geometry(read.subject, source)
     if list then return list, source end
   end
   return bounding_box(object), "bounding box"
