@@ -74,6 +74,28 @@ TEST_CASE("the largest effort is the sum of all actuators, within actuatorfrcran
   CHECK(three(both, "actuatorfrcrange='-5 4' actuatorfrclimited='false'").dof("b").max_effort == 0);
 }
 
+TEST_CASE("an actuatorfrcrange of two zeros undoes that of a class, unless it limits") {
+  const std::string zeros = "actuatorfrcrange='0 0'", limits = " actuatorfrclimited='true'";
+  const std::string motor = "<actuator><motor joint='a' ctrlrange='-3 3'/></actuator>";
+  CHECK(three(motor, "range='-1 1' " + zeros).dof("a").max_effort == 3);
+  CHECK_FALSE(three(motor, "range='-1 1' " + zeros + limits).dof("a").driven);
+  const auto pulled = [&](const std::string& more) {
+    return three("<tendon>" + fixed("t", 1, 1, more) +
+                 "</tendon><actuator><motor tendon='t' ctrlrange='-3 3'/></actuator>")
+        .dof("a");
+  };
+  CHECK(pulled(zeros).max_effort == 6);
+  CHECK_FALSE(pulled(zeros + limits).driven);
+}
+
+TEST_CASE("a motor on a joint that stands still drives no leader") {
+  const ToldRobot told = three(
+      "<equality><joint joint1='b' joint2='a' polycoef='0 0'/></equality>"
+      "<actuator><motor joint='b' ctrlrange='-3 3'/><motor joint='c'/></actuator>");
+  CHECK_FALSE(told.dof("a").driven);
+  CHECK(told.dof("c").driven);
+}
+
 TEST_CASE("actuators without force drive nothing, which is told") {
   const ToldRobot told = three(
       "<actuator><motor name='still' joint='a' gear='0'/><position joint='b' kp='0'/>"
@@ -135,6 +157,17 @@ TEST_CASE("two tendons of one ratio tie their joints, and say what that costs") 
   CHECK(
       told.warned("joints 'a' and 'b' share a tendon, 't', and lose a DOF; they are taken to "
                   "turn as 1 to 2; the range of 'a' narrows from [-1, 1] to [-0.5, 0.5]"));
+}
+
+TEST_CASE("a tendon that pulls the other way has the same ratio") {
+  const auto dofs = [](double b) {
+    return three("<tendon>" + fixed("t", 1, 2) + fixed("u", -2, b) +
+                 "</tendon><actuator><motor tendon='t'/><motor tendon='u'/></actuator>")
+        .robot.dofs.size();
+  };
+  CHECK(dofs(-4) == 2);
+  CHECK(dofs(4) == 3);
+  CHECK(dofs(-4.001) == 3);
 }
 
 TEST_CASE("limits, springs and friction of fixed tendons are kept") {

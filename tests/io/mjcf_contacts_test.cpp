@@ -106,11 +106,19 @@ TEST_CASE("switches of the simulation are followed or warned of by name") {
   CHECK(all.warned("constraint=\"disable\""));
 }
 
-TEST_CASE("parents collide where their filter is off") {
+TEST_CASE("parents collide where their filter is off, whatever later flags say of others") {
   TemporaryFolder folder;
-  const ToldRobot told(
-      folder.write("m.xml", R"(<mujoco><option><flag filterparent='disable'/></option>
+  for (const char* more : {"", "<flag contact='enable'/>"}) {
+    const ToldRobot told(folder.write(
+        "m.xml", fmt::format(R"(<mujoco><option><flag filterparent='disable'/>{}</option>
 <worldbody><body name='base'><freejoint/><geom size='1'/><body name='a'><joint name='j'/><geom size='1'/></body></body>
-</worldbody></mujoco>)"));
-  CHECK(told.robot.collision_rules.pairs_on == Pairs{{-1, 0}});
+</worldbody></mujoco>)",
+                             more)));
+    CHECK(told.robot.collision_rules.pairs_on == Pairs{{-1, 0}});
+  }
+}
+
+TEST_CASE("replicas without contents count as elements") {
+  CHECK_THROWS_WITH(ContactWorld("<worldbody><replicate count='2000000000'/></worldbody>"),
+                    "m.xml:1: expected at most 200000 elements made by replicate and attach");
 }

@@ -245,7 +245,7 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
   CHECK(
       ball.warned("m.xml:1: motor: joint 'j' is a ball, which became three turns; this is not "
                   "used"));
-  CHECK_FALSE(ball.noted("no actuator drives"));  // the motor moves them all the same
+  for (const DofSpec& turn : ball.robot.dofs) CHECK_FALSE(turn.driven);
   TemporaryFolder folder;
   const auto read = [&](const std::string& beside, const std::string& rest) {
     return ToldRobot(
@@ -271,7 +271,7 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
   CHECK(tendon.dofs().size() == 2);
   CHECK(tendon.warned("joint: joint 'hinge' is of a body that is not read"));
   CHECK(read("<composite/>", "<actuator><motor joint='zj'/></actuator>")
-            .warned("motor: joint 'zj' may be of an <attach> or <composite>, which are not read"));
+            .warned("motor: joint 'zj' may be of a <composite> or <flexcomp>, which are not read"));
 }
 
 TEST_CASE("a range of two zeros means none, as it undoes that of a class") {

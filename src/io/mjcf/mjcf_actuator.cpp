@@ -77,13 +77,18 @@ void Law::read(const XmlElement& element, MjcfDocument& document) {
   }
 }
 
-std::optional<std::array<double, 2>> actuator_range(const XmlValues& values, MjcfDocument& document,
-                                                    const char* range, const char* limited_name) {
+double largest_of(const std::array<double, 2>& range) {
+  return std::max(std::abs(range[0]), std::abs(range[1]));
+}
+
+}  // namespace
+
+std::optional<std::array<double, 2>> limited_range(const XmlValues& values, MjcfDocument& document,
+                                                   const char* range, const char* limited_name) {
   if (!values.has(range)) return {};
   const std::string limited = values.word(limited_name, {"auto", "true", "false"}, "auto");
   if (limited == "false") return {};
   const auto both = values.range(range, document.repairs());
-  // two zeros undo what a class says
   if (limited == "auto" && both[0] == 0 && both[1] == 0) return {};
   if (limited == "auto" && !document.settings(values.element()).autolimits)
     document.repairs().add(
@@ -92,12 +97,6 @@ std::optional<std::array<double, 2>> actuator_range(const XmlValues& values, Mjc
                                   values.subject(range), limited_name));
   return both;
 }
-
-double largest_of(const std::array<double, 2>& range) {
-  return std::max(std::abs(range[0]), std::abs(range[1]));
-}
-
-}  // namespace
 
 double MjcfActuator::max_force() const {
   double force = std::numeric_limits<double>::infinity();
@@ -120,8 +119,8 @@ MjcfActuator read_mjcf_actuator(MjcfDocument& document, const XmlElement& elemen
   spec.joint = values.text("joint", values.text("jointinparent", ""));
   if (spec.joint.empty()) spec.tendon = values.text("tendon", "");
   if (values.has("gear")) spec.gear = values.numbers("gear", 1, 6)[0];
-  spec.control_range = actuator_range(values, document, "ctrlrange", "ctrllimited");
-  spec.force_range = actuator_range(values, document, "forcerange", "forcelimited");
+  spec.control_range = limited_range(values, document, "ctrlrange", "ctrllimited");
+  spec.force_range = limited_range(values, document, "forcerange", "forcelimited");
 
   Law law;
   for (size_t i = behind.size(); i-- > 0;) law.read(behind[i], document);

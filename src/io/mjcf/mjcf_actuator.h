@@ -1,5 +1,8 @@
 // Actuators of MJCF with the defaults of their classes, as MuJoCo compiles them.
 #pragma once
+#include <array>
+#include <optional>
+
 #include "clench/io/mjcf/mjcf_document.h"
 
 namespace clench {
@@ -15,6 +18,11 @@ struct MjcfActuator {
   /// Largest force, gear included; infinite where nothing bounds it [N or N m].
   double max_force() const;
 };
+
+/// A range, such as "ctrlrange", where the attribute `limited_name` lets it count: two zeros undo that
+/// of a class unless that attribute is "true".
+std::optional<std::array<double, 2>> limited_range(const XmlValues& values, MjcfDocument& document,
+                                                   const char* range, const char* limited_name);
 
 /// All shortcuts of <general>, such as <motor> and <position>, write into one set of parameters:
 /// those of a class, whatever they are called there, are the defaults of any actuator of the class.

@@ -16,10 +16,8 @@ MjcfContacts::MjcfContacts(MjcfDocument& document, const FileCache& cache)
   for (const MjcfNode& option : document.root().children)
     if (option.name() == "option")
       for (const MjcfNode& flag : option.children)
-        if (flag.name() == "flag")
-          filter_parents_ =
-              XmlValues(flag.element).word("filterparent", {"enable", "disable"}, "enable") ==
-              "enable";
+        if (const XmlValues flags(flag.element); flag.name() == "flag" && flags.has("filterparent"))
+          filter_parents_ = flags.word("filterparent", {"enable", "disable"}, "enable") == "enable";
   for (const MjcfNode* node : document.section("contact")) {
     if (node->name() != "pair") continue;
     MjcfPair pair{document.values(node->element), {}};

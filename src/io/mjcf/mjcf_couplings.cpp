@@ -28,7 +28,7 @@ class Couplings {
         unused_(tells ? document.unused() : told_already_) {
     for (size_t j = 0; j < tree.joints.size(); ++j)
       numbers_[tree.joints[j].name] = static_cast<int>(j);
-    for (const MjcfNode* node : document.section("worldbody")) find_names(*node, false);
+    for (const MjcfNode* node : document.section("worldbody")) find_names(*node);
   }
   void read() {
     read_tendons();
@@ -36,7 +36,6 @@ class Couplings {
     for (const MjcfNode* node : document_.section("actuator")) read_actuator(node->element);
     tell_unused();
     apply_mjcf_drives(drives_, document_, cache_, tree_);
-    for (const int turn : turns_of_balls_) tree_.joints[turn].motor.driven = true;
     for (const MjcfTendon& tendon : tendons_) add_tendon_dynamics(tendon, document_, cache_, tree_);
     mark_passive();
   }
@@ -45,7 +44,7 @@ class Couplings {
   void warn(const XmlElement& at, const std::string& what) const {
     cache_.warn(at.place() + ": " + what);
   }
-  void find_names(const MjcfNode& node, bool copied);
+  void find_names(const MjcfNode& node);
   bool concerns(const XmlValues& values) const;
   std::string why_not(const std::string& name) const;
   std::optional<int> joint(const XmlValues& values, const char* attribute);
@@ -56,7 +55,6 @@ class Couplings {
   void tie_joints(const XmlElement& element, const XmlValues& values);
   void tie_tendon(const XmlElement& element, const XmlValues& values);
   void read_actuator(const XmlElement& element);
-  void drive_ball(const std::string& name);
   void tell_law(const MjcfActuator& actuator);
   struct Unused;
   static void add_unused(std::map<std::string, Unused>& kinds, const std::string& kind,
@@ -69,12 +67,10 @@ class Couplings {
   TreeModel& tree_;
   std::map<std::string, int> numbers_;
   std::map<std::string, bool>
-      others_;                       // joints in the file by another name or none: are they free?
-  std::vector<std::string> copied_;  // beginnings of the names of joints in <replicate>
-  bool attaches_ = false;            // are there joints whose names another file gives?
+      others_;             // joints in the file by another name or none: are they free?
+  bool composes_ = false;  // are there elements that would make joints?
   std::deque<MjcfTendon> tendons_;
   std::vector<MjcfDrive> drives_;
-  std::vector<int> turns_of_balls_;  // that actuators of balls drive
   bool has_actuators_ = false;
   const std::set<std::string>& elsewhere_;  // joints of other robots
   const bool tells_;                        // of what concerns no joint at all
@@ -108,16 +104,15 @@ bool Couplings::concerns(const XmlValues& values) const {
 }
 
 /// Names of joints that are no joints of the robot, or not under their names.
-void Couplings::find_names(const MjcfNode& node, bool copied) {
+void Couplings::find_names(const MjcfNode& node) {
   const std::string kind = node.name();
   if (kind == "joint" || kind == "freejoint") {
     const std::string name = node.element.attribute("name").value_or("");
     const bool free = kind == "freejoint" || node.element.attribute("type").value_or("") == "free";
     if (!name.empty() && !numbers_.contains(name)) others_[name] = free;
-    if (!name.empty() && copied) copied_.push_back(name);
   }
-  attaches_ = attaches_ || kind == "attach" || kind == "composite" || kind == "flexcomp";
-  for (const MjcfNode& child : node.children) find_names(child, copied || kind == "replicate");
+  composes_ = composes_ || kind == "composite" || kind == "flexcomp";
+  for (const MjcfNode& child : node.children) find_names(child);
 }
 
 /// Why a name of the file is none of the robot's joints; empty: it stands nowhere.
@@ -126,9 +121,7 @@ std::string Couplings::why_not(const std::string& name) const {
   if (elsewhere_.contains(name)) return "is of another robot";
   if (const auto found = others_.find(name); found != others_.end())
     return found->second ? "is free, and no joint of the robot" : "is of a body that is not read";
-  for (const std::string& first : copied_)
-    if (name.starts_with(first)) return "is of a <replicate>, which is not read";
-  return attaches_ ? "may be of an <attach> or <composite>, which are not read" : "";
+  return composes_ ? "may be of a <composite> or <flexcomp>, which are not read" : "";
 }
 
 /// Empty, with a warning, when the joint is in the file but not in the robot.
@@ -285,10 +278,8 @@ void Couplings::read_actuator(const XmlElement& element) {
                       "gaintype",  "gainprm",     "biastype",   "biasprm",       "dyntype"});
   MjcfDrive drive;
   if (on_joint) {
-    const char* target = values.has("joint") ? "joint" : "jointinparent";
-    const auto number = joint(values, target);
-    // what drives a ball drives its turns
-    if (!number) return drive_ball(values.text(target));
+    const auto number = joint(values, values.has("joint") ? "joint" : "jointinparent");
+    if (!number) return;
     drive.joint = *number;
   } else if (values.has("tendon")) {
     drive.tendon = &tendon(values, "tendon");
@@ -307,12 +298,6 @@ void Couplings::read_actuator(const XmlElement& element) {
   tell_law(actuator);
   drive.actuator = std::move(actuator);
   drives_.push_back(std::move(drive));
-}
-
-void Couplings::drive_ball(const std::string& name) {
-  for (const char* axis : {"_x", "_y", "_z"})
-    if (const auto turn = numbers_.find(name + axis); turn != numbers_.end())
-      turns_of_balls_.push_back(turn->second);
 }
 
 void Couplings::add_unused(std::map<std::string, Unused>& kinds, const std::string& kind,

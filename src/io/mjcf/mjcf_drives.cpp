@@ -1,6 +1,5 @@
 #include "clench/io/mjcf/mjcf_drives.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +18,25 @@ constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 std::string range_text(double low, double high) {
   return fmt::format("[{:.6g}, {:.6g}]", low, high);
+}
+
+/// Entries of a row of unit length that count as 0.
+constexpr double tiny_pull = 1e-6;
+
+void to_unit_length(std::map<int, double>& row) {
+  double largest = 0, sum = 0;
+  for (const auto& [joint, pull] : row) largest = std::max(largest, std::abs(pull));
+  for (const auto& [joint, pull] : row) sum += (pull / largest) * (pull / largest);
+  for (auto& [joint, pull] : row) pull = pull / largest / std::sqrt(sum);
+  std::erase_if(row, [](const auto& entry) { return std::abs(entry.second) <= tiny_pull; });
+}
+
+/// Are two rows of unit length the same, but for their sign?
+bool in_one_ratio(const std::map<int, double>& a, const std::map<int, double>& b) {
+  const double sign = (a.begin()->second < 0) == (b.begin()->second < 0) ? 1 : -1;
+  return std::ranges::equal(a, b, [&](const auto& x, const auto& y) {
+    return x.first == y.first && std::abs(x.second - sign * y.second) <= tiny_pull;
+  });
 }
 
 class Drives {
@@ -162,7 +180,7 @@ void Drives::tell_independent(const std::vector<int>& group) {
   std::vector<std::string> tendons, joints;
   const MjcfDrive* first = nullptr;
   const auto in_group = [&](const auto& part) {
-    return std::ranges::find(group, leader_of(tree_, part.first)) != group.end();
+    return std::ranges::binary_search(group, leader_of(tree_, part.first));
   };
   for (const MjcfDrive& drive : drives_) {
     if (!drive.tendon || std::ranges::none_of(drive.tendon->joints, in_group)) continue;
@@ -196,23 +214,17 @@ void Drives::tie_joints() {
   std::map<int, std::vector<int>> members;
   for (int j = 0; j < static_cast<int>(count); ++j)
     if (leader_of(tree_, j) == j) members[groups.find(j)].push_back(j);
+  std::map<int, std::vector<size_t>> rows_of;
+  for (size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].empty()) continue;
+    rows_of[groups.find(rows[r].begin()->first)].push_back(r);
+    to_unit_length(rows[r]);
+  }
   for (const auto& [root, group] : members) {
     if (group.size() < 2) continue;
-    std::vector<size_t> of_group;
-    for (size_t r = 0; r < rows.size(); ++r)
-      if (!rows[r].empty() && groups.find(rows[r].begin()->first) == root) of_group.push_back(r);
-    Eigen::MatrixXd ratios = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(of_group.size()),
-                                                   static_cast<Eigen::Index>(group.size()));
-    for (size_t i = 0; i < of_group.size(); ++i) {
-      const auto& row = rows[of_group[i]];
-      for (size_t k = 0; k < group.size(); ++k)
-        if (const auto found = row.find(group[k]); found != row.end())
-          ratios(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = found->second;
-      ratios.row(static_cast<Eigen::Index>(i)).normalize();
-    }
-    Eigen::FullPivLU<Eigen::MatrixXd> lu(ratios);
-    lu.setThreshold(1e-6);
-    if (lu.rank() > 1) {
+    const std::vector<size_t>& of_group = rows_of[root];
+    const auto parallel = [&](size_t r) { return in_one_ratio(rows[of_group[0]], rows[r]); };
+    if (!std::ranges::all_of(of_group, parallel)) {
       tell_independent(group);
       continue;
     }
@@ -303,9 +315,10 @@ void Drives::set_motors() {
   std::map<int, double> by_dof;
   for (size_t j = 0; j < efforts.size(); ++j) {
     const TiedJoint tied = by_leader(tree_, static_cast<int>(j));
-    if (!driven[j] || tied.leader < 0) continue;
+    // what stands still, or whose limit is 0, moves no leader
+    if (!driven[j] || tied.leader < 0 || tied.ratio == 0 || efforts[j] == 0) continue;
     tree_.joints[tied.leader].motor.driven = true;
-    if (tied.ratio != 0) by_dof[tied.leader] += efforts[j] * std::abs(tied.ratio);
+    by_dof[tied.leader] += efforts[j] * std::abs(tied.ratio);
   }
   for (const auto& [leader, effort] : by_dof)
     if (effort < no_bound) tree_.joints[leader].motor.max_effort = effort;

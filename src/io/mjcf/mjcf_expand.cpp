@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "clench/base/suggest.h"
+#include "clench/base/watched.h"
 #include "clench/io/mjcf/mjcf_names.h"
 #include "clench/io/text/find_file.h"
 
@@ -45,10 +46,12 @@ class MjcfExpander {
   void copy_sections(const MjcfNode& from, MjcfNode& root, const Rename& rename);
   MjcfNode copy(const MjcfNode& node, const Rename& rename, XmlCopies::Attributes more = {});
   MjcfNode frame(const XmlElement& original, XmlCopies::Attributes attributes);
+  void count(const XmlElement& original);
 
   MjcfDocument& document_;
   FileCache& cache_;
   int generated_ = 0;
+  StopCheck check_{1000};
   int depth_ = 0;
   std::map<std::string, MjcfNode> models_;  // of attached files, by place of the asset
   std::set<std::pair<const MjcfNode*, std::string>> copied_assets_;  // of models, with prefixes
@@ -56,11 +59,17 @@ class MjcfExpander {
 
 // --- copies ---
 
+/// Counts an element that is made from another one.
+void MjcfExpander::count(const XmlElement& original) {
+  check_();
+  if (++generated_ > max_generated_elements)
+    original.fail("expected at most {} elements made by replicate and attach",
+                  max_generated_elements);
+}
+
 MjcfNode MjcfExpander::copy(const MjcfNode& node, const Rename& rename,
                             XmlCopies::Attributes more) {
-  if (++generated_ > max_generated_elements)
-    node.element.fail("expected at most {} elements made by replicate and attach",
-                      max_generated_elements);
+  count(node.element);
   XmlCopies::Attributes attributes;
   for (const std::string& key : node.element.attributes())
     attributes.emplace_back(key, rename(node, key, node.element.attribute(key).value_or("")));
@@ -72,12 +81,14 @@ MjcfNode MjcfExpander::copy(const MjcfNode& node, const Rename& rename,
 }
 
 MjcfNode MjcfExpander::frame(const XmlElement& original, XmlCopies::Attributes attributes) {
+  count(original);
   return {document_.copies_.make(original, "frame", attributes), {}};
 }
 
 void MjcfExpander::expand_below(MjcfNode& node, MjcfNode& root) {
   std::vector<MjcfNode> children;
   for (MjcfNode& child : node.children) {
+    check_();
     const std::string name = child.name();
     if (name == "attach") {
       attach(child, root, children);
@@ -104,6 +115,7 @@ static XmlCopies::Attributes pose_attributes(const Pose& X) {
 /// Each replica stands in the frame of the one before. Names end in `sep` and the replica's number,
 /// padded to as many digits as their count has.
 void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
+  check_stop();
   const XmlValues values(node.element);
   document_.unused_.attributes(node.element, {"count", "sep", "offset", "euler", "childclass"});
   values.text("count");
@@ -123,9 +135,12 @@ void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<M
   MjcfNode referring{node.element, {}};
   for (const char* section : referring_sections)
     for (MjcfNode& part : root.children) {
+      if (names.empty()) break;  // nothing can refer to replicas
+      check_();
       if (part.name() != section) continue;
       MjcfNode found{part.element, {}};
       std::erase_if(part.children, [&](MjcfNode& element) {
+        check_();
         if (names.references(element).inside == 0) return false;
         names.add(element);
         found.children.push_back(std::move(element));
@@ -267,6 +282,7 @@ void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::
 /// Copies a body, a frame or all contents of a model, whose names get a prefix. Frames around a
 /// body are left out, those around a frame too; classes are inherited.
 void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
+  check_stop();
   constexpr int max_depth = 20;
   if (++depth_ > max_depth)
     node.element.fail("attach: expected at most {} attached in each other", max_depth);
@@ -326,9 +342,12 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
   std::vector<MjcfNode> sections;
   for (const char* section : referring_sections)
     for (const MjcfNode& part : source.children) {
+      if (names.empty()) break;
+      check_();
       if (part.name() != section) continue;
       MjcfNode out{part.element, {}};
       for (const MjcfNode& element : part.children) {
+        check_();
         const auto references = names.references(element);
         if (references.inside == 0) continue;
         if (references.outside > 0) {

@@ -18,6 +18,7 @@ class MjcfNames {
   /// Adds the names of elements and of all below them.
   void add(const std::vector<MjcfNode>& nodes);
   void add(const MjcfNode& node);
+  bool empty() const { return names_.empty(); }
   bool has(std::string_view kind, const std::string& name) const;
 
   /// How many of the names that an element and those below it refer to are these, and how many

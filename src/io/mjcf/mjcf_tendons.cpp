@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "clench/io/mjcf/mjcf_actuator.h"
 #include "clench/io/mjcf/mjcf_ties.h"
 
 namespace clench {
@@ -33,9 +34,7 @@ MjcfTendon read_mjcf_tendon(MjcfDocument& document, const XmlElement& element) {
   out.values.tell_unused(document.unused(),
                          {"name", "class", "limited", "range", "stiffness", "springlength",
                           "damping", "frictionloss", "actuatorfrclimited", "actuatorfrcrange"});
-  if (out.values.has("actuatorfrcrange") &&
-      out.values.text("actuatorfrclimited", "auto") != "false")
-    out.force_range = out.values.range("actuatorfrcrange", document.repairs());
+  out.force_range = limited_range(out.values, document, "actuatorfrcrange", "actuatorfrclimited");
   return out;
 }
 
