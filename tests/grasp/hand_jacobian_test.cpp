@@ -1,5 +1,6 @@
 #include "clench/grasp/force/hand_jacobian.h"
 
+#include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/grasp/force/contact_forces.h"
 #include "clench/grasp/force/link_weight.h"

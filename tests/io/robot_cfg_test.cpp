@@ -7,6 +7,8 @@
 #include "temporary.h"
 
 using namespace clench;
+using clench::test::joint_of;
+using clench::test::link_of;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
