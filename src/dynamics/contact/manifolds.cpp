@@ -324,4 +324,18 @@ void find_manifolds(World& world, const System& system, double travel) {
   }
 }
 
+void update_manifolds(World& world) {
+  const double threshold = world.contact_threshold();
+  for (Manifold& m : world.edit_dynamics().manifolds) {
+    const double moved =
+        displacement(m.X_AB, relative_pose(world, m.a, m.b), *world.body(m.b).shape);
+    if (m.clearance > threshold ? moved >= m.clearance - threshold
+                                : moved > follows_within * threshold)
+      measure(world, m);
+    else
+      update_gaps(world, m);
+    for (ManifoldPoint& point : m.points) update_torsion(point);
+  }
+}
+
 }  // namespace clench

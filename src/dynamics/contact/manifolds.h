@@ -27,6 +27,10 @@ void find_manifolds(World& world, const System& system, double travel);
 /// so gets those of the shortest way out.
 void measure(World& world, Manifold& manifold);
 
+/// Measures all pairs that have moved farther than their points can follow; of the others points
+/// follow. The torsion that soft points resist is up to date afterwards.
+void update_manifolds(World& world);
+
 /// Gaps of its points where the pair is now, in the order of the points.
 void update_gaps(const World& world, Manifold& manifold);
 

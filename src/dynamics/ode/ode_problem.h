@@ -23,6 +23,8 @@ struct OdeProblem {
   const System& system;
   const Eigen::VectorXd& v;                ///< before the step, one per coordinate
   const std::vector<JointForces>& forces;  ///< by tree
+  /// by tree, at the centre of its root; see TreeDynamics::root_acceleration
+  const std::vector<Vector6d>& root_accelerations;
   const std::vector<CoordinateRow>& rows;
   const std::vector<OdeContact>& contacts;
 };

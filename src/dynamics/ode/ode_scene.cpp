@@ -132,7 +132,10 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
   if (root.body) {
     root.w = twist.angular;
     root.v = twist.linear + root.w.cross(arm);
-    root.acceleration = root.w.cross(root.w.cross(arm));
+    const Vector6d& coasting = problem_.root_accelerations[number];
+    root.turning = coasting.tail<3>();
+    root.acceleration =
+        coasting.head<3>() + root.turning.cross(arm) + root.w.cross(root.w.cross(arm));
   }
   for (size_t i = 0; i < out.joints.size(); ++i) {
     const OdeJoint& joint = out.joints[i];

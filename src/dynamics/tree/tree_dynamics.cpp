@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "clench/math/decompositions.h"
+
 namespace clench {
 
 SpatialInertia SpatialInertia::of(const Body& body, const Pose& X_WB,
@@ -139,10 +141,9 @@ void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* 
 
 const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
                                                const Eigen::Vector3d& gravity) {
-  const auto& joints = tree_->joints;
   bias_.setZero(tree_->size());
+  coasting_.setZero();
   if (tree_->is_free_body()) {
-    // its turning keeps its momentum on the way: see Mover
     bias_.head<3>() = -own_[0].mass * gravity;
     if (!carried_.empty()) {
       bias_.head<3>() += carried_[0].mass * gravity;
@@ -150,13 +151,45 @@ const Eigen::VectorXd& TreeDynamics::find_bias(const Eigen::VectorXd& v, const V
     }
     return bias_;
   }
+  if (!tree_->floating) {
+    add_bias(v, root_twist, gravity);
+    return bias_;
+  }
+  add_bias(v, root_twist, Eigen::Vector3d::Zero());
+  coasting_ = coasting_acceleration(bias_.head<6>());
+  bias_ += M_.leftCols<6>() * coasting_;
+  bias_.head<6>().setZero();
+  add_bias(Eigen::VectorXd::Zero(v.size()), root_twist, gravity);
+  return bias_;
+}
+
+void TreeDynamics::add_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
+                            const Eigen::Vector3d& gravity) {
+  const auto& joints = tree_->joints;
   find_forces(v, nullptr, root_twist, gravity);
   for (size_t i = joints.size(); i-- > 0;) {
     bias_[joints[i].coordinate] += joints[i].ratio * S_[i].dot(force_[i + 1]);
     force_[joints[i].parent + 1] += force_[i + 1];
   }
-  if (tree_->floating) bias_.head<6>() = force_[0];
-  return bias_;
+  if (tree_->floating) bias_.head<6>() += force_[0];
+}
+
+// Of a root whose tree keeps its momentum while its joints keep their velocities.
+// bias  that velocities cause on the root
+Vector6d TreeDynamics::coasting_acceleration(const Vector6d& bias) const {
+  return root_velocity(-bias, Eigen::VectorXd::Zero(tree_->size()));
+}
+
+Vector6d TreeDynamics::momentum(const Eigen::Ref<const Eigen::VectorXd>& v) const {
+  return M_.topRows<6>() * v;
+}
+
+Vector6d TreeDynamics::root_velocity(const Vector6d& momentum,
+                                     const Eigen::Ref<const Eigen::VectorXd>& v) const {
+  const Eigen::Index joints = v.size() - 6;
+  DenseCholesky root;
+  if (!root.factor(M_.topLeftCorner<6, 6>())) return v.head<6>();  // it has no mass
+  return root.solve(momentum - M_.topRightCorner(6, joints) * v.tail(joints));
 }
 
 const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd& v,
@@ -167,7 +200,15 @@ const std::vector<double>& TreeDynamics::inverse_dynamics(const Eigen::VectorXd&
   const auto& joints = tree_->joints;
   joint_efforts_.assign(joints.size(), 0);
   if (tree_->is_free_body()) return joint_efforts_;
-  find_forces(v, &change, root_twist, gravity);
+  if (tree_->floating) {
+    bias_.setZero(tree_->size());
+    add_bias(v, root_twist, Eigen::Vector3d::Zero());
+    Eigen::VectorXd all = change;
+    all.segment<6>(tree_->first) += coasting_acceleration(bias_.head<6>());
+    find_forces(v, &all, root_twist, gravity);
+  } else {
+    find_forces(v, &change, root_twist, gravity);
+  }
   for (size_t b = 0; b < loads.size(); ++b) force_[tree_->bodies[b].joint + 1] -= loads[b];
   for (size_t i = joints.size(); i-- > 0;) {
     joint_efforts_[i] = S_[i].dot(force_[i + 1]);

@@ -32,15 +32,19 @@ class TreeDynamics {
  public:
   /// Where joints and masses are, and the mass matrix.
   void place(const World& world, const Articulation& tree);
-  /// Forces that velocities cause, on each coordinate: M dv/dt = efforts - bias.
+  /// Forces that velocities and gravity cause, on each coordinate: M dv/dt = efforts - bias. A root
+  /// that floats is taken to keep the momentum of its tree while it moves (see root_velocity): its
+  /// bias is weight alone, and dv/dt lacks the acceleration of the root that this causes.
   /// root_twist  of a root that moves as prescribed, at the point about() [m/s, rad/s]
   /// gravity     [m/s^2]
   /// returns     bias, one per coordinate [N or N m]
   const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
                                    const Eigen::Vector3d& gravity);
+  /// The acceleration of a root that floats which the last find_bias left out; else 0.
+  const Vector6d& root_acceleration() const { return coasting_; }
   /// What must act on each joint, beside what acts on bodies, so that velocities change as they do.
   /// Recursive Newton and Euler.
-  /// change  of the coordinates' velocities [m/s^2, rad/s^2]
+  /// change  of the coordinates' velocities, as find_bias has them [m/s^2, rad/s^2]
   /// loads   on the bodies, (force, torque about about()), by the tree's bodies; or none
   /// returns one per joint of the tree, for its own unit [N m or N]
   const std::vector<double>& inverse_dynamics(const Eigen::VectorXd& v,
@@ -54,6 +58,13 @@ class TreeDynamics {
   /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at
   /// once.
   Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
+  /// Of a tree whose root floats: linear momentum, and angular momentum about about() [N s, N m s].
+  /// v  of its coordinates alone
+  Vector6d momentum(const Eigen::Ref<const Eigen::VectorXd>& v) const;
+  /// The velocity of a root that floats that gives its tree a momentum.
+  /// v  of its coordinates alone; those of the root are not used
+  Vector6d root_velocity(const Vector6d& momentum,
+                         const Eigen::Ref<const Eigen::VectorXd>& v) const;
   /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at
   /// the step's end), and factors.
   /// added_to_root  6 x 6, likewise of a root that floats; or empty
@@ -83,6 +94,9 @@ class TreeDynamics {
                   const Vector6d& root_twist) const;
   void place_joints(const World& world);
   void find_mass_matrix();
+  void add_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
+                const Eigen::Vector3d& gravity);
+  Vector6d coasting_acceleration(const Vector6d& bias) const;
   void find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change,
                    const Vector6d& root_twist, const Eigen::Vector3d& gravity);
 
@@ -98,6 +112,7 @@ class TreeDynamics {
   bool root_is_coupled_ = false;  // does a free body's added mass couple its velocity and turning?
   std::vector<SpatialInertia> carried_;  // as own_, of the weight that is left out; or empty
   Eigen::VectorXd bias_;
+  Vector6d coasting_ = Vector6d::Zero();
   RobotFrames frames_;
 };
 

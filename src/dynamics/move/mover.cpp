@@ -1,4 +1,4 @@
-#include "clench/dynamics/mover.h"
+#include "clench/dynamics/move/mover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,22 @@ Mover::Mover(World& world, const System& system) : world_(world) {
                          from(state.joint_velocities, robot.first_joint, robot.joints.size())});
       if (!robot.mounting && robots_.back().rests()) robots_.pop_back();
     }
+  find_floating(system);
   find_carriers(system);
+}
+
+void Mover::find_floating(const System& system) {
+  for (const Articulation& tree : system.trees) {
+    if (!tree.floating || tree.robots.empty()) continue;
+    Eigen::VectorXd v;
+    gather_velocities(system, world_, *world_.dynamics(), v);
+    TreeDynamics dynamics;
+    dynamics.place(world_, tree);
+    Floating out{&tree, v.segment(tree.first, tree.size()), {}};
+    out.momentum = dynamics.momentum(out.v);
+    out.momentum.tail<3>() += dynamics.about().cross(Eigen::Vector3d(out.momentum.head<3>()));
+    floating_.push_back(std::move(out));
+  }
 }
 
 // What turns otherwise than its carrier, by this part of that, rolls on it.
@@ -323,6 +338,16 @@ void Mover::finish(double s) {
         world_.pose(part.body).rotation * (world_.body(part.body).com - part.com);
     world_.edit_dynamics().twists[part.body.index] = {
         part.after.linear + part.after.angular.cross(arm), part.after.angular};
+  }
+  for (const Floating& start : floating_) {
+    TreeDynamics dynamics;
+    dynamics.place(world_, *start.tree);
+    Vector6d momentum = start.momentum;
+    momentum.tail<3>() -= dynamics.about().cross(Eigen::Vector3d(momentum.head<3>()));
+    const Vector6d v = dynamics.root_velocity(momentum, start.v);
+    const Eigen::Vector3d angular = v.tail<3>();
+    world_.edit_dynamics().twists[start.tree->root.index] = {
+        v.head<3>() + angular.cross(dynamics.com(0) - dynamics.about()), angular};
   }
   for (const RobotStart& start : robots_)
     for (const int joint : start.picked_up) world_.set_follows_dof(start.robot, joint, true);

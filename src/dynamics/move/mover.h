@@ -11,11 +11,12 @@ namespace clench {
 
 class Mover {
  public:
+  /// system  outlives it
   Mover(World& world, const System& system);
 
   /// Puts everything where it is s after the start [s].
   void place(double s);
-  /// The same; what turns freely has then the velocity that keeps its angular momentum.
+  /// The same; then free bodies and robots that float have the velocity that keeps their momentum.
   void finish(double s);
 
  private:
@@ -34,6 +35,13 @@ class Mover {
   static Part free_part(const World& world, const Articulation& tree);
   class Carriers;
   void find_carriers(const System& system);
+  void find_floating(const System& system);
+  /// A tree of robots whose root floats.
+  struct Floating {
+    const Articulation* tree;
+    Eigen::VectorXd v;  // of its coordinates, at the start
+    Vector6d momentum;  // linear, and angular about the world's origin
+  };
   struct RobotStart {  // a robot as it stood and moved when the step began
     Id<Robot> robot;
     Pose X_WB;  // of its base, when nobody carries it
@@ -50,6 +58,7 @@ class Mover {
   double placed_ = -1;       // where everything is [s]; negative: nobody has been asked to move
   std::vector<Part> parts_;  // what is carried by others of them after these
   std::vector<RobotStart> robots_;  // carriers before what they carry
+  std::vector<Floating> floating_;
   struct Welded {
     Id<Body> body, to;
     Pose X_WB, X_WT;

@@ -1,0 +1,241 @@
+#include "clench/dynamics/move/meetings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "clench/base/watched.h"
+#include "clench/dynamics/contact/ball_contact.h"
+#include "clench/dynamics/contact/manifolds.h"
+#include "clench/dynamics/contact/sliding.h"
+#include "clench/dynamics/move/mover.h"
+#include "clench/model/advance.h"
+#include "clench/model/near_bodies.h"
+
+namespace clench {
+namespace {
+
+// May a pair that was apart when it was last measured have met on the way to X_AB?
+bool may_have_met(const World& world, const Manifold& m, const Pose& X_AB) {
+  // distances are exact up to rounding
+  constexpr double certain = 0.999;
+  return displacement(m.X_AB, X_AB, *world.body(m.b).shape) >= certain * m.clearance;
+}
+
+// An upper bound of the speed of the points of a body [m/s].
+double max_speed(const World& world, Id<Body> id) {
+  const Twist& twist = world.dynamics()->twists[id.index];
+  const Body& body = world.body(id);
+  if (twist.is_zero()) return 0;
+  return twist.linear.norm() +
+         twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
+}
+
+// An upper bound of the angle by which a pair turns about each other [rad].
+double turn(const World& world, const Manifold& m, double dt) {
+  const auto& twists = world.dynamics()->twists;
+  return dt * (twists[m.a.index].angular.norm() + twists[m.b.index].angular.norm());
+}
+
+// The least size of a body along its axes [m]: no shorter path leads through it.
+double thickness(const Shape& shape) { return shape.bounds().size().minCoeff(); }
+
+// An upper bound of how far any point of a body moves in dt [m].
+double max_travel(const World& world, double dt) {
+  double travel = 0;
+  for (const auto id : world.bodies())
+    if (world.body(id).shape) travel = std::max(travel, dt * max_speed(world, id));
+  return travel;
+}
+
+// Which pairs may meet while bodies move, and how much time passes until then.
+class Meetings {
+ public:
+  Meetings(World& world, Mover& mover, double dt)
+      : world_(world), mover_(mover), dt_(dt), max_time_(dt), overlap_time_(dt) {}
+
+  /// Looks at a pair, with everything placed at dt: either it has arrived without meeting, or it is
+  /// noted how time() follows it.
+  void follow(int manifold);
+  /// How much of dt passes until the first of them meet [s].
+  double time();
+  /// Is it shorter than overlaps alone would make it?
+  bool cut_short(double time) const { return time < overlap_time_; }
+  /// Measures the manifolds that may have changed, with everything placed at the time that passed.
+  /// whole  has all of dt passed?
+  void measure_changed(bool whole);
+
+ private:
+  double advance_balls(double end);
+  double free_until(const Manifold& m, int looks);
+
+  World& world_;
+  Mover& mover_;
+  double dt_;
+  std::vector<int> suspects_;  // manifolds that may change
+  std::vector<PairBound> watched_;
+  std::vector<std::pair<int, double>> balls_;      // manifolds, and bounds of their speeds
+  std::vector<std::pair<int, Manifold>> arrived_;  // measured where they arrive
+  // least time that passes: next to none where all start with a gap, as they may meet at any time
+  std::optional<double> min_time_;
+  double max_time_;      // largest time that passes
+  double overlap_time_;  // after which bodies that overlap are measured again
+};
+
+// Conservative advancement (see model/advance.h) of pairs one of which is a ball.
+// returns  the time until the first of them meet, or `end` [s]
+double Meetings::advance_balls(double end) {
+  constexpr double aim = 0.2, there = 0.3;
+  const double threshold = world_.contact_threshold();
+  double stop = end;
+  for (const auto& [i, speed] : balls_) {
+    const Manifold& m = world_.dynamics()->manifolds[i];
+    double s = 0, before = std::numeric_limits<double>::infinity();
+    for (int steps = 0; s < stop && steps < 1000; ++steps) {
+      check_stop();
+      mover_.place(s);
+      const double gap = ball_distance(world_, m, speed * (stop - s) + 2 * threshold);
+      // a pair that separates does not stop
+      if (gap <= there * threshold && gap < before && steps > 0) break;
+      before = gap;
+      s = std::min(stop, s + std::max(gap - aim * threshold, 0.05 * threshold) / speed);
+    }
+    stop = std::min(stop, s);
+  }
+  mover_.place(stop);
+  return stop;
+}
+
+// The time until which a touching pair does not overlap, found by `looks` queries on its path and a
+// bisection; dt where it never overlaps.
+double Meetings::free_until(const Manifold& m, int looks) {
+  const auto [first, second] = ordered(m.a, m.b);
+  const auto is_free = [&](double s) {
+    check_stop();
+    mover_.place(s);
+    if (has_ball(world_, m)) return ball_distance(world_, m, world_.contact_threshold()) > 0;
+    return distance(*world_.body(m.a).shape, *world_.body(m.b).shape,
+                    relative_pose(world_, m.a, m.b), world_.contact_threshold(),
+                    &world_.context().pair(first, second))
+               .distance > 0;
+  };
+  double free = 0, met = dt_;
+  int k = 1;
+  while (k <= looks && is_free(dt_ * k / (looks + 1))) free = dt_ * k++ / (looks + 1);
+  if (k <= looks || !is_free(dt_)) {
+    met = dt_ * k / (looks + 1);
+    for (int i = 0; i < 6; ++i) (is_free((free + met) / 2) ? free : met) = (free + met) / 2;
+  } else {
+    free = dt_;
+  }
+  mover_.place(dt_);
+  return free;
+}
+
+void Meetings::follow(int number) {
+  // Pairs that move farther than this many thresholds in a step are followed along their path;
+  // others are measured where they arrive.
+  constexpr double short_path = 10, max_looks = 1000;
+  // Pairs that turn by more than the first have a path much longer than its chord; pairs that turn
+  // by more than the second are not followed [rad].
+  constexpr double far_turn = 0.5, whirl = 20;
+  const Manifold& m = world_.dynamics()->manifolds[number];
+  const Shape& shape = *world_.body(m.b).shape;
+  const Pose &before = m.X_AB_end, X_AB = relative_pose(world_, m.a, m.b);
+  const double threshold = world_.contact_threshold(), step = world_.dynamic_settings().step;
+  // the path of a turn is longer than its chord
+  const double turned = turn(world_, m, dt_);
+  const bool far = turned > far_turn;
+  const double arc = far ? dt_ * (max_speed(world_, m.a) + max_speed(world_, m.b)) : 0;
+  if (!may_have_met(world_, m, X_AB) &&
+      !(far && displacement(m.X_AB, before, shape) + arc >= m.clearance))
+    return;
+  suspects_.push_back(number);
+  const double path = far ? arc : displacement(before, X_AB, shape);
+  const double thin = 0.5 * std::min(thickness(*world_.body(m.a).shape), thickness(shape));
+  if (m.clearance == 0) {
+    // they overlap: nothing stops them, but they are measured before one has passed through the
+    // other
+    if (path > thin && !m.points.empty())
+      overlap_time_ = std::min(overlap_time_, std::max(dt_ * thin / path, 1e-3 * step));
+    return;
+  }
+  const bool touching = m.clearance - displacement(m.X_AB, before, shape) <= threshold;
+  const double looked_at = std::min(short_path * threshold, thin);
+  Manifold there = m;
+  bool arrived = path <= thin && follow_sliding(world_, there);
+  if (turned > whirl) measure(world_, there), arrived = true;
+  // conservative advancement of a touching pair would take a thousand queries
+  const bool looks = !arrived && touching && path > looked_at && path <= max_looks * looked_at;
+  const double free = looks ? free_until(m, static_cast<int>(path / looked_at)) : 0;
+  if (!arrived && (path <= looked_at || free == dt_)) {
+    measure(world_, there);
+    arrived = there.clearance > 0 || free == dt_;
+  }
+  if (arrived) {
+    arrived_.emplace_back(number, std::move(there));
+    return;
+  }
+  // pairs within the threshold move on by a hundredth of a step, but not through each other; by less
+  // where it is known when they meet
+  const double least = std::min(0.01 * step, dt_ * thin / path);
+  if (touching) min_time_ = std::min(min_time_.value_or(dt_), least);
+  if (looks)
+    max_time_ = std::min(max_time_, std::max(free, 0.1 * least));
+  else if (has_ball(world_, m))
+    balls_.push_back({number, 1.1 * path / dt_});
+  else
+    watched_.push_back({.a = m.a, .b = m.b, .speed = 1.1 * path / dt_});
+}
+
+double Meetings::time() {
+  const double most = std::min(max_time_, overlap_time_);
+  double passed = most;
+  if (!balls_.empty()) passed = advance_balls(passed);
+  if (!watched_.empty()) {
+    int queries = 0;
+    // each pair is measured at first, and some ten times on its path
+    const int max_steps = 1000 + 10 * static_cast<int>(watched_.size());
+    const Advance advance = clench::advance(
+        world_, watched_, passed, [&](double s) { mover_.place(s); }, queries, max_steps);
+    passed = advance.iteration_limit
+                 ? std::max(advance.s, std::min(passed, 0.01 * world_.dynamic_settings().step))
+                 : advance.s;
+  }
+  return std::clamp(passed, std::min(most, min_time_.value_or(1e-9 * dt_)), most);
+}
+
+void Meetings::measure_changed(bool whole) {
+  auto& manifolds = world_.edit_dynamics().manifolds;
+  if (!whole) {
+    for (const int i : suspects_) measure(world_, manifolds[i]);
+    return;
+  }
+  for (auto& [i, there] : arrived_) manifolds[i] = std::move(there);
+  for (const auto& [i, speed] : balls_) measure(world_, manifolds[i]);
+  for (const PairBound& pair : watched_)
+    for (const int i : suspects_)
+      if (manifolds[i].a == pair.a && manifolds[i].b == pair.b) measure(world_, manifolds[i]);
+}
+
+}  // namespace
+
+double move_until_meeting(World& world, const System& system, double dt) {
+  find_manifolds(world, system, max_travel(world, dt));
+  DynamicState& state = world.edit_dynamics();
+  Mover mover(world, system);
+  mover.place(dt);
+  Meetings meetings(world, mover, dt);
+  for (int i = 0; i < static_cast<int>(state.manifolds.size()); ++i) {
+    check_stop();
+    meetings.follow(i);
+  }
+  const double passed = meetings.time();
+  if (meetings.cut_short(passed)) ++state.report.impacts;
+  mover.finish(passed);
+  meetings.measure_changed(passed >= dt);
+  for (Manifold& m : state.manifolds) m.X_AB_end = relative_pose(world, m.a, m.b);
+  return passed;
+}
+
+}  // namespace clench

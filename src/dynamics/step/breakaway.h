@@ -1,0 +1,14 @@
+// Joints that leave their breakaway DOF.
+#pragma once
+#include "clench/dynamics/step/step_problem.h"
+
+namespace clench {
+
+/// A joint of a breakaway DOF leaves it when the step has transmitted more to it, in the sense in
+/// which the DOF closes, than its clutch does. The last joint that follows a DOF stays.
+/// problem  solved: velocities of its trees change
+/// v        of all coordinates, when the step ends [m/s, rad/s]
+void disengage_joints(World& world, const System& system, StepProblem& problem,
+                      const Eigen::VectorXd& v);
+
+}  // namespace clench

@@ -1,0 +1,147 @@
+#include "clench/dynamics/step/solve_islands.h"
+
+#include <algorithm>
+
+#include "clench/base/watched.h"
+#include "clench/dynamics/solve/friction_residual.h"
+
+namespace clench {
+
+// Faults of a solution [m/s]: what is asked of the solver, and above what a step counts as failed:
+// a micrometre in a quarter of an hour.
+static constexpr double tolerance = 1e-12, failed_above = 1e-9;
+// An island that touches something, is slower than this and would gain no more than that under the
+// forces that it had rests: it stops, and its forces stay. That is a millionth of gravity.
+static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
+static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
+
+bool IslandSolver::rests(const System& system, const StepProblem& problem,
+                         const Island& island) const {
+  return std::ranges::all_of(island.trees, [&](int t) {
+    const Articulation& tree = system.trees[t];
+    return problem.v_before.segment(tree.first, tree.size()).cwiseAbs().maxCoeff() < rest_speed;
+  });
+}
+
+// The blocks, velocities and warm start of an island, its rows renumbered.
+void IslandSolver::gather(const StepProblem& problem, const Island& island) {
+  problem_.blocks.clear();
+  rows_.clear();
+  int count = 0;
+  for (const int i : island.blocks) {
+    FrictionProblem::Block law = problem.blocks[i].law;
+    for (int k = 0; k < law.size(); ++k)
+      local_[law.row + k] = count + k, rows_.push_back(law.row + k);
+    law.row = count;
+    count += law.size();
+    problem_.blocks.push_back(law);
+  }
+  problem_.q.resize(count);
+  warm_start_.resize(count);
+  for (const int row : rows_) {
+    problem_.q[local_[row]] = problem.q[row];
+    warm_start_[local_[row]] = problem.warm_start[row];
+  }
+}
+
+// Do the forces of the last step hold what rests? Answered by the velocities that they leave,
+// without the matrix of the problem.
+bool IslandSolver::holds(const StepProblem& problem, const Island& island,
+                         FrictionSolution& solution) {
+  const Eigen::Index count = warm_start_.size();
+  // only its diagonal is used
+  if (problem_.W.rows() != count) problem_.W.resize(count, count);
+  solution.u = problem_.q;
+  for (const int row : rows_) {
+    const int k = local_[row];
+    problem_.W(k, k) = problem.compliance[row];
+    solution.u[k] += problem.compliance[row] * warm_start_[k];
+  }
+  Eigen::VectorXd change;
+  for (const int tree : island.trees) {
+    const TreeColumns& columns = problem.columns[tree];
+    change.setZero(columns.Y.rows());
+    for (size_t i = 0; i < columns.rows.size(); ++i) {
+      const auto column = columns.Y.col(static_cast<Eigen::Index>(i));
+      const int k = local_[columns.rows[i]];
+      change += warm_start_[k] * column;
+      problem_.W(k, k) += column.squaredNorm();
+    }
+    for (size_t i = 0; i < columns.rows.size(); ++i)
+      solution.u[local_[columns.rows[i]]] +=
+          columns.Y.col(static_cast<Eigen::Index>(i)).dot(change);
+  }
+  const FrictionFault fault =
+      friction_fault(problem_, warm_start_, solution.u, rest_acceleration * problem.h);
+  solution.r = warm_start_;
+  solution.residual = fault.largest;
+  solution.solved = fault.excess <= 1;
+  return solution.solved;
+}
+
+// W = J M^-1 J^T of an island, with compliances.
+void IslandSolver::assemble(const StepProblem& problem, const Island& island) {
+  const Eigen::Index count = problem_.q.size();
+  problem_.W.setZero(count, count);
+  StopCheck check(64);
+  for (const int row : rows_) problem_.W(local_[row], local_[row]) = problem.compliance[row];
+  for (const int tree : island.trees) {
+    const TreeColumns& columns = problem.columns[tree];
+    for (int i = 0; i < static_cast<int>(columns.rows.size()); ++i) {
+      check();
+      for (int j = 0; j <= i; ++j) {
+        const double w = columns.Y.col(i).dot(columns.Y.col(j));
+        const int a = local_[columns.rows[i]], b = local_[columns.rows[j]];
+        problem_.W(a, b) += w;
+        if (i != j) problem_.W(b, a) += w;
+      }
+    }
+  }
+}
+
+void IslandSolver::solve_island(const System& system, const StepProblem& problem,
+                                const Island& island, const FrictionOptions& options,
+                                const Progress& progress, StepSolution& out) {
+  gather(problem, island);
+  const bool at_rest = rests(system, problem, island);
+  FrictionSolution solution;
+  const bool held =
+      at_rest && options.cone == FrictionCone::round && holds(problem, island, solution);
+  if (!held) {
+    assemble(problem, island);
+    solution = solver_.solve(problem_, warm_start_, options, progress);
+  }
+  for (const int row : rows_) out.r[row] = solution.r[local_[row]];
+  if (at_rest && solution.iterations == 0)
+    for (const int t : island.trees) resting_[t] = 1;
+  out.iterations += solution.iterations;
+  out.fallbacks += solution.fell_back;
+  out.failures += !solution.solved && !(solution.residual <= failed_above);
+  out.residual = std::max(out.residual, solution.residual);
+}
+
+StepSolution IslandSolver::solve(const System& system, const StepProblem& problem,
+                                 const DynamicSettings& settings, const Progress& progress) {
+  const FrictionOptions options{
+      .cone = settings.cone, .edges = settings.cone_edges, .tolerance = tolerance};
+  StepSolution out{.v = problem.v_free, .r = Eigen::VectorXd::Zero(problem.rows())};
+  local_.resize(problem.rows());
+  resting_.assign(system.trees.size(), 0);
+  for (const Island& island : problem.islands)
+    solve_island(system, problem, island, options, progress, out);
+  for (size_t t = 0; t < system.trees.size(); ++t) {
+    const TreeColumns& columns = problem.columns[t];
+    if (columns.rows.empty()) continue;
+    const Articulation& tree = system.trees[t];
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(tree.size());
+    for (size_t i = 0; i < columns.rows.size(); ++i)
+      change += out.r[columns.rows[i]] * columns.Y.col(static_cast<Eigen::Index>(i));
+    problem.trees[t].other_half_solve(change);
+    auto v = out.v.segment(tree.first, tree.size());
+    v += change;
+    if (resting_[t] && v.cwiseAbs().maxCoeff() < rest_acceleration * problem.h) v.setZero();
+  }
+  return out;
+}
+
+}  // namespace clench

@@ -1,0 +1,32 @@
+// Solves the islands of a step, one after another.
+#pragma once
+#include "clench/dynamics/solve/solve_friction.h"
+#include "clench/dynamics/step/step_problem.h"
+
+namespace clench {
+
+/// Keeps its memory from step to step, and nothing else: the same problem gives the same bits.
+class IslandSolver {
+ public:
+  /// An island at rest keeps its forces as long as they hold it, and then stands still to the bit.
+  /// throws  Stopped
+  StepSolution solve(const System& system, const StepProblem& problem,
+                     const DynamicSettings& settings, const Progress& progress);
+
+ private:
+  bool rests(const System& system, const StepProblem& problem, const Island& island) const;
+  void gather(const StepProblem& problem, const Island& island);
+  bool holds(const StepProblem& problem, const Island& island, FrictionSolution& solution);
+  void assemble(const StepProblem& problem, const Island& island);
+  void solve_island(const System& system, const StepProblem& problem, const Island& island,
+                    const FrictionOptions& options, const Progress& progress, StepSolution& out);
+
+  std::vector<int> rows_;               // of the island that is being solved
+  std::vector<int> local_;              // by row of the step: its row in the problem of its island
+  std::vector<unsigned char> resting_;  // by tree
+  Eigen::VectorXd warm_start_;
+  FrictionProblem problem_;
+  FrictionSolver solver_;
+};
+
+}  // namespace clench
