@@ -9,6 +9,7 @@ using namespace clench;
 using Eigen::VectorXd;
 using test::FrictionKind;
 using test::random_problem;
+using test::solve_friction;
 
 namespace {
 

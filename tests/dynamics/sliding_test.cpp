@@ -4,6 +4,7 @@
 
 #include "clench/base/random.h"
 #include "clench/dynamics/contact/manifolds.h"
+#include "support/meshes.h"
 #include "support/robots.h"
 
 using namespace clench;
