@@ -40,8 +40,9 @@ struct OdeSolution {
   double residual = 0;
   /// steps that ODE took: joints that one DOF couples are brought together in several
   int solves = 0;
-  bool softened = false;  ///< ODE's method broke off, and contacts were made softer
-  bool solved = true;     ///< did joints come together, and did ODE not break off to the last?
+  bool softened =
+      false;           ///< Dantzig's method broke off: contacts were made softer, or ODE iterated
+  bool solved = true;  ///< did joints come together, and did ODE not break off to the last?
 };
 
 }  // namespace clench

@@ -274,7 +274,9 @@ void OdeScene::step() {
     for (const OdeNode& node : tree.nodes) reset(node);
   for (const OdeNode& node : obstacle_nodes_) reset(node);
   check_stop();
-  if (dWorldStep(ode_.get(), h_) == 0)
+  constexpr int iterations = 2000;
+  dWorldSetQuickStepNumIterations(ode_.get(), iterations);
+  if ((iterates_ ? dWorldQuickStep(ode_.get(), h_) : dWorldStep(ode_.get(), h_)) == 0)
     fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
 }
 

@@ -54,6 +54,9 @@ class OdeScene {
   void push(int tree, int joint, double effort);
   /// Steps from where the world is, whatever steps were taken before.
   void step();
+  /// Later steps are those of dWorldQuickStep, which iterates (projected successive overrelaxation)
+  /// and never breaks off, instead of dWorldStep.
+  void iterate() { iterates_ = true; }
 
   double joint_velocity(int tree, int joint) const;
   double row_impulse(int row) const;
@@ -91,6 +94,7 @@ class OdeScene {
   const World& world_;
   const OdeProblem& problem_;
   double h_, softness_;
+  bool iterates_ = false;
   std::unique_ptr<dxWorld, OdeDelete> ode_;
   std::vector<OdeTree> trees_;
   std::vector<OdeNode> obstacle_nodes_;  // obstacles that move, by the index of the body's id

@@ -122,6 +122,14 @@ void take_damping_away(const MatrixXd& damped, const Velocities& velocities, Vec
 
 }  // namespace
 
+double inscribed_cone(int tangents, int edges) {
+  if (tangents <= 0) return 1;
+  const double of_polygon = std::cos(std::numbers::pi / edges);
+  if (tangents == 2) return of_polygon;
+  // the two poles over the equator are a double pyramid, which the others only widen
+  return of_polygon / std::sqrt(1 + of_polygon * of_polygon);
+}
+
 // Pivots take the square of their number each, and as much memory.
 static constexpr int max_unknowns = 6000;
 

@@ -154,10 +154,26 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
   return enough;
 }
 
-FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem, double tolerance,
-                                                  int edges_per_contact) {
-  FrictionSolution solution;
-  solution.residual = infinity;
+// Does every contact that presses stick?
+static bool sticks(const FrictionProblem& problem, const FrictionSolution& solution,
+                   double tolerance) {
+  for (const auto& block : problem.blocks) {
+    if (block.tangents <= 0 || solution.r[block.row] <= 0) continue;
+    if (solution.u.segment(block.row + 1, block.tangents).norm() > 10 * tolerance) return false;
+  }
+  return true;
+}
+
+FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem,
+                                                  const VectorXd& warm_start, double tolerance,
+                                                  int edges_per_contact, const Progress& progress) {
+  FrictionProblem inner = problem;
+  for (auto& block : inner.blocks) block.mu *= inscribed_cone(block.tangents, edges_per_contact);
+  FrictionSolution solution = solve(inner, warm_start, {.tolerance = tolerance}, progress);
+  if (solution.solved && sticks(inner, solution, tolerance)) return solution;
+  // where no pyramid is solved, the solution of the cones inside remains
+  solution.solved = false;
+  double least = infinity;
   scaled_.set(problem);
   std::vector<Eigen::MatrixXd> edges;
   for (const auto& block : scaled_.blocks)
@@ -168,9 +184,9 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   for (int round = 0; round < 20 && !solution.solved; ++round) {
     const PyramidSolution pyramid = solve_pyramid(scaled_, by, r, edges);
     solution.iterations += pyramid.iterations;
-    if (pyramid.found && pyramid.residual < solution.residual) {
+    if (pyramid.found && pyramid.residual < least) {
       r = pyramid.r;
-      solution.residual = pyramid.residual;
+      solution.residual = least = pyramid.residual;
       solution.r = r.cwiseProduct(scaled_.units);
       solution.solved = solution.residual <= 100 * tolerance;
     } else {
@@ -178,7 +194,6 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
       by = std::min(10 * by, 1.0);
     }
   }
-  if (solution.r.size() == 0) solution.r = VectorXd::Zero(scaled_.rows());
   solution.u = problem.W * solution.r + problem.q;
   return solution;
 }
@@ -208,7 +223,7 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     return solution;
   }
   if (options.cone == FrictionCone::pyramid)
-    return solve_as_pyramid(problem, tolerance, options.edges);
+    return solve_as_pyramid(problem, solution.r, tolerance, options.edges, progress);
   scaled_.set(problem);
   VectorXd r = solution.r.cwiseQuotient(scaled_.units);
   double reached = damping;

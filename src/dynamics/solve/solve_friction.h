@@ -11,7 +11,10 @@ namespace clench {
 
 struct FrictionOptions {
   FrictionCone cone = FrictionCone::round;
-  int edges = 8;  ///< of a pyramid, >= 4; with torsion 3 edges - 4 (see pyramid_directions)
+  /// of a pyramid, >= 4; with torsion 3 edges - 4 (see pyramid_directions). Where all contacts
+  /// stick in the round cone inside the pyramid, its solution is taken; otherwise that of the linear
+  /// complementarity problem
+  int edges = 8;
   /// Faults up to so much are none [m/s]; by default 1e-12 of the largest velocity in q, and of at
   /// least 1e-3. Rounding of W r is allowed for beside it, up to 1e6 times as much where masses
   /// differ by that; of a pyramid, as pivots lose digits, 100 times.
@@ -45,8 +48,9 @@ class FrictionSolver {
                          const FrictionOptions& options = {}, const Progress& progress = {});
 
  private:
-  FrictionSolution solve_as_pyramid(const FrictionProblem& problem, double tolerance,
-                                    int edges_per_contact);
+  FrictionSolution solve_as_pyramid(const FrictionProblem& problem,
+                                    const Eigen::VectorXd& warm_start, double tolerance, int edges,
+                                    const Progress& progress);
   bool newton(double by, double rho, int max_iterations, Eigen::VectorXd& r,
               FrictionSolution& solution);
   bool follow(double by, int max_iterations, Eigen::VectorXd& r, FrictionSolution& solution);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clench/base/watched.h"
+#include "clench/dynamics/solve/friction_pyramid.h"
 #include "clench/dynamics/solve/friction_residual.h"
 
 namespace clench {
@@ -47,7 +48,7 @@ void IslandSolver::gather(const StepProblem& problem, const Island& island) {
 // Do the forces of the last step hold what rests? Answered by the velocities that they leave,
 // without the matrix of the problem.
 bool IslandSolver::holds(const StepProblem& problem, const Island& island,
-                         FrictionSolution& solution) {
+                         const FrictionOptions& options, FrictionSolution& solution) {
   const Eigen::Index count = warm_start_.size();
   // only its diagonal is used
   if (problem_.W.rows() != count) problem_.W.resize(count, count);
@@ -71,8 +72,12 @@ bool IslandSolver::holds(const StepProblem& problem, const Island& island,
       solution.u[local_[columns.rows[i]]] +=
           columns.Y.col(static_cast<Eigen::Index>(i)).dot(change);
   }
+  const std::vector<FrictionProblem::Block> blocks = problem_.blocks;
+  if (options.cone == FrictionCone::pyramid)
+    for (auto& block : problem_.blocks) block.mu *= inscribed_cone(block.tangents, options.edges);
   const FrictionFault fault =
       friction_fault(problem_, warm_start_, solution.u, rest_acceleration * problem.h);
+  problem_.blocks = blocks;
   solution.r = warm_start_;
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
@@ -99,17 +104,32 @@ void IslandSolver::assemble(const StepProblem& problem, const Island& island) {
   }
 }
 
+// What stabilization asks for may contradict limits and locks; what does not approach never does.
+bool IslandSolver::leave_out_push(const StepProblem& problem) {
+  bool any = false;
+  for (const int row : rows_) {
+    problem_.q[local_[row]] += problem.push[row];
+    any = any || problem.push[row] != 0;
+  }
+  return any;
+}
+
 void IslandSolver::solve_island(const System& system, const StepProblem& problem,
                                 const Island& island, const FrictionOptions& options,
                                 const Progress& progress, StepSolution& out) {
   gather(problem, island);
   const bool at_rest = rests(system, problem, island);
   FrictionSolution solution;
-  const bool held =
-      at_rest && options.cone == FrictionCone::round && holds(problem, island, solution);
+  const bool held = at_rest && holds(problem, island, options, solution);
   if (!held) {
     assemble(problem, island);
     solution = solver_.solve(problem_, warm_start_, options, progress);
+    if (!solution.solved && leave_out_push(problem)) {
+      const int iterations = solution.iterations;
+      solution = solver_.solve(problem_, warm_start_, options, progress);
+      solution.iterations += iterations;
+      solution.fell_back = true;
+    }
   }
   for (const int row : rows_) out.r[row] = solution.r[local_[row]];
   if (at_rest && solution.iterations == 0)

@@ -16,7 +16,9 @@ class IslandSolver {
  private:
   bool rests(const System& system, const StepProblem& problem, const Island& island) const;
   void gather(const StepProblem& problem, const Island& island);
-  bool holds(const StepProblem& problem, const Island& island, FrictionSolution& solution);
+  bool holds(const StepProblem& problem, const Island& island, const FrictionOptions& options,
+             FrictionSolution& solution);
+  bool leave_out_push(const StepProblem& problem);
   void assemble(const StepProblem& problem, const Island& island);
   void solve_island(const System& system, const StepProblem& problem, const Island& island,
                     const FrictionOptions& options, const Progress& progress, StepSolution& out);

@@ -56,8 +56,11 @@ struct StepProblem {
   std::vector<StepBlock> blocks;
   std::vector<TreeColumns> columns;  ///< by tree
   std::vector<double> q;             ///< J v_free less the target [m/s, rad/s]
-  std::vector<double> warm_start;    ///< impulses that the forces of the last step would give
-  std::vector<double> compliance;    ///< on the diagonal of J M^-1 J^T
+  /// of q: what stabilization asks for, to open gaps that are too small and to bring joints back
+  /// within their limits; where it contradicts other rows, it may be left out
+  std::vector<double> push;
+  std::vector<double> warm_start;  ///< impulses that the forces of the last step would give
+  std::vector<double> compliance;  ///< on the diagonal of J M^-1 J^T
   std::vector<Island> islands;
   std::vector<double> tree_times;  ///< as the time of the blocks that act on it [s]
 

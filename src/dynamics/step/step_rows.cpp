@@ -223,6 +223,8 @@ void RowBuilder::add_contact(int manifold, int point) {
   for (int k = 0; k < size; ++k)
     problem_.warm_start.push_back(
         h * (k < 3 ? touch.frame.col(k).dot(force) : p.torsion / p.torsion_radius));
+  problem_.push.push_back(target);
+  problem_.push.resize(problem_.q.size(), 0);
   touch.target = target;
   problem_.touches.push_back(touch);
   problem_.blocks.push_back(block);
@@ -265,6 +267,10 @@ void RowBuilder::add_row(int number) {
       last != all.end() && key(*last) == wanted)
     warm = problem_.h * last->force;
   problem_.warm_start.push_back(std::clamp(warm, row.low, row.high));
+  // a limit that is exceeded asks for a velocity back
+  const bool lower = row.kind == RowKind::low_limit || row.kind == RowKind::tendon_low;
+  const bool upper = row.kind == RowKind::high_limit || row.kind == RowKind::tendon_high;
+  problem_.push.push_back((lower && row.target > 0) || (upper && row.target < 0) ? row.target : 0);
   problem_.blocks.push_back(block);
 }
 
@@ -312,6 +318,7 @@ void find_rows(const World& world, const System& system, StepProblem& problem) {
   problem.coordinate_rows.clear();
   problem.blocks.clear();
   problem.q.clear();
+  problem.push.clear();
   problem.warm_start.clear();
   problem.columns.resize(system.trees.size());
   for (TreeColumns& columns : problem.columns) columns.rows.clear();
