@@ -135,8 +135,8 @@ return function(hooks, world, seconds, stepping, step, events)
     hooks.runs = nil
     for _, name in ipairs {"controllers", "tasks", "listeners", "observers"} do clear(hooks[name]) end
   end})
-  local last = world.time + seconds
   call_observers(world, hooks.observers)
+  local last = world.time + seconds  -- an observer may have restored another time
   -- as Stepper::step: less is no time
   while last - world.time > 1e-6 * world.time_step do
     local before = world.time

@@ -228,3 +228,19 @@ test("in Chromium a recorded run plays in 3-D", function(t)
   t.equal(text:match ' data%-left="([^"]*)"', "true")
   t.ok(tonumber(text:match ' data%-drawn="(%d+)"') > 20)
 end)
+
+test("a run whose first observer restores another time lasts as long as it was asked to", function(t)
+  local world = clench.world()
+  local start = world:snapshot()
+  world:run(0.5)
+  local restored
+  world:log {quantities = {height = function(w)
+    if not restored then
+      restored = true
+      w:restore(start)
+    end
+    return 0
+  end}}
+  world:run(0.1)
+  t.close(world.time, 0.1, 1e-12)
+end)

@@ -20,3 +20,53 @@ test("hands whose joints begin at their stops close as ours do, every step solve
     for i, value in ipairs(ours) do t.close(ode[i], value, 1e-8) end
   end
 end)
+
+local function stack(boxes, dynamics)
+  local world, S = clench.world {dynamics = dynamics}, clench.shapes
+  world:add_obstacle(S.box {4, 4, 0.1}, {pose = {xyz = {0, 0, -0.05}}})
+  for i = 1, boxes do
+    world:add_object(S.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {0, 0, 0.0501 + 0.1001 * (i - 1)}}})
+  end
+  return world
+end
+
+local function moved(world, boxes)
+  local most = 0
+  for i = 1, boxes do
+    local p = world.objects[i].pose.position
+    most = math.max(most, clench.vec3(p.x, p.y, p.z - (0.0501 + 0.1001 * (i - 1))):norm())
+  end
+  return most
+end
+
+test("a stack of boxes rests in every engine, with every cone", function(t)
+  for boxes, seconds in pairs {[2] = 1, [4] = 0.5} do
+    for _, dynamics in ipairs {{engine = "ode"}, {cone = "pyramid"}, {}} do
+      local world = stack(boxes, dynamics)
+      world:run(seconds)
+      t.equal(world.report.failures, 0)
+      t.ok(moved(world, boxes) < 1e-4, moved(world, boxes))
+    end
+  end
+end)
+
+test("a stack that rests costs a pyramid no iterations", function(t)
+  local world = stack(4, {cone = "pyramid"})
+  world:run(0.2)
+  local before = world.report.iterations
+  world:run(0.2)
+  t.equal(world.report.iterations, before)
+end)
+
+test("boxes that are placed in each other leave a finite report in every engine", function(t)
+  for _, dynamics in ipairs {{engine = "ode"}, {cone = "pyramid", edges = 4}, {}} do
+    local world, S, random = clench.world {dynamics = dynamics}, clench.shapes, clench.random(1)
+    world:add_obstacle(S.box {4, 4, 0.1}, {pose = {xyz = {0, 0, -0.05}}})
+    for i = 1, 2 do
+      local x, y = random:uniform(-0.02, 0.02), random:uniform(-0.02, 0.02)
+      world:add_object(S.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {x, y, 0.06 + 0.09 * (i - 1)}, rpy = {random:uniform(-1, 1), random:uniform(-1, 1), 0}}})
+    end
+    world:run(0.2)
+    t.ok(world.report.max_residual < 1, world.report.max_residual)
+  end
+end)
