@@ -20,3 +20,15 @@ test("hands whose joints begin at their stops close as ours do, every step solve
     for i, value in ipairs(ours) do t.close(ode[i], value, 1e-8) end
   end
 end)
+
+test("a run names what ODE does not simulate, once", function(t)
+  local path = test.path(".xml", [[<mujoco model="m"><worldbody><body name="base"><geom size="0.1"/>
+    <body name="a" pos="0 0 1"><joint name="a" type="slide" range="0 1"/><geom size="0.1"/></body>
+    <body name="b" pos="0 0 2"><joint name="b" type="slide" range="0 1"/><geom size="0.1"/></body></body></worldbody>
+    <tendon><fixed name="t" damping="1"><joint joint="a" coef="1"/><joint joint="b" coef="1"/></fixed></tendon></mujoco>]])
+  local world = clench.world {dynamics = {engine = "ode"}}
+  local robot = world:add_robot(path)
+  local function said() return table.concat(t.warnings(function() world:run(0.002) end), "\n") end
+  t.ok(said():find(("the engine \"ode\" does not simulate the joint tendons of '%s'"):format(robot.name), 1, true))
+  t.equal(said():find("does not simulate", 1, true), nil)
+end)
