@@ -1,5 +1,6 @@
 --- What a file holds, as tables: what `clench check` prints, or writes as JSON.
 local blamed = require "clench.blamed"
+local drives = require "clench.drives"
 local error_text = require "clench.host.error_text"
 local is_stopped = require "clench.is_stopped"
 local reading = require "clench.host.reading"
@@ -106,6 +107,13 @@ local function of_kept(robot)
   return next(kept) and kept
 end
 
+-- DOFs that would close the robot, or all where actuators drive none, and that no motor closes, in a sentence; nil: there are none
+local function of_closing(robot)
+  local closes = #robot.actuators > 0
+  for _, info in ipairs(robot.dof_info) do closes = closes or info.default_velocity ~= 0 end
+  return closes and drives.missing(robot) or nil
+end
+
 local function of_robot(robot)
   local dofs, units = of_dofs(robot), units_of(robot)
   for i, dof in ipairs(dofs) do dof.unit = units[i] or "rad" end
@@ -113,7 +121,7 @@ local function of_robot(robot)
   return {name = robot.name, base = of_body(robot.base), dofs = dofs, chains = of_chains(robot),
           approach = {point = numbers(approach.position), direction = numbers(approach:rotate {0, 0, 1})},  -- in the base
           eigengrasps = #robot.eigengrasps, virtual_contacts = #robot.virtual_contacts,
-          actuators = #robot.actuators, kept = of_kept(robot)}
+          actuators = #robot.actuators, kept = of_kept(robot), not_closed = of_closing(robot)}
 end
 
 -- tells of sets for grasping that no file gives; of a robot that never closes, none

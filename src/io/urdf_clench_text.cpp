@@ -5,6 +5,7 @@
 
 #include "clench/base/text.h"
 #include "clench/io/text/xml.h"
+#include "clench/io/tree/tree_model.h"
 
 namespace clench {
 
@@ -26,6 +27,18 @@ class ClenchText {
   std::string unless(double usual, const char* name, double value) const {
     return value == usual ? "" : attribute(name, value);
   }
+  /// an infinite end becomes `unlimited`
+  static std::string range(const char* name, const std::array<double, 2>& bounds) {
+    const auto end = [](double x) {
+      return (std::isinf(x) ? std::copysign(unlimited, x) : x) + 0.0;
+    };
+    return fmt::format(" {}=\"{} {}\"", name, end(bounds[0]), end(bounds[1]));
+  }
+  /// -1 of a leader that turns against its DOF, which turns along in the file
+  static double sense(const UrdfJoint& joint) {
+    return joint.leads && joint.spec->ratio < 0 ? -1 : 1;
+  }
+  const UrdfJoint* joint(const std::string& name) const;
   std::string pose(const Pose& X) const;
   std::string link_name(int part) const { return plan_.links[plan_.link(part)].name; }
   void add_dof(int number);
@@ -68,14 +81,20 @@ void ClenchText::add_dof(int number) {
        (dof.driven ? "" : attribute("driven", std::string("false"))) + "/>");
 }
 
-/// A leader that turns against its DOF turns along in the file.
 void ClenchText::add_joint(const UrdfJoint& joint) {
   if (!joint.spec) return;
   const JointSpec& spec = *joint.spec;
-  if (spec.spring == 0 && spec.rest == 0 && spec.armature == 0) return;
-  const double sense = joint.leads && spec.ratio < 0 ? -1 : 1;
+  if (spec.spring == 0 && spec.rest == 0 && spec.armature == 0 && !spec.effort_range) return;
+  const double turned = sense(joint);
+  std::string efforts;
+  if (spec.effort_range) {
+    auto [low, high] = *spec.effort_range;
+    if (turned < 0) std::swap(low *= -1, high *= -1);
+    efforts = range("effort_range", {low, high});
+  }
   line("<joint" + attribute("name", joint.name) + unless(0, "spring", spec.spring) +
-       unless(0, "rest", sense * spec.rest) + unless(0, "armature", spec.armature) + "/>");
+       unless(0, "rest", turned * spec.rest) + unless(0, "armature", spec.armature) + efforts +
+       "/>");
 }
 
 void ClenchText::add_link(const UrdfLink& link) {
@@ -126,12 +145,9 @@ void ClenchText::add_collision() {
 void ClenchText::add_tendon(const JointTendonSpec& tendon) {
   std::string out;
   if (!tendon.name.empty()) out += attribute("name", tendon.name);
-  const auto range = [&](const char* name, const std::array<double, 2>& bounds) {
-    out += fmt::format(" {}=\"{} {}\"", name, bounds[0], bounds[1]);
-  };
-  if (tendon.range) range("range", *tendon.range);
+  if (tendon.range) out += range("range", *tendon.range);
   out += unless(0, "stiffness", tendon.stiffness);
-  if (tendon.stiffness != 0) range("slack", tendon.slack);
+  if (tendon.stiffness != 0) out += range("slack", tendon.slack);
   out += unless(0, "damping", tendon.damping) + unless(0, "friction", tendon.friction);
   line("<joint_tendon" + out + ">");
   for (const auto& [dof, arm] : tendon.arms) {
@@ -144,33 +160,51 @@ void ClenchText::add_tendon(const JointTendonSpec& tendon) {
   line("</joint_tendon>");
 }
 
+/// The joint of the file that is one of ours; null: there is none.
+const UrdfJoint* ClenchText::joint(const std::string& name) const {
+  for (const UrdfJoint& joint : plan_.joints)
+    if (joint.spec && joint.spec->name == name) return &joint;
+  return nullptr;
+}
+
 void ClenchText::add_actuator(const ActuatorSpec& actuator) {
   std::string out;
-  double sense = 1;
+  double turned = 1;
   if (!actuator.name.empty()) out += attribute("name", actuator.name);
   out += attribute("kind", actuator.kind);
   if (!actuator.joint.empty()) {
-    std::string name = actuator.joint;
-    for (const UrdfJoint& joint : plan_.joints)
-      if (joint.spec && joint.spec->name == actuator.joint) {
-        name = joint.name;
-        sense = joint.leads && joint.spec->ratio < 0 ? -1 : 1;
-      }
-    out += attribute("joint", name);
+    const UrdfJoint* joint = this->joint(actuator.joint);
+    if (joint) turned = sense(*joint);
+    out += attribute("joint", joint ? joint->name : actuator.joint);
   }
   if (!actuator.tendon.empty()) out += attribute("tendon", actuator.tendon);
   if (actuator.dof >= 0 && plan_.leader_of[actuator.dof] >= 0)
     out += attribute("moves", plan_.joints[plan_.leader_of[actuator.dof]].name);
-  out += attribute("gear", sense * actuator.gear);
-  if (actuator.law_known)
-    out += attribute("gain", actuator.gain) +
-           fmt::format(" bias=\"{} {} {}\"", actuator.bias[0], actuator.bias[1], actuator.bias[2]);
-  const auto range = [&](const char* name, const auto& bounds) {
-    if (bounds) out += fmt::format(" {}=\"{} {}\"", name, (*bounds)[0], (*bounds)[1]);
-  };
-  range("control_range", actuator.control_range);
-  range("force_range", actuator.force_range);
-  line("<actuator" + out + "/>");
+  out += attribute("gear", turned * actuator.gear) + unless(0, "length_at_0", actuator.length_at_0);
+  if (actuator.law_known) {
+    out += attribute("gain", actuator.gain);
+    if (actuator.gain_slopes != std::array{0.0, 0.0})
+      out += range("gain_slopes", actuator.gain_slopes);
+    out += fmt::format(" bias=\"{} {} {}\"", actuator.bias[0], actuator.bias[1], actuator.bias[2]);
+  }
+  out += unless(0, "damping_ratio", actuator.damping_ratio);
+  if (!actuator.enabled) out += attribute("enabled", std::string("false"));
+  const std::pair<const char*, const std::optional<std::array<double, 2>>*> ranges[] = {
+      {"control_range", &actuator.control_range},
+      {"activation_range", &actuator.activation_range},
+      {"law_range", &actuator.law_range},
+      {"tendon_force_range", &actuator.tendon_force_range},
+      {"force_range", &actuator.force_range}};
+  for (const auto& [name, bounds] : ranges)
+    if (*bounds) out += range(name, **bounds);
+  if (actuator.pulls.empty()) return line("<actuator" + out + "/>");
+  line("<actuator" + out + ">");
+  for (const TendonPull& pull : actuator.pulls) {
+    const UrdfJoint* joint = this->joint(pull.joint);
+    line("  <pull" + attribute("joint", joint ? joint->name : pull.joint) +
+         attribute("coefficient", (joint ? sense(*joint) : 1) * pull.coefficient) + "/>");
+  }
+  line("</actuator>");
 }
 
 std::string ClenchText::text(const UrdfBeside& beside) {

@@ -19,11 +19,11 @@ static EffortRange limited(const World& world, Id<Robot> robot, EffortRange rang
 EffortRange effort_range(const World& world, Id<Robot> id, int dof) {
   const Robot& robot = world.robot(id);
   if (!robot.dofs[dof].driven) return {};
-  return limited(world, id, drive_of(robot, dof).at_rest(world.dofs(id)[dof]));
+  return limited(world, id, robot.drives[static_cast<size_t>(dof)].at_rest(world.dofs(id)));
 }
 
 EffortRange effort_limits(const World& world, Id<Robot> id, int dof) {
-  return limited(world, id, drive_of(world.robot(id), dof).limits());
+  return limited(world, id, world.robot(id).drives[static_cast<size_t>(dof)].limits());
 }
 
 bool can_close(const World& world, Id<Robot> id, int dof) {
@@ -31,9 +31,10 @@ bool can_close(const World& world, Id<Robot> id, int dof) {
   if (pace == 0) return false;
   const Robot& robot = world.robot(id);
   if (!robot.dofs[dof].driven) return false;
-  const DofDrive drive = drive_of(robot, dof);
+  Eigen::VectorXd dofs = world.dofs(id);
   const auto closes_at = [&](double q) {
-    const EffortRange range = drive.at_rest(q);
+    dofs[dof] = q;
+    const EffortRange range = robot.drives[static_cast<size_t>(dof)].at_rest(dofs);
     return pace > 0 ? range.high > 0 : range.low < 0;
   };
   const auto [low, high] = range_around(robot, dof, world.dofs(id)[dof]);

@@ -1,8 +1,8 @@
 // Efforts that the motors of a robot can exert as it stands: what force programs, verdicts and the
 // motors of a run have in common.
 #pragma once
-#include "clench/model/dof_drive.h"
 #include "clench/model/world.h"
+#include "clench/spec/dof_drive.h"
 
 namespace clench {
 

@@ -9,6 +9,7 @@
 
 #include "clench/model/body.h"
 #include "clench/spec/chains.h"
+#include "clench/spec/dof_drive.h"
 #include "clench/spec/world_spec.h"
 
 namespace clench {
@@ -39,6 +40,8 @@ struct Robot {
   std::string class_name;
   Id<Body> base;
   std::vector<DofSpec> dofs;
+  /// one per DOF; of one that is not driven: the motor that a script may add
+  std::vector<DofDrive> drives;
   std::vector<std::array<double, 2>> limits;  ///< one per DOF [rad or m]
   std::vector<bool> endless;                  ///< which DOFs nothing stops at their limits
   std::vector<Link> links;

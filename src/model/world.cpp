@@ -5,7 +5,6 @@
 #include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
-#include "clench/model/dof_drive.h"
 #include "clench/spec/check_robot.h"
 #include "clench/spec/inertia.h"
 
@@ -160,8 +159,12 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
         {{}, link.parent, first, static_cast<int>(robot.joints.size()), link.X_JL});
   }
   // actuators that exert nothing drive nothing
-  for (size_t i = 0; i < robot.dofs.size(); ++i)
-    robot.dofs[i].driven = robot.dofs[i].driven && drive_of(robot, static_cast<int>(i)).acts();
+  for (int i = 0; i < static_cast<int>(spec.dofs.size()); ++i) {
+    DofDrive drive = drive_of(spec, i);
+    DofSpec& dof = robot.dofs[i];
+    dof.driven = dof.driven && drive.acts();
+    robot.drives.push_back(dof.driven ? std::move(drive) : DofDrive{{}, {}, dof.max_effort});
+  }
   robot.chains = chains_of(spec);
   robot.first_dof = state_.dofs.size();
   robot.first_joint = state_.joints.size();

@@ -19,8 +19,8 @@ static size_t bytes_of(const Body& body) {
 
 static size_t bytes_of(const Robot& robot) {
   size_t bytes = bytes_of(robot.source) + bytes_of(robot.file) + bytes_of(robot.dofs) +
-                 bytes_of(robot.limits) + bytes_of(robot.links) + bytes_of(robot.joints) +
-                 bytes_of(robot.chains);
+                 bytes_of(robot.drives) + bytes_of(robot.limits) + bytes_of(robot.links) +
+                 bytes_of(robot.joints) + bytes_of(robot.chains);
   for (const Chain& chain : robot.chains) bytes += bytes_of(chain.links);
   return bytes;
 }

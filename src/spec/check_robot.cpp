@@ -47,6 +47,11 @@ static void check_joint(const JointSpec& joint, const RobotSpec& robot,
               {"armature", joint.armature},
               {"spring", joint.spring}},
              subject);
+  if (!joint.effort_range) return;
+  for (const double end : *joint.effort_range) check(number_rule.called("effort"), end, subject);
+  if ((*joint.effort_range)[0] > (*joint.effort_range)[1])
+    fail("{}: lowest effort {} exceeds {}", subject, (*joint.effort_range)[0],
+         (*joint.effort_range)[1]);
 }
 
 static void check_part(const RobotSpec& robot, int link, const char* subject) {
@@ -169,10 +174,22 @@ static void check_actuators(const RobotSpec& robot, const std::string& name) {
                 {"gain", actuator.gain},
                 {"bias", actuator.bias[0]},
                 {"bias", actuator.bias[1]},
-                {"bias", actuator.bias[2]}},
+                {"bias", actuator.bias[2]},
+                {"gain slope", actuator.gain_slopes[0]},
+                {"gain slope", actuator.gain_slopes[1]},
+                {"length", actuator.length_at_0}},
                subject);
-    for (const auto& range : {actuator.control_range, actuator.force_range})
+    for (const TendonPull& pull : actuator.pulls) {
+      check_name(pull.joint, subject);
+      check(number_rule.called("coefficient"), pull.coefficient, subject);
+    }
+    for (const auto& range :
+         {actuator.control_range, actuator.force_range, actuator.tendon_force_range})
       if (range) check_each(number_rule, {{"range", (*range)[0]}, {"range", (*range)[1]}}, subject);
+    // an end may be infinite
+    for (const auto& range : {actuator.activation_range, actuator.law_range})
+      for (const double end : range.value_or(std::array{0.0, 0.0}))
+        if (!std::isinf(end)) check(number_rule.called("range"), end, subject);
   }
 }
 

@@ -50,6 +50,8 @@ struct JointSpec {
   double armature = 0;   ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]
   double spring = 0;     ///< stiffness [N m/rad or N/m]
   double rest = 0;       ///< q at which the spring is slack [rad or m]
+  /// of the sum of the efforts of all actuators on the joint; absent: not limited [N m or N]
+  std::optional<std::array<double, 2>> effort_range = {};
 };
 
 /// What the joint does at q, in its frame.

@@ -115,6 +115,7 @@ function print_kind.robot(robot)
   columns(rows, "  ")
   say(("  approaches along %s, approach point %s m, in its base"):format(vector(robot.approach.direction, "%.3g"),
     vector(robot.approach.point, "%.3f")))
+  if robot.not_closed then say("  does not close by force: " .. robot.not_closed) end
   if robot.kept then say("  kept, without effect: " .. kept_words(robot.kept)) end
 end
 

@@ -109,6 +109,44 @@ TEST_CASE("random jaws hold twice the friction of what their weaker motor presse
   }
 }
 
+TEST_CASE("an actuator that pulls one jaw inwards and the other outwards holds nothing") {
+  ActuatorSpec motor;
+  motor.kind = "motor", motor.tendon = "t", motor.dof = 0;
+  motor.control_range = {{-20, 20}};
+  for (const double second : {1.0, 0.5, -1.0}) {
+    motor.pulls = {{"jaw0", 1}, {"jaw1", second}};
+    const Jaws j = jaws(DofKind::rigid, 0.5, 0, false, 0, {motor});
+    CHECK(can_close(j.world, j.grasp.hand, 0));
+    CHECK(can_close(j.world, j.grasp.hand, 1));
+    // both press alike, or not at all
+    CHECK(largest_weight(j) == doctest::Approx(second == 1 ? 2 * 0.5 * 20 : 0));
+    JointDemand any;
+    any.unlimited = true;
+    if (second < 1) CHECK(largest_weight(j, any) == doctest::Approx(0));
+  }
+  // a second motor makes up for the difference, as far as it goes
+  motor.pulls = {{"jaw0", 1}, {"jaw1", -1}};
+  ActuatorSpec own;
+  own.kind = "motor", own.joint = "jaw1", own.dof = 1, own.control_range = {{0, 30}};
+  CHECK(largest_weight(jaws(DofKind::rigid, 0.5, 0, false, 0, {motor, own})) ==
+        doctest::Approx(2 * 0.5 * 15));
+}
+
+TEST_CASE("a limit of a joint bounds what its motor presses with, each direction separately") {
+  ActuatorSpec law = motor(1, -20, 20);
+  for (const auto& [low, high] :
+       std::array<std::array<double, 2>, 3>{{{-20, 0}, {-20, 0.001}, {0, 7}}}) {
+    std::vector<ActuatorSpec> both(2, law);
+    for (int side = 0; side < 2; ++side) {
+      both[side].joint = "jaw" + std::to_string(side);
+      both[side].dof = side;
+    }
+    const Jaws j = jaws(DofKind::rigid, 0.5, 0, false, 0, both, std::array{low, high});
+    CHECK(largest_weight(j) == doctest::Approx(2 * 0.5 * high));
+    CHECK(can_close(j.world, j.grasp.hand, 0) == (high > 0));
+  }
+}
+
 TEST_CASE("a largest effort of the world bounds motors without a limit, and no others") {
   Jaws j = jaws(DofKind::rigid, 0.5, 0);
   CHECK(std::isinf(largest_weight(j)));

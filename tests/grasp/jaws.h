@@ -14,7 +14,8 @@ struct Jaws {
 /// springs of this stiffness [N/m] press inwards until the jaws are closed
 /// actuators  of the joints "jaw0" and "jaw1", `dof` 0 and 1
 inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, double spring = 0,
-                 const std::vector<ActuatorSpec>& actuators = {}) {
+                 const std::vector<ActuatorSpec>& actuators = {},
+                 const std::optional<std::array<double, 2>>& effort_range = {}) {
   Jaws j;
   RobotSpec spec;
   spec.name = "jaws";
@@ -40,7 +41,8 @@ inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, 
                     .min = 0,
                     .max = 0.1,
                     .spring = spring,
-                    .rest = 0.1}};
+                    .rest = 0.1,
+                    .effort_range = effort_range}};
     spec.links.push_back(link);
   }
   j.grasp.hand = j.world.add_robot(spec, Pose());

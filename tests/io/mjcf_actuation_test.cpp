@@ -65,9 +65,7 @@ TEST_CASE("the largest effort is the sum of all actuators, within actuatorfrcran
   const ToldRobot told = three(both, "range='-1 1' actuatorfrcrange='-5 4'");
   CHECK(told.dof("a").max_effort == 5);
   CHECK(told.dof("b").max_effort == 5);
-  CHECK(
-      told.warned("joint 'a': actuatorfrcrange: expected -x x, got -5 4; the larger counts both "
-                  "ways"));
+  CHECK(told.warnings.empty());
   const ToldRobot free = three(both);
   CHECK(free.dof("a").max_effort == 2 * 2 + 4);
   CHECK(free.dof("b").max_effort == 0);  // nothing bounds it

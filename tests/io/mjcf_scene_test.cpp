@@ -180,11 +180,12 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
   CHECK(robot.actuators[2].gain == 9);
   CHECK(robot.actuators[2].bias == std::array{1.0, -2.0, -3.0});
   CHECK(robot.actuators[3].kind == "motor");
-  CHECK(!robot.actuators[4].law_known);
+  CHECK(robot.actuators[4].law_known);
+  CHECK(robot.actuators[4].gain == 0);
+  CHECK(robot.actuators[4].gain_slopes[1] < 0);
   // one warning a kind
   CHECK(std::ranges::count_if(told.warnings, [](const std::string& s) {
-          return s.find("<damper>: how its force follows from its control is not kept") !=
-                 std::string::npos;
+          return s.find("<damper>: motors of a run do not follow its gain") != std::string::npos;
         }) == 1);
 }
 
@@ -199,7 +200,7 @@ TEST_CASE("couplings and actuators belong to the robot whose joints they name") 
   CHECK(told.world.robots[0].robot.actuators.empty());
   CHECK(told.world.robots[1].robot.actuators.size() == 1);
   CHECK(told.warned("joint: joint 'a' is of another robot; this is not used"));
-  CHECK(told.noted("scene.xml: joints that no actuator drives do not close: 'a'"));
+  CHECK(told.noted("joints that no actuator drives do not close: 'a'"));
   const ToldWorld shared(arm + finger,
                          "<tendon><fixed name='t'><joint joint='a' coef='1'/><joint joint='p' "
                          "coef='1'/></fixed></tendon><actuator><motor tendon='t'/></actuator>");

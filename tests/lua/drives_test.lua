@@ -32,6 +32,10 @@ local hopeless = {
   kp0 = [[<position joint="%s" kp="0"/>]],
   negative_gear = [[<motor joint="%s" gear="-1" ctrllimited="true" ctrlrange="0 20"/>]],
   only_opens = [[<motor joint="%s" ctrllimited="true" ctrlrange="-20 0"/>]],
+  muscle = [[<muscle joint="%s" ctrllimited="true" ctrlrange="0 1"/>]],
+  no_area = [[<cylinder joint="%s" area="0" ctrllimited="true" ctrlrange="0 1"/>]],
+  integrates_open = [[<intvelocity joint="%s" kp="100" actrange="-0.1 0"/>]],
+  damper = [[<damper joint="%s" kv="100" ctrllimited="true" ctrlrange="0 1"/>]],
   closes_with_1mN = [[<position joint="%s" kp="100" forcelimited="true" forcerange="-20 0.001"/>]],
 }
 
@@ -51,6 +55,14 @@ test("motors that cannot close verify no grasp, and the shaken object falls out"
     t.equal(verdict.survived, false)
     t.ok(verdict.grip_force < 0.01, name)
   end
+end)
+
+test("a check names the DOFs that no motor closes", function(t)
+  local report = require "clench.report"
+  local function not_closed(actuator) return report.of(gripper(t, actuator)).parsed.not_closed end
+  t.equal(not_closed(hopeless.only_opens), "motors that cannot pull in the closing direction drive j1, j2")
+  t.equal(not_closed(hopeless.no_area), "no motor drives j1, j2")
+  t.equal(not_closed [[<motor joint="%s"/>]], nil)
 end)
 
 test("a shaken grip presses with what its motors exert, and the verdict says so", function(t)

@@ -70,3 +70,15 @@ test("boxes that are placed in each other leave a finite report in every engine"
     t.ok(world.report.max_residual < 1, world.report.max_residual)
   end
 end)
+
+test("a run names what ODE does not simulate, once", function(t)
+  local path = test.path(".xml", [[<mujoco model="m"><worldbody><body name="base"><geom size="0.1"/>
+    <body name="a" pos="0 0 1"><joint name="a" type="slide" range="0 1"/><geom size="0.1"/></body>
+    <body name="b" pos="0 0 2"><joint name="b" type="slide" range="0 1"/><geom size="0.1"/></body></body></worldbody>
+    <tendon><fixed name="t" damping="1"><joint joint="a" coef="1"/><joint joint="b" coef="1"/></fixed></tendon></mujoco>]])
+  local world = clench.world {dynamics = {engine = "ode"}}
+  local robot = world:add_robot(path)
+  local function said() return table.concat(t.warnings(function() world:run(0.002) end), "\n") end
+  t.ok(said():find(("the engine \"ode\" does not simulate the joint tendons of '%s'"):format(robot.name), 1, true))
+  t.equal(said():find("does not simulate", 1, true), nil)
+end)

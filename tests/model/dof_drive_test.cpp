@@ -1,4 +1,4 @@
-#include "clench/model/dof_drive.h"
+#include "clench/spec/dof_drive.h"
 
 #include "clench/base/random.h"
 #include "clench/model/effort_range.h"
@@ -26,10 +26,18 @@ static RobotSpec slider(const std::vector<ActuatorSpec>& actuators, double max_e
   return robot;
 }
 
-static DofDrive drive_with(const std::vector<ActuatorSpec>& actuators, double max_effort = 0,
-                           double ratio = 1) {
-  World world;
-  return drive_of(world.robot(world.add_robot(slider(actuators, max_effort, ratio), {})), 0);
+// the drive of a slider
+struct Driven {
+  DofDrive drive;
+
+  EffortRange at_rest(double q) const { return drive.at_rest(Eigen::VectorXd::Constant(1, q)); }
+  EffortRange limits() const { return drive.limits(); }
+  bool acts() const { return drive.acts(); }
+};
+
+static Driven drive_with(const std::vector<ActuatorSpec>& actuators, double max_effort = 0,
+                         double ratio = 1) {
+  return {drive_of(slider(actuators, max_effort, ratio), 0)};
 }
 
 static ActuatorSpec on_slide(const ActuatorSpec& law) {
@@ -51,7 +59,7 @@ TEST_CASE("actuators that exert nothing have an empty range") {
   gear.gear = 0;
   gain.gain = 0;
   servo.gain = 0, servo.bias = {0, -0.0, 0};
-  damper.kind = "damper";
+  damper.kind = "damper", damper.gain = 0, damper.gain_slopes = {0, -5};
   range.control_range = {{0, 0}};
   for (const ActuatorSpec& dead : {gear, gain, servo, damper, range}) {
     World world;
@@ -81,7 +89,7 @@ TEST_CASE("a servo pulls less the nearer it is to the end of its control range")
   ActuatorSpec servo;
   servo.gain = 100, servo.bias = {0, -100, -5};
   servo.control_range = {{0, 0.04}};
-  const DofDrive drive = drive_with({on_slide(servo)});
+  const Driven drive = drive_with({on_slide(servo)});
   CHECK(drive.at_rest(0).high == doctest::Approx(4));
   CHECK(drive.at_rest(0.03).high == doctest::Approx(1));
   CHECK(drive.at_rest(0.03).low == doctest::Approx(-3));
@@ -93,12 +101,19 @@ TEST_CASE("a servo pulls less the nearer it is to the end of its control range")
   CHECK(drive_with({on_slide(servo)}).limits() == EffortRange{-2, 1.5});
 }
 
-TEST_CASE("actuators of unknown law and those on tendons count by their limits") {
+TEST_CASE("actuators of unknown law count by their limits") {
   ActuatorSpec muscle;
   muscle.kind = "muscle", muscle.law_known = false;
   CHECK(drive_with({on_slide(muscle)}).at_rest(0) == EffortRange{-none, none});
   muscle.force_range = {{-8, 0}};
   CHECK(drive_with({on_slide(muscle)}).at_rest(0) == EffortRange{-8, 0});
+  muscle.force_range = {{-8, 8}}, muscle.law_range = {{-none, 0}};
+  CHECK(drive_with({on_slide(muscle)}).at_rest(0) == EffortRange{-8, 0});
+  muscle.gear = -2;
+  CHECK(drive_with({on_slide(muscle)}).at_rest(0) == EffortRange{0, 16});
+}
+
+TEST_CASE("an actuator on a tendon whose joints are not given pulls its DOF") {
   ActuatorSpec tendon;
   tendon.tendon = "split", tendon.dof = 0, tendon.force_range = {{-5, 5}};
   CHECK(drive_with({tendon}, 2).at_rest(0) == EffortRange{-2, 2});
@@ -110,7 +125,7 @@ TEST_CASE("actuators of unknown law and those on tendons count by their limits")
   tendon.force_range = {}, tendon.control_range = {{-1, 3}};
   CHECK(drive_with({tendon}).at_rest(0) == EffortRange{-6, 2});
   tendon.bias = {0, -1, 0};
-  CHECK(drive_with({tendon}).at_rest(0) == EffortRange{-none, none});
+  CHECK(drive_with({tendon}).at_rest(0) == EffortRange{-6, 2});
   ActuatorSpec no_gear = tendon, no_control = tendon;
   no_gear.gear = 0;
   no_control.bias = {0, 0, 0}, no_control.control_range = {{0, 0}};
@@ -128,6 +143,76 @@ TEST_CASE("efforts of several actuators add up, and a limit of the DOF bounds th
   CHECK(drive_with({on_slide(closing), on_slide(opening)}).at_rest(0) == EffortRange{-5, 20});
   CHECK(drive_with({on_slide(closing), on_slide(closing)}).at_rest(0) == EffortRange{0, 40});
   CHECK(drive_with({on_slide(closing), on_slide(closing)}, 12).at_rest(0) == EffortRange{0, 12});
+}
+
+TEST_CASE("a tendon pulls each joint by its coefficient, sign included") {
+  RobotSpec robot = slider({});
+  robot.dofs.push_back(robot.dofs[0]);
+  LinkSpec second = robot.links[0];
+  second.body.name = "second";
+  second.joints[0].name = "second", second.joints[0].dof = 1, second.joints[0].ratio = 2;
+  robot.links.push_back(second);
+  ActuatorSpec motor;
+  motor.tendon = "split", motor.dof = 0, motor.control_range = {{0, 50}};
+  motor.pulls = {{"slide", -1}, {"second", 0.5}};
+  robot.actuators = {motor};
+  const Eigen::Vector2d q(0.01, 0.02);
+  CHECK(drive_of(robot, 0).at_rest(q) == EffortRange{-50, 0});
+  CHECK(drive_of(robot, 1).at_rest(q) == EffortRange{0, 50});
+  // a servo feels the length that both make
+  robot.actuators[0].gain = 100, robot.actuators[0].bias = {0, -100, 0};
+  robot.actuators[0].control_range = {{0.02, 0.02}};
+  const double force = 100 * (0.02 - (-0.01 + 0.5 * 2 * 0.02));
+  CHECK(drive_of(robot, 0).at_rest(q).high == doctest::Approx(-force));
+  CHECK(drive_of(robot, 1).at_rest(q).low == doctest::Approx(force));
+  // joints of one DOF that cancel
+  robot.links[1].joints[0].dof = 0;
+  robot.dofs.pop_back();
+  CHECK(drive_of(robot, 0).at_rest(Eigen::VectorXd::Zero(1)).is_zero());
+  CHECK_FALSE(drive_of(robot, 0).acts());
+}
+
+TEST_CASE("limits of a joint and of a tendon bound sums of forces, each direction separately") {
+  ActuatorSpec motor;
+  motor.control_range = {{-20, 20}};
+  RobotSpec robot = slider({on_slide(motor), on_slide(motor)});
+  robot.links[0].joints[0].effort_range = {{-30, 0.001}};
+  const Eigen::VectorXd at_0 = Eigen::VectorXd::Zero(1);
+  CHECK(drive_of(robot, 0).at_rest(at_0) == EffortRange{-30, 0.001});
+  CHECK(drive_of(robot, 0).limits() == EffortRange{-30, 0.001});
+  // of the joint, not of the DOF
+  robot.links[0].joints[0].ratio = -2;
+  CHECK(drive_of(robot, 0).at_rest(at_0) == EffortRange{-0.002, 60});
+  robot.links[0].joints[0].effort_range = {{0, 0}};
+  CHECK_FALSE(drive_of(robot, 0).acts());
+  robot.links[0].joints[0].effort_range.reset();
+  for (ActuatorSpec& actuator : robot.actuators) {
+    actuator.joint.clear();
+    actuator.tendon = "t", actuator.gear = 3;
+    actuator.pulls = {{"slide", 1}};
+    actuator.tendon_force_range = {{-10, 25}};
+  }
+  CHECK(drive_of(robot, 0).at_rest(at_0) == EffortRange{-2 * 3 * 25, 2 * 3 * 10});
+}
+
+TEST_CASE("gains that depend on length and an activation in place of the control count") {
+  ActuatorSpec general;
+  general.gain = 1, general.gain_slopes = {50, 0}, general.control_range = {{0, 2}};
+  CHECK(drive_with({on_slide(general)}).at_rest(0.1) == EffortRange{0, 12});
+  CHECK(drive_with({on_slide(general)}).at_rest(-0.1) == EffortRange{-8, 0});
+  ActuatorSpec servo;
+  servo.gain = 100, servo.bias = {0, -100, 0}, servo.activation_range = {{-0.1, 0}};
+  CHECK(drive_with({on_slide(servo)}).at_rest(0).high == 0);
+  CHECK(drive_with({on_slide(servo)}).at_rest(0.05).low == doctest::Approx(-15));
+  servo.activation_range = {{-none, none}}, servo.control_range = {{-1, 1}};
+  CHECK(drive_with({on_slide(servo)}).at_rest(0) == EffortRange{-none, none});
+  servo.length_at_0 = 0.2, servo.activation_range = {{0, 0.1}};
+  CHECK(drive_with({on_slide(servo)}).at_rest(0).high == doctest::Approx(-10));
+  ActuatorSpec off;
+  off.enabled = false;
+  CHECK_FALSE(drive_with({on_slide(off)}).acts());
+  CHECK(is_powerless(off));
+  CHECK_FALSE(is_powerless(servo));
 }
 
 TEST_CASE("the range at rest is what all controls of random actuators exert") {

@@ -93,12 +93,16 @@ void find_joint_forces(const World& world, const Articulation& tree, const TreeD
   out.efforts += out.weight;
 }
 
+static const DofDrive& drive_at(const World& world, const Coordinate& c) {
+  return world.robot(c.robot).drives[static_cast<size_t>(c.dof)];
+}
+
 double feedforward_effort(const World& world, const Coordinate& c, const DynamicState& state) {
   if (c.joint >= 0) return 0;
   const DofControl& control = state.controls[c.dof_index];
   EffortRange range = effort_limits(world, c.robot, c.dof);
   // nothing but the control of a servo makes its effort here
-  if (control.mode == ControlMode::effort && drive_of(world.robot(c.robot), c.dof).has_servo())
+  if (control.mode == ControlMode::effort && drive_at(world, c).has_servo())
     range = effort_range(world, c.robot, c.dof);
   return std::clamp(control.effort, range.low, range.high);
 }
@@ -108,11 +112,11 @@ double feedforward_effort(const World& world, const Coordinate& c, const Dynamic
 // rounding  of the effort [N m or N]
 static double beyond_control(const World& world, const Coordinate& c, double effort,
                              double rounding) {
-  const DofDrive drive = drive_of(world.robot(c.robot), c.dof);
+  const DofDrive& drive = drive_at(world, c);
   if (!drive.has_servo()) return 0;
   const auto& set = world.dynamic_settings().robot(c.robot).gains;
   if (c.dof < static_cast<int>(set.size()) && set[c.dof]) return 0;
-  const EffortRange range = drive.commanded(world.dofs(c.robot)[c.dof]);
+  const EffortRange range = drive.commanded(world.dofs(c.robot));
   const double excess = effort - std::clamp(effort, range.low, range.high);
   return std::abs(excess) <= rounding ? 0 : excess;
 }

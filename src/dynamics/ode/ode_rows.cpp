@@ -56,7 +56,11 @@ void OdeScene::add_row(const CoordinateRow& row) {
   made.ratio = problem_.system.trees[row.tree].joints[lead].ratio;
   *made.feedback = {};
   if (row.kind != RowKind::low_limit && row.kind != RowKind::high_limit) {
-    const double most = row.high < dInfinity ? row.high / h_ / std::abs(made.ratio) : dInfinity;
+    // ODE bounds a motor alike in both directions: by what it has in that of its target
+    const double bound = row.target < 0   ? -row.low
+                         : row.target > 0 ? row.high
+                                          : std::min(-row.low, row.high);
+    const double most = bound < dInfinity ? bound / h_ / std::abs(made.ratio) : dInfinity;
     if (most <= 0) return;
     const dJointID motor = add_motor(tree, joint, made.ratio * row.target,
                                      h_ * made.ratio * made.ratio * row.compliance, most);

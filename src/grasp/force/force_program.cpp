@@ -1,8 +1,11 @@
 #include "clench/grasp/force/force_program.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "clench/grasp/force/shared_actuators.h"
 #include "clench/math/decompositions.h"
 #include "clench/math/solve_cone_program.h"
 
@@ -162,6 +165,40 @@ void balance_joints(ForceProgram& p, const JointDemand& demand) {
     p.builder.at_most(blocks(loose, sign), sign * springs(loose) + p.joints.slack(loose));
 }
 
+// an end at which something acts, where motors exert what it takes
+EffortRange without_limits(EffortRange range) {
+  return {range.low < 0 ? -no_bound : range.low, range.high > 0 ? no_bound : range.high};
+}
+
+// An actuator of several DOFs exerts one force on all of them: within the bounds of each, their
+// efforts are those of such forces and of their other actuators.
+void share_actuators(ForceProgram& p, const World& world, Id<Robot> robot, bool unlimited) {
+  const SharedActuators shared = shared_actuators(world, robot);
+  if (shared.actuators.empty()) return;
+  const int first = p.builder.unknowns(static_cast<int>(shared.actuators.size()));
+  std::map<int, MatrixXd> rows;  // by DOF: effort per unit of each force
+  for (const auto& [dof, own] : shared.others)
+    rows[dof] = MatrixXd::Zero(1, static_cast<int>(shared.actuators.size()));
+  for (int a = 0; a < static_cast<int>(shared.actuators.size()); ++a) {
+    const SharedActuator& actuator = shared.actuators[a];
+    const EffortRange force = unlimited ? without_limits(actuator.force) : actuator.force;
+    if (std::isfinite(force.high)) p.builder.at_most({{first + a, number(1)}}, numbers(force.high));
+    if (std::isfinite(force.low)) p.builder.at_most({{first + a, number(-1)}}, numbers(-force.low));
+    for (const auto& [dof, reach] : actuator.reaches) rows[dof](0, a) += reach;
+  }
+  for (int k = 0; k < static_cast<int>(p.joints.refs.size()); ++k) {
+    const EffortRef& ref = p.joints.refs[k];
+    if (ref.clutch || ref.robot != robot || !rows.contains(ref.dof)) continue;
+    const EffortRange given = shared.others.at(ref.dof);
+    const EffortRange own = unlimited ? without_limits(given) : given;
+    const MatrixXd& row = rows[ref.dof];
+    if (std::isfinite(own.high))
+      p.builder.at_most({{p.u + k, number(1)}, {first, -row}}, numbers(own.high - p.at_rest[k]));
+    if (std::isfinite(own.low))
+      p.builder.at_most({{p.u + k, number(-1)}, {first, row}}, numbers(p.at_rest[k] - own.low));
+  }
+}
+
 void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
                 const JointDemand& demand) {
   const int efforts = static_cast<int>(p.joints.refs.size());
@@ -179,6 +216,13 @@ void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
     if (std::isfinite(p.low[k]))
       p.lows[k] = p.builder.at_most({{p.u + k, number(-1)}}, numbers(p.at_rest[k] - p.low[k]));
   }
+  // limits of a script stand for those of the actuators
+  std::vector<Id<Robot>> robots;
+  for (const EffortRef& ref : p.joints.refs)
+    if (std::ranges::find(robots, ref.robot) == robots.end()) robots.push_back(ref.robot);
+  for (const Id<Robot> robot : robots)
+    if (robot != grasp.hand || !(demand.limits || demand.efforts))
+      share_actuators(p, world, robot, demand.unlimited);
   if (demand.total_torque) {
     MatrixXd row = MatrixXd::Zero(1, efforts);
     for (int k = 0; k < efforts; ++k)

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <set>
 
 #include "clench/io/mjcf/mjcf_document.h"
 
@@ -9,20 +10,28 @@ namespace clench {
 
 struct MjcfActuator {
   XmlValues values;
-  ActuatorSpec spec;            ///< `dof` is not set
-  bool holds_position = false;  ///< its control is the length that it holds
+  ActuatorSpec spec;  ///< `dof`, `pulls` and `length_at_0` are not set
   /// range of controls of a position servo, as a part of that of its target; 0: not given
   double inherit_range = 0;
-  std::string filter;  ///< dynamics between control and force that are not simulated; empty: none
-
-  /// Largest force, gear included; infinite where nothing bounds it [N or N m].
-  double max_force() const;
+  std::string dynamics = "none";  ///< between control and force, which are not simulated
+  int group = 0;
 };
 
 /// A range, such as "ctrlrange", where the attribute `limited_name` lets it count: two zeros undo that
 /// of a class unless that attribute is "true".
 std::optional<std::array<double, 2>> limited_range(const XmlValues& values, MjcfDocument& document,
                                                    const char* range, const char* limited_name);
+
+/// Actuators that <option> switches off: all by <flag actuation="disable"/>, or those of some groups.
+struct MjcfActuatorSwitches {
+  bool all_off = false;
+  std::set<int> groups_off;
+  std::string place;  ///< of the element that does; empty: none is off
+
+  bool off(int group) const { return all_off || groups_off.contains(group); }
+};
+/// throws  Error for a word or number that is none
+MjcfActuatorSwitches read_actuator_switches(const MjcfDocument& document);
 
 /// All shortcuts of <general>, such as <motor> and <position>, write into one set of parameters:
 /// those of a class, whatever they are called there, are the defaults of any actuator of the class.

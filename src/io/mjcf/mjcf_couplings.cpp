@@ -25,7 +25,8 @@ class Couplings {
         tree_(tree),
         elsewhere_(elsewhere),
         tells_(tells),
-        unused_(tells ? document.unused() : told_already_) {
+        unused_(tells ? document.unused() : told_already_),
+        switches_(read_actuator_switches(document)) {
     for (size_t j = 0; j < tree.joints.size(); ++j)
       numbers_[tree.joints[j].name] = static_cast<int>(j);
     for (const MjcfNode* node : document.section("worldbody")) find_names(*node);
@@ -37,7 +38,7 @@ class Couplings {
     tell_unused();
     apply_mjcf_drives(drives_, document_, cache_, tree_);
     for (const MjcfTendon& tendon : tendons_) add_tendon_dynamics(tendon, document_, cache_, tree_);
-    mark_passive();
+    tree_.has_actuators = has_actuators_;
   }
 
  private:
@@ -60,7 +61,6 @@ class Couplings {
   static void add_unused(std::map<std::string, Unused>& kinds, const std::string& kind,
                          const XmlElement& element, const XmlValues& values);
   void tell_unused() const;
-  void mark_passive();
 
   MjcfDocument& document_;
   FileCache& cache_;
@@ -76,6 +76,7 @@ class Couplings {
   const bool tells_;                        // of what concerns no joint at all
   UnusedXml told_already_;
   UnusedXml& unused_;
+  const MjcfActuatorSwitches switches_;
   std::set<std::string> unknown_laws_;
   /// What is not used, once per kind: the place of the first, and names.
   struct Unused {
@@ -258,7 +259,20 @@ void Couplings::tell_law(const MjcfActuator& actuator) {
   if (!actuator.spec.law_known && unknown_laws_.insert(kind).second)
     warn(element,
          fmt::format("<{}>: how its force follows from its control is not kept", excerpt(kind)));
-  if (!actuator.filter.empty() && unknown_laws_.insert(kind + " filter").second)
+  if (!actuator.spec.law_known) return;
+  if (actuator.spec.gain_slopes != std::array{0.0, 0.0} && unknown_laws_.insert(kind).second)
+    warn(element,
+         fmt::format("<{}>: motors of a run do not follow its gain, which depends on length "
+                     "or velocity; efforts at rest do",
+                     excerpt(kind)));
+  if (actuator.dynamics == "none" || !unknown_laws_.insert(kind + " " + actuator.dynamics).second)
+    return;
+  if (actuator.dynamics == "integrator")
+    warn(element,
+         fmt::format("<{}>: targets of its motor stand for its activation, the integral of "
+                     "its control",
+                     excerpt(kind)));
+  else
     warn(element, fmt::format("<{}>: its control acts at once: the time constant of its filter is "
                               "not used",
                               excerpt(kind)));
@@ -275,7 +289,10 @@ void Couplings::read_actuator(const XmlElement& element) {
                       "site",      "refsite",     "body",       "cranksite",     "slidersite",
                       "ctrlrange", "ctrllimited", "forcerange", "forcelimited",  "kp",
                       "kv",        "dampratio",   "timeconst",  "inheritrange",  "gear",
-                      "gaintype",  "gainprm",     "biastype",   "biasprm",       "dyntype"});
+                      "gaintype",  "gainprm",     "biastype",   "biasprm",       "dyntype",
+                      "group",     "actrange",    "actlimited", "area",          "diameter",
+                      "bias",      "range",       "force",      "scale",         "lmin",
+                      "lmax",      "vmax",        "fpmax",      "fvmax"});
   MjcfDrive drive;
   if (on_joint) {
     const auto number = joint(values, values.has("joint") ? "joint" : "jointinparent");
@@ -296,6 +313,7 @@ void Couplings::read_actuator(const XmlElement& element) {
     return;
   }
   tell_law(actuator);
+  actuator.spec.enabled = !switches_.off(actuator.group);
   drive.actuator = std::move(actuator);
   drives_.push_back(std::move(drive));
 }
@@ -313,20 +331,6 @@ void Couplings::tell_unused() const {
   for (const auto& [kind, target] : targets_)
     cache_.warn(fmt::format("{}: actuators whose target is a {} are not used: {}", target.place,
                             kind == "cranksite" ? "slider-crank" : kind, some_names(target.names)));
-}
-
-void Couplings::mark_passive() {
-  // of a model without actuators all joints may be meant to close
-  if (!has_actuators_) return;
-  for (auto& joint : tree_.joints) joint.passive = !joint.motor.driven;
-  std::string names;
-  int count = 0;
-  for (const auto& joint : tree_.joints)
-    if (joint.passive && joint.leader < 0 && ++count <= 6)
-      names += fmt::format("{}'{}'", count > 1 ? ", " : "", excerpt(joint.name));
-  if (count > 0)
-    cache_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}",
-                            document_.file(), names, count > 6 ? " and others" : ""));
 }
 
 }  // namespace

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "clench/base/disjoint_sets.h"
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf_ties.h"
+#include "clench/spec/dof_drive.h"
 #include "clench/spec/plausibility.h"
 
 namespace clench {
 
 namespace {
-
-constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 std::string range_text(double low, double high) {
   return fmt::format("[{:.6g}, {:.6g}]", low, high);
@@ -43,7 +41,9 @@ class Drives {
  public:
   Drives(const std::vector<MjcfDrive>& drives, MjcfDocument& document, const FileCache& cache,
          TreeModel& tree)
-      : drives_(drives), document_(document), cache_(cache), tree_(tree) {}
+      : drives_(drives), document_(document), cache_(cache), tree_(tree) {
+    for (const MjcfDrive& drive : drives) specs_.push_back(drive.actuator.spec);
+  }
   void take_control_ranges();
   void tie_joints();
   void set_motors();
@@ -53,19 +53,24 @@ class Drives {
     cache_.warn(fmt::format("{}: {}: {}", drive.actuator.values.element().place(),
                             excerpt(drive.actuator.spec.kind), what));
   }
+  ActuatorSpec& spec(const MjcfDrive& drive) {
+    return specs_[static_cast<size_t>(&drive - drives_.data())];
+  }
   std::map<int, double> pulls(const MjcfDrive& drive) const;
   void inherit_range(const MjcfDrive& drive, std::array<double, 2> target);
   void take_control_range(const MjcfDrive& drive);
   void tie(const MjcfDrive& drive);
   void tell_independent(const std::vector<int>& group);
   void tell_powerless() const;
+  void tell_disabled() const;
+  void attach(const MjcfDrive& drive);
   void take_gains(const MjcfDrive& drive);
 
   const std::vector<MjcfDrive>& drives_;
   MjcfDocument& document_;
   const FileCache& cache_;
   TreeModel& tree_;
-  std::vector<std::optional<std::array<double, 2>>> control_ranges_;  // one per drive
+  std::vector<ActuatorSpec> specs_;  // one per drive
   std::vector<std::string> narrowed_;
 };
 
@@ -83,7 +88,7 @@ std::map<int, double> Drives::pulls(const MjcfDrive& drive) const {
 /// A position servo's target is clamped to the range of its controls.
 void Drives::take_control_range(const MjcfDrive& drive) {
   const MjcfActuator& actuator = drive.actuator;
-  const auto& range = control_ranges_[static_cast<size_t>(&drive - drives_.data())];
+  const auto& range = spec(drive).control_range;
   if (actuator.spec.kind != "position" || !range || actuator.spec.gear == 0) return;
   TreeJoint& joint = tree_.joints[drive.joint];
   // a joint that stands still has none to take
@@ -107,18 +112,22 @@ void Drives::take_control_range(const MjcfDrive& drive) {
 void Drives::inherit_range(const MjcfDrive& drive, std::array<double, 2> target) {
   const double centre = 0.5 * (target[0] + target[1]),
                half = 0.5 * (target[1] - target[0]) * drive.actuator.inherit_range;
-  control_ranges_[static_cast<size_t>(&drive - drives_.data())] = {centre - half, centre + half};
+  // what an integrator integrates to
+  auto& range =
+      spec(drive).activation_range ? spec(drive).activation_range : spec(drive).control_range;
+  range = {centre - half, centre + half};
 }
 
 void Drives::take_control_ranges() {
-  for (const MjcfDrive& drive : drives_)
-    control_ranges_.push_back(drive.actuator.spec.control_range);
   for (const MjcfDrive& drive : drives_) {
     if (drive.actuator.inherit_range > 0) {
+      const ActuatorSpec& own = drive.actuator.spec;
+      const bool integrates = own.activation_range.has_value();
       const bool on_joint = !drive.tendon && !tree_.joints[drive.joint].endless;
       const bool on_tendon = drive.tendon && drive.tendon->values.has("range");
-      if (drive.actuator.spec.control_range)
-        warn(drive, "expected either ctrlrange or inheritrange, got both; ctrlrange is used");
+      if (integrates ? drive.actuator.values.has("actrange") : own.control_range.has_value())
+        warn(drive, fmt::format("expected either {0} or inheritrange, got both; {0} is used",
+                                integrates ? "actrange" : "ctrlrange"));
       else if (on_joint)
         inherit_range(drive, {tree_.joints[drive.joint].min, tree_.joints[drive.joint].max});
       else if (on_tendon)
@@ -191,7 +200,8 @@ void Drives::tell_independent(const std::vector<int>& group) {
   for (const int joint : group) joints.push_back(tree_.joints[joint].name);
   cache_.warn(fmt::format(
       "{}: actuators pull joints in different ratios; each of these joints stays a DOF "
-      "with a motor of its own, and only robot.actuators has the tendons: joints {}; "
+      "with its own motor; contact forces are those of the actuators, while motors of a run are "
+      "independent: joints {}; "
       "tendons {}",
       first->actuator.values.element().place(), some_names(joints), some_names(tendons)));
 }
@@ -254,16 +264,21 @@ void Drives::take_gains(const MjcfDrive& drive) {
   }
 }
 
+/// As a sentence names it.
+std::string label(const ActuatorSpec& spec) {
+  return !spec.name.empty() ? spec.name : !spec.joint.empty() ? spec.joint : spec.tendon;
+}
+
 void Drives::tell_powerless() const {
   std::vector<std::string> names;
   std::string place;
   for (const MjcfDrive& drive : drives_) {
-    const ActuatorSpec& spec = drive.actuator.spec;
-    if (drive.actuator.max_force() > 0) continue;
+    const ActuatorSpec& spec = specs_[static_cast<size_t>(&drive - drives_.data())];
+    const bool fixed =
+        !drive.tendon && tree_.joints[drive.joint].effort_range == std::array{0.0, 0.0};
+    if (!spec.enabled || !(fixed || is_powerless(spec))) continue;
     if (names.empty()) place = drive.actuator.values.element().place();
-    names.push_back(!spec.name.empty()    ? spec.name
-                    : !spec.joint.empty() ? spec.joint
-                                          : spec.tendon);
+    names.push_back(label(spec));
   }
   if (!names.empty())
     cache_.warn(
@@ -272,61 +287,45 @@ void Drives::tell_powerless() const {
                     place, some_names(names)));
 }
 
-void Drives::set_motors() {
-  tell_powerless();
-  // largest force of the actuators of each joint, and of each tendon
-  std::vector<double> efforts(tree_.joints.size(), 0);
-  std::vector<bool> driven(tree_.joints.size(), false);
-  std::vector<std::pair<const MjcfTendon*, double>> tensions;
-  for (const MjcfDrive& drive : drives_) {
-    const double force = drive.actuator.max_force();
-    if (drive.tendon) {
-      const auto found = std::ranges::find(tensions, drive.tendon, [](auto& t) { return t.first; });
-      found != tensions.end() ? found->second += force
-                              : tensions.emplace_back(drive.tendon, force).second;
-    } else {
-      efforts[drive.joint] += force;
-    }
-    if (force > 0)
-      for (const auto& [joint, pull] : pulls(drive)) driven[joint] = true;
-    take_gains(drive);
-  }
-  const auto largest = [](const std::array<double, 2>& range) {
-    return std::max(std::abs(range[0]), std::abs(range[1]));
-  };
-  for (auto& [tendon, force] : tensions) {
-    if (tendon->force_range) force = std::min(force, largest(*tendon->force_range));
-    if (force > 0)
-      for (const auto& [joint, coefficient] : tendon->joints)
-        efforts[joint] += force * std::abs(coefficient);
-  }
-  for (size_t j = 0; j < efforts.size(); ++j) {
-    const auto& range = tree_.joints[j].force_range;
-    if (!range) continue;
-    efforts[j] = std::min(efforts[j], largest(*range));
-    if ((*range)[0] != -(*range)[1])
-      cache_.warn(fmt::format(
-          "{}: joint '{}': actuatorfrcrange: expected -x x, got {} {}; the "
-          "larger counts both ways",
-          tree_.joints[j].place, excerpt(tree_.joints[j].name), (*range)[0], (*range)[1]));
-    if (efforts[j] == 0) driven[j] = false;
-  }
-  for (TreeJoint& joint : tree_.joints) joint.motor.driven = false;
-  std::map<int, double> by_dof;
-  for (size_t j = 0; j < efforts.size(); ++j) {
-    const TiedJoint tied = by_leader(tree_, static_cast<int>(j));
-    // what stands still, or whose limit is 0, moves no leader
-    if (!driven[j] || tied.leader < 0 || tied.ratio == 0 || efforts[j] == 0) continue;
+void Drives::tell_disabled() const {
+  std::vector<std::string> names;
+  for (const ActuatorSpec& spec : specs_)
+    if (!spec.enabled) names.push_back(label(spec));
+  if (names.empty()) return;
+  const MjcfActuatorSwitches switches = read_actuator_switches(document_);
+  cache_.warn(fmt::format("{}: {} switches actuators off; they drive nothing: {}", switches.place,
+                          switches.all_off ? "flag: actuation=\"disable\"" : "actuatorgroupdisable",
+                          some_names(names)));
+}
+
+/// Completes the actuator's spec by its target, and adds it to those of the tree. What pulls a joint
+/// that stands still moves nothing.
+void Drives::attach(const MjcfDrive& drive) {
+  ActuatorSpec out = spec(drive);
+  const auto add = [&](int joint, double coefficient) {
+    const TiedJoint tied = by_leader(tree_, joint);
+    if (tied.leader < 0) return;
+    out.length_at_0 += out.gear * coefficient * tied.offset;
+    if (tied.ratio == 0) return;
+    if (out.dof < 0) out.dof = joint;
     tree_.joints[tied.leader].motor.driven = true;
-    by_dof[tied.leader] += efforts[j] * std::abs(tied.ratio);
+    if (drive.tendon) out.pulls.push_back({tree_.joints[joint].name, coefficient});
+  };
+  if (!drive.tendon) add(drive.joint, 1);
+  if (drive.tendon) {
+    for (const auto& [joint, coefficient] : drive.tendon->joints) add(joint, coefficient);
+    out.tendon_force_range = drive.tendon->force_range;
   }
-  for (const auto& [leader, effort] : by_dof)
-    if (effort < no_bound) tree_.joints[leader].motor.max_effort = effort;
-  for (size_t i = 0; i < drives_.size(); ++i) {
-    const MjcfDrive& drive = drives_[i];
-    tree_.actuators.push_back(drive.actuator.spec);
-    tree_.actuators.back().control_range = control_ranges_[i];
-    tree_.actuators.back().dof = drive.tendon ? drive.tendon->joints.front().first : drive.joint;
+  tree_.actuators.push_back(std::move(out));
+}
+
+void Drives::set_motors() {
+  tell_disabled();
+  tell_powerless();
+  for (TreeJoint& joint : tree_.joints) joint.motor.driven = false;
+  for (const MjcfDrive& drive : drives_) {
+    if (drive.actuator.spec.enabled) take_gains(drive);
+    attach(drive);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf_tree.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -121,6 +122,7 @@ void MjcfTreeReader::bound_inertia(const XmlElement& element, int link) {
   if (!light && !small) return;
   const double mass = std::max(before, settings.min_mass);
   if (!mass_rule.allows(mass)) return;
+  raised_.push_back(body.name);
   const Eigen::Vector3d moments =
       axes.moments.cwiseMax(Eigen::Vector3d::Constant(settings.min_inertia));
   if (!(moments.maxCoeff() > 0)) {
@@ -160,6 +162,9 @@ void MjcfTreeReader::check_moving_masses() {
 
 MjcfTree MjcfTreeReader::take() {
   check_moving_masses();
+  if (!raised_.empty())
+    cache_.note(fmt::format("{}: boundmass and boundinertia raise the mass or inertia of: {}",
+                            document_.file(), some_names(raised_)));
   return std::move(tree_);
 }
 

@@ -27,8 +27,21 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
   worldbody_ = read_worldbody(document_, whole);
 }
 
+/// Does an <option> switch actuators, and nothing else?
+static bool only_switches_actuators(const MjcfNode& option) {
+  const auto among = [](const XmlElement& element, std::string_view known) {
+    return std::ranges::all_of(element.attributes(),
+                               [&](const auto& name) { return name == known; });
+  };
+  return among(option.element, "actuatorgroupdisable") &&
+         std::ranges::all_of(option.children, [&](const MjcfNode& child) {
+           return child.name() == "flag" && among(child.element, "actuation");
+         });
+}
+
 /// A section that is not read; keyframes are states of a world, and a robot alone has none.
 void MjcfModel::leave_out(const MjcfNode& section) {
+  if (section.name() == "option" && only_switches_actuators(section)) return;
   if (section.name() != "keyframe") return document_.unused().element(section.element);
   if (section.children.empty()) return;
   cache_.warn(section.element.place() +
@@ -79,6 +92,11 @@ void MjcfModel::scale_masses(MjcfTree& tree) {
   if (!mass_scale_) {
     const double mass = mass_of_all(document_.path(), cache_.options());
     mass_scale_ = mass > 0 ? wanted / mass : 1;
+    if (std::abs(*mass_scale_ - 1) > 1e-9)
+      cache_.note(
+          fmt::format("{}: settotalmass scales the masses of all bodies by {:.6g}, from {:.6g} "
+                      "to {:.6g} kg",
+                      document_.file(), *mass_scale_, mass, wanted));
   }
   for (size_t l = 0; l < tree.pieces.size(); ++l) {
     double& mass = tree.model.links[l].body.mass;

@@ -26,7 +26,9 @@ static bool read_flags(const XmlElement& element, const FileCache& cache, WorldS
     if (on == usual) continue;
     if (name == "gravity") gravity = false;
     if (name == "contact" || name == "constraint") world.collision_on = false;
-    if (name == "gravity" || name == "contact" || name == "filterparent") continue;
+    // that of actuation is in force already
+    if (name == "gravity" || name == "contact" || name == "filterparent" || name == "actuation")
+      continue;
     if (harmless.contains(name))
       idle.push_back(name);
     else
@@ -49,7 +51,7 @@ void read_mjcf_options(MjcfDocument& document, const FileCache& cache, WorldSpec
   for (const MjcfNode& node : document.root().children) {
     if (node.name() != "option") continue;
     const XmlValues values(node.element);
-    document.unused().attributes(node.element, {"gravity", "timestep"});
+    document.unused().attributes(node.element, {"gravity", "timestep", "actuatorgroupdisable"});
     if (values.has("timestep")) {
       world.time_step = values.number("timestep", 0);
       if (const auto wrong = fault(time_step_rule, *world.time_step); !wrong.empty())

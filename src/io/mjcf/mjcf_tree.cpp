@@ -291,7 +291,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   joint.armature = values.not_negative("armature", 0, document_.repairs());
   joint.spring = linear_part(values, "stiffness", subject, document_, cache_);
   set_spring_damper(values, joint);
-  joint.force_range = limited_range(values, document_, "actuatorfrcrange", "actuatorfrclimited");
+  joint.effort_range = limited_range(values, document_, "actuatorfrcrange", "actuatorfrclimited");
   joint.rest = values.number("springref", 0) * unit;
   if (type != "ball") {
     joint.zero = values.number("ref", 0) * unit;

@@ -97,9 +97,10 @@ class MjcfTreeReader {
   FileCache& cache_;
   const char* whole_;
   MjcfTree tree_;
-  MjcfNames names_;             // of the whole file
-  std::vector<bool> massless_;  // one per link
-  std::set<int> free_;          // links that free joints move
+  MjcfNames names_;                  // of the whole file
+  std::vector<bool> massless_;       // one per link
+  std::set<int> free_;               // links that free joints move
+  std::vector<std::string> raised_;  // bodies whose mass or inertia the compiler's bounds raise
 };
 
 }  // namespace clench

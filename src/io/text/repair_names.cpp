@@ -32,6 +32,8 @@ static void repair_robot_names(RobotSpec& robot, const std::string& place,
   for (ActuatorSpec& actuator : robot.actuators)
     for (std::string* name : {&actuator.name, &actuator.kind, &actuator.joint, &actuator.tendon})
       repair(*name);
+  for (ActuatorSpec& actuator : robot.actuators)
+    for (TendonPull& pull : actuator.pulls) repair(pull.joint);
   for (TendonWrapper& wrapper : robot.wrappers) {
     for (std::string& name : wrapper.exempt) repair(name);
     for (TendonWrapper::Side& side : wrapper.sides) repair(side.tendon);

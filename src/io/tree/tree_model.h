@@ -19,9 +19,6 @@ struct TreeJoint : JointSpec {
   DofSpec motor;                                     ///< what a leader's DOF becomes
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
   double zero = 0;                                   ///< q at which it changes no pose [rad or m]
-  bool passive = false;                              ///< no motor closes it
-  /// of the forces of all its actuators together [N m or N]; absent: not limited
-  std::optional<std::array<double, 2>> force_range = {};
   /// time constant [s] and damping ratio from which spring and damping are to follow
   std::optional<std::array<double, 2>> spring_damper = {};
   int leader = -1;  ///< index into joints; -1: a DOF of its own
@@ -40,7 +37,9 @@ struct TreeModel {
   std::string name, class_name;
   std::vector<TreeLink> links;  ///< [0] is the root, and becomes the base
   std::vector<TreeJoint> joints;
-  std::vector<ActuatorSpec> actuators;           ///< `dof`: the joint that each moves
+  std::vector<ActuatorSpec> actuators;  ///< `dof`: the joint that each moves
+  /// does its file list actuators? then joints that none drives do not close
+  bool has_actuators = false;
   std::vector<JointTendonSpec> tendons;          ///< `arms`: of joints that lead
   std::vector<std::pair<int, int>> never_meet;   ///< links whose collisions the file switches off
   std::vector<std::pair<int, int>> always_meet;  ///< neighbours that collide all the same

@@ -10,6 +10,7 @@
 #include "clench/spec/approach_guess.h"
 #include "clench/spec/chains.h"
 #include "clench/spec/closing_guess.h"
+#include "clench/spec/dof_drive.h"
 
 namespace clench {
 
@@ -27,6 +28,7 @@ class RobotMaker {
   void widen_followers();
   void add_link(const TreeLink& from);
   JointSpec joint_spec(const TreeJoint& joint, const Pose& before) const;
+  void settle_motors();
   void close_hand();
   void tell_closing();
   void tell_approach();
@@ -37,7 +39,7 @@ class RobotMaker {
   const std::function<bool(RobotSpec&)>& known_;
   RobotSpec robot_;
   std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
-  std::vector<bool> passive_;  // one per DOF
+  std::vector<bool> passive_;  // one per DOF: no motor closes it
 };
 
 void RobotMaker::number_dofs() {
@@ -46,7 +48,6 @@ void RobotMaker::number_dofs() {
     if (joint.leader >= 0) continue;
     robot_.dofs.push_back(joint.motor);
     robot_.dofs.back().name = joint.name;
-    passive_.push_back(joint.passive);
   }
 }
 
@@ -154,6 +155,30 @@ void RobotMaker::tell_approach() {
       file_, z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0));
 }
 
+/// By the laws of its actuators: which DOFs they drive, and with which efforts at most. Of a file
+/// without any, all joints may be meant to close.
+void RobotMaker::settle_motors() {
+  passive_.assign(robot_.dofs.size(), false);
+  if (!tree_.has_actuators) return;
+  std::vector<std::string> names;
+  for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d) {
+    DofSpec& dof = robot_.dofs[d];
+    const DofDrive drive = drive_of(robot_, d);
+    dof.driven = dof.driven && drive.acts();
+    passive_[d] = !dof.driven;
+    if (!dof.driven) names.push_back(fmt::format("'{}'", excerpt(dof.name)));
+    const EffortRange limits = drive.limits();
+    const double most = std::max(-limits.low, limits.high);
+    if (dof.driven && std::isfinite(most)) dof.max_effort = most;
+  }
+  if (names.empty()) return;
+  constexpr size_t shown = 6;
+  const bool more = names.size() > shown;
+  names.resize(std::min(names.size(), shown));
+  cache_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}", file_,
+                          fmt::join(names, ", "), more ? " and others" : ""));
+}
+
 void RobotMaker::close_hand() {
   if (known_ && known_(robot_)) {
     choose_closing(robot_, file_, cache_.options());
@@ -196,6 +221,7 @@ RobotSpec RobotMaker::make() {
       actuator.dof = dof_of_[tree_.joints[joint].leader < 0 ? joint : tree_.joints[joint].leader];
     robot_.actuators.push_back(std::move(actuator));
   }
+  settle_motors();
   close_hand();
   check_read_robot(robot_, file_, cache_.options());
   return std::move(robot_);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/graspit/robot_files.h"
+#include "clench/io/tree/tree_model.h"
 #include "clench/io/tree/tree_xml.h"
 #include "clench/spec/material_names.h"
 
@@ -31,6 +33,7 @@ class ClenchReader {
   void read_file(const XmlElement& element, NamedFile& into);
   Pose pose(const XmlValues& values) const;
   int dof(const XmlValues& values, const char* attribute) const;
+  std::string joint_name(const XmlValues& values, const char* attribute) const;
   int part(const XmlValues& values, const char* attribute) const;
   BodySpec& body(int part) { return part < 0 ? robot_.base : robot_.links[part].body; }
   void once(const XmlElement& element, const std::string& what);
@@ -63,6 +66,21 @@ double checked(const XmlValues& values, const char* name, double fallback,
   return x;
 }
 
+/// Two numbers in order; absent where the attribute is.
+/// open  does an end of `unlimited` or more stand for an infinite one?
+std::optional<std::array<double, 2>> range(const XmlValues& values, const char* name,
+                                           bool open = false) {
+  if (!values.has(name)) return {};
+  const auto both = values.numbers(name, 2, 2);
+  if (both[0] > both[1]) values.fail(name, "{} exceeds {}", both[0], both[1]);
+  const auto end = [&](double x) {
+    return open && std::abs(x) >= unlimited
+               ? std::copysign(std::numeric_limits<double>::infinity(), x)
+               : x;
+  };
+  return std::array{end(both[0]), end(both[1])};
+}
+
 void ClenchReader::once(const XmlElement& element, const std::string& what) {
   if (!seen_.insert(fmt::format("{} {}", element.name(), what)).second)
     element.fail("{}: expected one{}, got another", excerpt(element.name()),
@@ -89,6 +107,15 @@ int ClenchReader::dof(const XmlValues& values, const char* attribute) const {
   }
   values.fail(attribute, "no joint {} that leads a DOF{}", in_quotes(name),
               did_you_mean(name, known));
+}
+
+std::string ClenchReader::joint_name(const XmlValues& values, const char* attribute) const {
+  std::string name = values.text(attribute);
+  std::vector<std::string> known;
+  each_joint(robot_, [&](const JointSpec& joint) { known.push_back(joint.name); });
+  if (std::ranges::find(known, name) == known.end())
+    values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, known));
+  return name;
 }
 
 int ClenchReader::part(const XmlValues& values, const char* attribute) const {
@@ -128,7 +155,7 @@ void ClenchReader::read_dof(const XmlElement& element) {
 }
 
 void ClenchReader::read_joint(const XmlElement& element) {
-  expect_only(element, {"name", "spring", "rest", "armature"});
+  expect_only(element, {"name", "spring", "rest", "armature", "effort_range"});
   const XmlValues values(element);
   const std::string name = values.text("name");
   std::vector<std::string> known;
@@ -140,6 +167,7 @@ void ClenchReader::read_joint(const XmlElement& element) {
       joint.spring = checked(values, "spring", 0, not_negative_rule);
       joint.rest = checked(values, "rest", 0, limit_rule);
       joint.armature = checked(values, "armature", 0, not_negative_rule);
+      joint.effort_range = range(values, "effort_range");
       return;
     }
   values.fail("name", "no joint {}{}", in_quotes(name), did_you_mean(name, known));
@@ -197,13 +225,8 @@ void ClenchReader::read_tendon(const XmlElement& element) {
   const XmlValues values(element);
   JointTendonSpec out;
   out.name = values.text("name", "");
-  const auto range = [&](const char* name) {
-    const auto both = values.numbers(name, 2, 2);
-    if (both[0] > both[1]) values.fail(name, "{} exceeds {}", both[0], both[1]);
-    return std::array{both[0], both[1]};
-  };
-  if (values.has("range")) out.range = range("range");
-  if (values.has("slack")) out.slack = range("slack");
+  out.range = range(values, "range");
+  out.slack = range(values, "slack").value_or(out.slack);
   out.stiffness = checked(values, "stiffness", 0, not_negative_rule);
   out.damping = checked(values, "damping", 0, not_negative_rule);
   out.friction = checked(values, "friction", 0, not_negative_rule);
@@ -224,8 +247,11 @@ void ClenchReader::read_tendon(const XmlElement& element) {
 }
 
 void ClenchReader::read_actuator(const XmlElement& element) {
-  expect_only(element, {"name", "kind", "joint", "tendon", "moves", "gear", "gain", "bias",
-                        "control_range", "force_range"});
+  expect_only(element,
+              {"name", "kind", "joint", "tendon", "moves", "gear", "length_at_0", "gain",
+               "gain_slopes", "bias", "damping_ratio", "enabled", "control_range",
+               "activation_range", "law_range", "tendon_force_range", "force_range"},
+              true);
   const XmlValues values(element);
   ActuatorSpec out;
   out.name = values.text("name", "");
@@ -239,17 +265,26 @@ void ClenchReader::read_actuator(const XmlElement& element) {
     out.gain = checked(values, "gain", 1, number_rule);
     const auto bias = values.numbers("bias", 3, 3);
     out.bias = {bias[0], bias[1], bias[2]};
+    if (values.has("gain_slopes")) {
+      const auto slopes = values.numbers("gain_slopes", 2, 2);
+      out.gain_slopes = {slopes[0], slopes[1]};
+    }
   }
-  const auto range = [&](const char* name) {
-    std::optional<std::array<double, 2>> bounds;
-    if (!values.has(name)) return bounds;
-    const auto both = values.numbers(name, 2, 2);
-    if (both[0] > both[1]) values.fail(name, "{} exceeds {}", both[0], both[1]);
-    bounds = std::array{both[0], both[1]};
-    return bounds;
-  };
-  out.control_range = range("control_range");
-  out.force_range = range("force_range");
+  out.length_at_0 = checked(values, "length_at_0", 0, number_rule);
+  out.damping_ratio = checked(values, "damping_ratio", 0, not_negative_rule);
+  out.enabled = values.boolean("enabled", true);
+  out.control_range = range(values, "control_range");
+  out.activation_range = range(values, "activation_range", true);
+  out.law_range = range(values, "law_range", true);
+  out.tendon_force_range = range(values, "tendon_force_range");
+  out.force_range = range(values, "force_range");
+  for (const XmlElement& child : element.children()) {
+    if (child.name() != "pull")
+      child.fail("actuator: expected <pull>, got <{}>", excerpt(child.name()));
+    expect_only(child, {"joint", "coefficient"});
+    const XmlValues pull(child);
+    out.pulls.push_back({joint_name(pull, "joint"), checked(pull, "coefficient", 1, number_rule)});
+  }
   robot_.actuators.push_back(std::move(out));
 }
 

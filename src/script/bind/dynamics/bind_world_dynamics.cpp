@@ -1,3 +1,4 @@
+#include "clench/base/text.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/dynamics/measure.h"
 #include "clench/dynamics/stepper.h"
@@ -45,10 +46,37 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
                     subject(L)));
 }
 
+// Parts of the world that ODE does not simulate; empty: none.
+static std::vector<std::string> lost_by_ode(const World& world) {
+  std::vector<std::string> out;
+  const auto add = [&](bool lost, const char* what, const std::string& name) {
+    if (lost) out.push_back(fmt::format("{} of '{}'", what, excerpt(name)));
+  };
+  for (const auto id : world.robots())
+    add(!world.robot(id).joint_tendons.empty(), "the joint tendons", world.robot(id).name);
+  for (const auto id : world.bodies()) {
+    const Body& body = world.body(id);
+    add(body.free_friction != 0, "free_friction", body.name);
+    add(body.free_armature != 0, "free_armature", body.name);
+  }
+  return out;
+}
+
+// Told once.
+static void warn_of_ode(lua_State* L, const World& world) {
+  static const char lost = 0;
+  if (world.dynamic_settings().engine != DynamicsEngine::ode) return;
+  if (const auto parts = lost_by_ode(world); !parts.empty())
+    warn_once(
+        L, &lost,
+        fmt::format("{}: the engine \"ode\" does not simulate {}", subject(L), name_list(parts)));
+}
+
 static int run(lua_State* L) {
   const WorldPtr world = self<WorldHandle>(L).world;
   const double duration = check_time(L, 2, "seconds", 0);
   const StepReport before = world->dynamics() ? world->dynamics()->report : StepReport{};
+  warn_of_ode(L, *world);
   if (push_hooks(L, world, false))
     run_with_hooks(L, world, duration);
   else

@@ -264,6 +264,10 @@ static int get_joint_tendons(lua_State* L) {
   });
 }
 
+static int push(lua_State* L, const TendonPull& pull) {
+  return push_record(L, {{"joint", pull.joint}, {"coefficient", pull.coefficient}});
+}
+
 static int get_actuators(lua_State* L) {
   return push_parts(L, &PassiveParts::actuators, [L](const ActuatorSpec& a, auto) {
     push_record(L, {{"kind", a.kind},
@@ -274,7 +278,13 @@ static int get_actuators(lua_State* L) {
     if (!a.joint.empty()) set_field(L, "joint", a.joint);
     if (!a.tendon.empty()) set_field(L, "tendon", a.tendon);
     if (a.dof >= 0) set_field(L, "dof", a.dof + 1);
+    if (!a.pulls.empty()) set_field(L, "pulls", a.pulls);
+    if (a.tendon_force_range) set_field(L, "tendon_force_range", *a.tendon_force_range);
+    if (a.law_range) set_field(L, "law_range", *a.law_range);
+    if (!a.enabled) set_field(L, "enabled", false);
     if (!a.law_known) return;
+    if (a.activation_range) set_field(L, "activation_range", *a.activation_range);
+    if (a.gain_slopes != std::array{0.0, 0.0}) set_field(L, "gain_slopes", a.gain_slopes);
     set_field(L, "gain", a.gain);
     set_field(L, "bias", a.bias);
     if (a.damping_ratio > 0) set_field(L, "damping_ratio", a.damping_ratio);
@@ -349,8 +359,10 @@ force of the tendon. What sets DOFs without a simulation does not look at them, 
 > #hand.joint_tendons  --> 0)"},
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
-`tendon`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. Of
+`tendon` with the joints that it `pulls`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
+bias[2] * length + bias[3] * velocity. Where the file says so: `gain_slopes`, which times length and velocity add to the gain; `activation_range`, of what the
+law takes in place of the control; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false
+of one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. Of
 them the motors take which DOFs are driven, the largest efforts, and, as kp and kd, what bias[2] and bias[3] say of DOFs
 and of tendons; a script that sets forces may follow their laws.
 @type table[]

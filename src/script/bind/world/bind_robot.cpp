@@ -48,6 +48,7 @@ static int push_joint(lua_State* L, const RobotHandle& robot, int joint) {
   if (spec.coulomb > 0) set_field(L, "friction", spec.coulomb);
   if (spec.armature > 0) set_field(L, "armature", spec.armature);
   if (spec.spring > 0) set_field(L, "spring", spec.spring), set_field(L, "rest", spec.rest);
+  if (spec.effort_range) set_field(L, "effort_range", *spec.effort_range);
   return 1;
 }
 
@@ -179,7 +180,7 @@ Its links, chain by chain, without the base.
 Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
 where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max,
 value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
-m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N] and armature [kg
+m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg
 m^2 or kg], of joints that have them).
 @type table[]
 > #hand.chains  --> 4

@@ -1,0 +1,25 @@
+// Actuators that move several DOFs, such as those on a tendon of a differential drive.
+#pragma once
+#include <map>
+#include <vector>
+
+#include "clench/model/world.h"
+
+namespace clench {
+
+/// An actuator that exerts one force on several DOFs.
+struct SharedActuator {
+  EffortRange force;                            ///< at rest, where the robot stands [N m or N]
+  std::vector<std::pair<int, double>> reaches;  ///< DOFs, and the effort of each per unit of force
+};
+
+struct SharedActuators {
+  std::vector<SharedActuator> actuators;
+  /// of each of their DOFs: what its other actuators exert [N m or N]
+  std::map<int, EffortRange> others;
+};
+
+/// The actuators of the robot that move several driven DOFs.
+SharedActuators shared_actuators(const World& world, Id<Robot> robot);
+
+}  // namespace clench
