@@ -12,7 +12,7 @@ TEST_CASE(
   const Folder folder;
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
-  CHECK(has(end_by("KILL", command + " --threads 1 --count 45", out), "code 137"));
+  CHECK(has(end_by("KILL", command + " --threads 1 --count 12", out), "code 137"));
   // of a line that is cut the rest is read, with a warning
   const std::string text = text_of(out);
   folder.file("a.jsonl", text.substr(0, text.size() - 100));
@@ -21,12 +21,12 @@ TEST_CASE(
   CHECK(has(end_by("TERM", command + " --threads 1 --resume", out), "code 143"));
   const auto rest = run(command + " --resume");
   CHECK(rest.code == 0);
-  CHECK(has(rest.out, "128 candidates in "));
+  CHECK(has(rest.out, "64 candidates in "));
   CHECK(!fs::exists(out + ".search"));
-  CHECK(run(barrett + "--no-verify --seed 3 --threads 1 --count 45 -o " + other).code == 0);
+  CHECK(run(barrett + "--no-verify --seed 3 --threads 1 --count 12 -o " + other).code == 0);
   CHECK(text_of(out) == text_of(other));
   // there is nothing left to do
-  const auto done = run(command + " --resume --count 45");
+  const auto done = run(command + " --resume --count 12");
   CHECK(done.code == 0);
   CHECK(has(done.out, "a.jsonl: the search is complete\n"));
   CHECK(text_of(out) == text_of(other));
