@@ -43,14 +43,3 @@ TEST_CASE("a stop is thrown until it is taken, and nobody stops what nobody watc
   Progress().check();
   Progress().tell(0.5, "text");
 }
-
-TEST_CASE("a stop of one cause is withdrawn without the other") {
-  Record watcher;
-  watcher.stop(StopCause::deadline);
-  watcher.stop();
-  CHECK(watcher.take_stop(StopCause::deadline));
-  CHECK_FALSE(watcher.take_stop(StopCause::deadline));
-  CHECK(watcher.stop_asked());
-  CHECK(watcher.take_stop(StopCause::user));
-  CHECK_FALSE(watcher.stop_asked());
-}

@@ -23,7 +23,7 @@ bool stops() {
 
 }  // namespace
 
-TEST_CASE("a stop that is asked for ends what the thread does, as long as it is watched") {
+TEST_CASE("a stop request ends work of a watched thread") {
   const auto watcher = std::make_shared<Silent>();
   CHECK_FALSE(stops());
   {
@@ -49,9 +49,11 @@ TEST_CASE("the innermost one counts, and an empty one protects what it encloses"
   {
     const Watched protects{Progress()};
     CHECK_FALSE(stops());
+    CHECK_FALSE(Watched::current().stop_asked());
     CHECK(protects.checks() == 1);
   }
   CHECK(stops());
+  CHECK(Watched::current().stop_asked());
   CHECK(watched.checks() == 1);
 }
 

@@ -130,7 +130,7 @@ TEST_CASE("efforts of several actuators add up, and a limit of the DOF bounds th
   CHECK(drive_with({on_slide(closing), on_slide(closing)}, 12).at_rest(0) == EffortRange{0, 12});
 }
 
-TEST_CASE("the range at rest is what all controls of random actuators exert") {
+TEST_CASE("the range at rest covers the efforts of all controls of random actuators") {
   Random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
     ActuatorSpec a;

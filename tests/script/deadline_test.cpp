@@ -4,44 +4,34 @@
 
 using namespace clench;
 
-namespace {
-
-class Quiet : public Watcher {
- public:
-  void show(double, std::string_view) override {}
-};
-
-void wait_for_stop(const Watcher& watcher) {
-  while (!watcher.stop_asked()) std::this_thread::yield();
-}
-
-}  // namespace
-
 TEST_CASE("a deadline that has passed withdraws its own stop") {
-  const auto watcher = std::make_shared<Quiet>();
-  Deadline deadline(watcher, 0);
-  wait_for_stop(*watcher);
+  const auto bar = std::make_shared<Bar>();
+  Deadline deadline(bar, 0);
+  while (!bar->stop_asked()) std::this_thread::yield();
   CHECK(deadline.close());
-  CHECK_FALSE(watcher->stop_asked());
+  CHECK_FALSE(bar->stop_asked());
 }
 
-TEST_CASE("a stop that the user asked for remains after a deadline, whichever comes first") {
-  for (const bool user_first : {true, false}) {
-    const auto watcher = std::make_shared<Quiet>();
-    if (user_first) watcher->stop();
-    Deadline deadline(watcher, 0);
-    while (!watcher->take_stop(StopCause::deadline)) std::this_thread::yield();
-    watcher->stop(StopCause::deadline);
-    if (!user_first) watcher->stop();
+TEST_CASE("an interrupt remains after a deadline, whichever comes first") {
+  for (const bool first : {true, false}) {
+    CAPTURE(first);
+    const auto bar = std::make_shared<Bar>();
+    if (first) bar->interrupt();
+    Deadline deadline(bar, 0);
+    while (!bar->take_end_of_time()) std::this_thread::yield();
+    bar->end_time();
+    if (!first) bar->interrupt();
     CHECK(deadline.close());
-    CHECK_FALSE(watcher->take_stop(StopCause::deadline));
-    CHECK(watcher->take_stop());
+    CHECK_FALSE(bar->take_end_of_time());
+    CHECK(bar->stop_asked());
+    CHECK(bar->take_all());
+    CHECK_FALSE(bar->stop_asked());
   }
 }
 
 TEST_CASE("a deadline closed before its time asks for nothing") {
-  const auto watcher = std::make_shared<Quiet>();
-  Deadline deadline(watcher, 1e9);
+  const auto bar = std::make_shared<Bar>();
+  Deadline deadline(bar, 1e9);
   CHECK_FALSE(deadline.close());
-  CHECK_FALSE(watcher->stop_asked());
+  CHECK_FALSE(bar->stop_asked());
 }
