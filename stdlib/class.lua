@@ -1,4 +1,4 @@
---- A class of the standard library, whose methods are defined on it: each checks that it is called with a colon, on a value of the class.
+--- Creates a class of the standard library. Methods defined on it check that they are called with a colon, on a value of the class.
 local raise = require "clench.raise"
 local described = require "clench.described"
 local getmetatable, rawset, type = debug.getmetatable, rawset, type

@@ -1,4 +1,4 @@
--- The motors of a hand, in sentences: DOFs that no motor closes, and motors without a limit of their effort.
+--- Messages about the motors of a hand: DOFs that no motor closes, and motors without an effort limit.
 local name_list = require "clench.name_list"
 local drives = {}
 
@@ -18,8 +18,7 @@ function drives.close(hand)
   return #names_of(hand, function(info) return info.can_close end) > 0
 end
 
--- The DOFs that would close the hand but that no motor closes; nil: there are none. Where no DOF is known to close it, as none is driven,
--- all count.
+-- Names the closing DOFs that no motor closes; nil if there are none. If no DOF is known to close the hand, all DOFs count.
 --@return string?
 function drives.missing(hand)
   local any_closes = #names_of(hand, closes) > 0
@@ -31,7 +30,7 @@ function drives.missing(hand)
   return #parts > 0 and table.concat(parts, "; ") or nil
 end
 
--- Why a hand that closes holds nothing by force; nil: some motor closes it, or no DOF does.
+-- The reason why a closed hand exerts no grip force; nil if a motor closes it, or no DOF does.
 --@return string?
 function drives.no_force(hand)
   local missing = drives.missing(hand)
@@ -52,7 +51,7 @@ function drives.is_inert(hand)
   return true
 end
 
--- Names of the DOFs whose motors have no limit; nil: there are none.
+-- Names of the DOFs whose motors have no limit; nil if there are none.
 --@return string[]?
 function drives.unlimited(hand)
   local names = names_of(hand, function(_, range) return range[1] == -math.huge or range[2] == math.huge end)

@@ -1,6 +1,6 @@
 -- stdlib/printable.lua
---- Text from files, such as names, for a terminal or a page: what these would obey rather than show stands as '?'. Control characters,
---- line separators, and characters that embed, override or isolate the direction of text are such.
+--- Replaces characters that a terminal or a page would obey by '?': control characters, line separators, and characters that embed, override
+--- or isolate the direction of text.
 local gsub, find = string.gsub, string.find
 
 ---@param text string

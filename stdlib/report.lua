@@ -16,7 +16,7 @@ local function names(list)
   return out
 end
 
--- Ctrl-C is no fault of a file
+-- Ctrl-C is not an error of the file
 local function pass_stop(ok, problem)
   if not ok and is_stopped(problem) then error(problem, 0) end
 end
@@ -189,7 +189,7 @@ local function of_scene(path, options)
   return parsed
 end
 
--- a range that grows by a value
+-- extends a range by a value
 local function widen(ranges, name, value)
   local range = ranges[name]
   if not range then

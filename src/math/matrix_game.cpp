@@ -31,9 +31,9 @@ class GameTableau {
 
   void solve() {
     // few are needed; the bound of the solution holds wherever they end
-    constexpr int most_pivots = 64;
-    for (int i = 0; i < most_pivots; ++i)
-      if (!improve(i < most_pivots / 2)) return;
+    constexpr int max_pivots = 64;
+    for (int i = 0; i < max_pivots; ++i)
+      if (!improve(i < max_pivots / 2)) return;
   }
 
   GameSolution strategies() const {

@@ -1,4 +1,5 @@
 --- The run of a world in which scripts take part: functions, then tasks, then a step, then listeners and observers.
+local callback_error = require "clench.callback_error"
 local error_text = require "clench.host.error_text"
 local error_value = require "clench.error_value"
 local described = require "clench.described"
@@ -8,16 +9,31 @@ local task_order = require "clench.dynamics.task_order"
 
 local tiny = 1e-9  -- parts of a period, and seconds, that are rounding
 
--- With where it happened. Ctrl-C stays what it is.
-local function explained(problem, name, trace)
+-- The error of a function, task or condition, with its traceback. Ctrl-C is returned unchanged.
+local function explained(problem, name, trace, place)
   if is_stopped(problem) then return problem end
+  problem = callback_error(problem, name, place)
   local ours = getmetatable(problem) == error_value
   local place, said = ours and problem.place or "", ours and problem.sentence or error_text(problem)
-  return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input"}, error_value)
+  return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input",
+                       cause = ours and problem.cause or nil}, error_value)
+end
+
+-- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if there is none
+local function line_of(thread)
+  local level = 0
+  while true do
+    local at = debug.getinfo(thread, level, "Sl")
+    if not at then return "" end
+    if at.currentline > 0 and at.source:sub(1, 8) ~= "@stdlib/" then return ("%s:%d: "):format(at.short_src, at.currentline) end
+    level = level + 1
+  end
 end
 
 local function call(handle, ...)
-  local ok, problem = xpcall(handle.fn, function(problem) return explained(problem, handle.name, debug.traceback("", 2):sub(2)) end, ...)
+  local ok, problem = xpcall(handle.fn, function(problem)
+    return explained(problem, handle.running or handle.name, debug.traceback("", 2):sub(2))
+  end, ...)
   if not ok then error(problem, 0) end
 end
 
@@ -80,7 +96,9 @@ local function may_go_on(handle, time)
   if time < order.begun then order.begun = time end  -- the world went back
   local over = time >= order.begun + order.seconds - tiny
   if not order.condition then return over end
-  local ok, met = xpcall(order.condition, function(problem) return explained(problem, handle.name, debug.traceback("", 2):sub(2)) end)
+  local ok, met = xpcall(order.condition, function(problem)
+    return explained(problem, "condition of task.wait_until", debug.traceback("", 2):sub(2))
+  end)
   if not ok then
     handle.status = "failed"
     error(met, 0)
@@ -96,7 +114,7 @@ local function go_on(handle, world)
   if first then ok, order = coroutine.resume(handle.thread, handle.task) else ok, order = coroutine.resume(handle.thread, result) end
   if not ok then
     handle.status = "failed"
-    error(explained(order, handle.name, debug.traceback(handle.thread, "", 0):sub(2)), 0)
+    error(explained(order, handle.name, debug.traceback(handle.thread, "", 0):sub(2), line_of(handle.thread)), 0)
   end
   if coroutine.status(handle.thread) == "dead" then
     if handle.status == "waiting" then handle.status = "done" end
@@ -105,8 +123,7 @@ local function go_on(handle, world)
   -- a yield of nothing waits for the next step
   if order ~= nil and getmetatable(order) ~= task_order then
     handle.status = "failed"
-    local at = debug.getinfo(handle.thread, 1, "Sl")
-    error(setmetatable({place = at and ("%s:%d: "):format(at.short_src, at.currentline) or "", kind = "input",
+    error(setmetatable({place = line_of(handle.thread), kind = "input",
       sentence = ("%s: expected task.wait, task.wait_step, task.wait_until or a yield of nothing, got a yield of %s"):format(
         handle.name, described(order))}, error_value), 0)
   end

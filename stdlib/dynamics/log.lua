@@ -75,7 +75,7 @@ local function sources_of(read, world)
     ::continue::
   end
   table.sort(own)
-  for _, name in ipairs(own) do add {{name, given[name]}} end
+  for _, name in ipairs(own) do add {{name, given[name], is_own = true}} end
   if #sources == 0 then read:fail "quantities: expected at least one, got none" end
   return sources
 end
@@ -103,12 +103,20 @@ function Log:__tostring() return ("log of %d rows, %d columns"):format(#self.row
 --- Ends it.
 function Log:remove() self.handle:remove() end
 
+-- functions of the user are named in the errors that they raise
+local function call_own(self, source, world)
+  self.handle.running = source.is_own and ("function '%s' of world:log"):format(source[1])
+  local value = source[2](world)
+  self.handle.running = nil
+  return value
+end
+
 -- a row of numbers by their columns
 local function note(self, world)
   local row = {time = world.time}
   for _, source in ipairs(self.sources) do
     local name = source[1]
-    local parts, names = parts_of(name, source[2](world))
+    local parts, names = parts_of(name, call_own(self, source, world))
     if not self.widths[name] then
       self.widths[name] = #parts
       for _, part in ipairs(names) do

@@ -1,4 +1,5 @@
 --- How a world ran, for films: its states at a rate of its time.
+local call_script = require "clench.call_script"
 local class = require "clench.class"
 local optional_table = require "clench.optional_table"
 local raise = require "clench.raise"
@@ -19,7 +20,7 @@ function Recording:each(visit)
   local world = self.world:clone()
   for i, moment in ipairs(self.moments) do
     world:restore(moment)
-    visit(world, i, self.times[i])
+    call_script("recording:each", visit, world, i, self.times[i])
   end
 end
 

@@ -1,2 +1,2 @@
---- Metatable of what a task of world:spawn yields when it waits: {seconds =, condition =}. It tells them from what a script yields itself.
+--- Metatable of the orders {seconds =, condition =} that task.wait and its siblings yield. Distinguishes them from values that a script yields.
 return {__name = "task order"}

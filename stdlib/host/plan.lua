@@ -12,13 +12,12 @@ local plan_list = require "clench.host.plan_list"
 local recorded = require "clench.plan.recorded"
 local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
+local fail = require "clench.host.usage"
 
 local plan = {}
 local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
 local function visible(text) return printable(in_utf8(text), "\n") end
-
-local function fail(text) error({usage = text}, 0) end
 
 -- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
 local function pose_of(option, text)
@@ -28,7 +27,7 @@ local function pose_of(option, text)
     numbers[count] = word:match "^%s*[-+.%d][-+.%deE]*%s*$" and tonumber(word)
   end
   if count ~= #numbers or count ~= 3 and count ~= 6 then
-    fail(("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'"):format(option, text))
+    fail("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'", option, text)
   end
   local pose = {xyz = {numbers[1], numbers[2], numbers[3]}}
   if count == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
@@ -44,7 +43,7 @@ local function read_words(...)
     if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
   end
   if #given["obstacle-pose"] > #given.obstacle then
-    fail(("--obstacle-pose is given %d times, and --obstacle %d times"):format(#given["obstacle-pose"], #given.obstacle))
+    fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
   end
   return given
 end
@@ -65,7 +64,7 @@ local function load_world(given, said)
   for i, path in ipairs(given.obstacle) do
     world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))
   end
-  if not object.mesh then fail(("%s: an object without a surface cannot be grasped"):format(given.object)) end
+  if not object.mesh then fail("%s: an object without a surface cannot be grasped", given.object) end
   return world, hand, object
 end
 
@@ -96,7 +95,7 @@ local function run_search(given)
   job.run = clench.plan.sample(options)
 end
 
--- reads and checks all that it is given before it writes anything
+-- reads and checks all options and files before it writes anything
 local function search(root, folder, package, unit, strict, ...)
   local given = read_words(...)
   check_words(given)
@@ -122,7 +121,7 @@ local function sentence(problem)
   return error_text(problem), 1
 end
 
--- A planner that a signal has stopped for good leaves its grasps as they were found.
+-- After a second signal the grasps are left as they were found.
 local function rescue()
   local list, is_new = clench.grasps(), distinct(job.hand, job.object, 0.1)
   for _, grasp in ipairs(job.list and job.list.kept or {}) do table.insert(job.found, grasp) end

@@ -1,15 +1,14 @@
---- The sheet and the page that `clench plan` writes in the end.
+--- The sheet and the page that `clench plan` writes at its end.
 local find_three = require "clench.page.three"
 local in_utf8 = require "clench.in_utf8"
 local printable = require "clench.printable"
 local report_rows = require "clench.plan.report_rows"
+local fail = require "clench.host.usage"
 
 local Files = {}
 Files.__index = Files
 
 local function shown(text) return printable(in_utf8(text)) end
-
-local function fail(text, ...) error({usage = text:format(...)}, 0) end
 
 -- a file that cannot be written is reported before the search, not after it
 local function check(option, path, ending)
@@ -19,7 +18,7 @@ local function check(option, path, ending)
   if not ok then error(("%s: %s"):format(option, problem.sentence or problem), 0) end
 end
 
---- Looks at the options and at the disk, and changes nothing.
+--- Checks the options and the files on the disk, and changes nothing.
 ---@param given {sheet?: string, report?: string}
 function Files.check(given)
   check("--sheet", given.sheet, ".png")
@@ -62,7 +61,7 @@ local function is_there(path)
   return file ~= nil
 end
 
--- Without grasps there is no sheet, and a page says why unless one is there already, which stays.
+-- Without grasps no sheet is drawn; a page states the reason, unless the file exists already.
 local function has_something(path, count, is_page)
   if not path then return false end
   if count > 0 then return true end
@@ -71,7 +70,7 @@ local function has_something(path, count, is_page)
   return false
 end
 
---- The contact sheet and the page, if they are asked for; each also when the other fails.
+--- Writes the contact sheet and the page, if requested; a failure of one does not prevent the other.
 ---@param words {title: string, subtitle: string, report: string}
 function Files:show(hand, object, grasps, words)
   local ok, problem = true, nil

@@ -4,11 +4,11 @@ local error_text = require "clench.host.error_text"
 local identity = require "clench.host.plan_identity"
 local is_stopped = require "clench.is_stopped"
 local journal = require "clench.plan.journal"
+local fail = require "clench.host.usage"
 
 local List = {}
 List.__index = List
 
-local function fail(text, ...) error({usage = text:format(...)}, 0) end
 local function refuse(text, ...) error(text:format(...), 0) end
 
 local function folder_of(path)
@@ -74,7 +74,7 @@ function List:refuse_to_replace(head, has_grasps)
   if not there then refuse("-o: %s exists already and does not state of which search it is; --overwrite replaces it", self.path) end
   local difference = identity.difference(there, self.search)
   if difference then refuse("-o: %s is the list of another search: %s; --overwrite replaces it", self.path, difference) end
-  refuse("-o: %s is the list of this search: --resume goes on with it, --overwrite begins it again", self.path)
+  refuse("-o: %s is the list of this search: --resume continues it, --overwrite starts it anew", self.path)
 end
 
 function List:check_same(path, there)
@@ -255,7 +255,7 @@ function List:save(grasps, is_search_complete)
     os.remove(self.journal_path)
     return nil
   end
-  return ("%s: --resume goes on with this search"):format(self.path)
+  return ("%s: --resume continues this search"):format(self.path)
 end
 
 return List

@@ -1,4 +1,5 @@
 --- Shared by the planners that try many starts: starts are tried in rounds, over threads, until enough grasps are found.
+local call_script = require "clench.call_script"
 local closing = require "clench.plan.closing"
 local distinct = require "clench.plan.distinct"
 local is_stopped = require "clench.is_stopped"
@@ -95,7 +96,7 @@ function batch.try(job, stats, next_state, options)
         if is_new(new.grasp) then unlike = unlike + 1 end
         local of_its_kind = tally_of(new.start.is_near)
         of_its_kind.found = of_its_kind.found + 1
-        if options.on_grasp and not piece.known then options.on_grasp(new.grasp) end
+        if options.on_grasp and not piece.known then call_script(job.subject .. ": on_grasp", options.on_grasp, new.grasp) end
       end
     end
     if piece.known then

@@ -81,7 +81,8 @@ function Job:in_time(work)
   local ok, result = pcall(work)
   local over = self:end_deadline()
   if ok then return result end
-  if not (over and is_stopped(result)) then error(result, 0) end
+  -- Ctrl-C before the deadline stays what it is
+  if not (over and is_stopped(result) and result.sentence ~= "interrupted") then error(result, 0) end
 end
 
 --- Called between two pieces of work: false once the time has run out, Ctrl-C was pressed or the search was cancelled.

@@ -24,7 +24,7 @@ local function places(source, root)
   return list
 end
 
--- Warns of a file that exists, or may exist, and cannot be used: the next source is tried. Ctrl-C is raised again.
+-- Warns of a file that exists and cannot be used; the next source is tried. Ctrl-C is raised again.
 local function skip(subject, problem)
   if is_stopped(problem) then error(problem, 0) end
   local sentence = type(problem) == "table" and rawget(problem, "sentence") or error_text(problem)
@@ -33,7 +33,7 @@ local function skip(subject, problem)
   end
 end
 
--- the primitives of a file that holds nothing else; nil if it does not exist or may not be read
+-- the primitives of a file of primitives; nil if it does not exist or may not be read
 local function of_file(subject, path)
   local ok, problem = pcall(clench.file_kind, path)
   if not ok then return skip(subject, problem) end
@@ -53,7 +53,7 @@ local function of_geometry(subject, path)
     ok, list = pcall(clench.files.primitives, path)
   end
   if ok then return #list > 0 and list or nil end
-  -- that other formats hold no primitives is no news
+  -- other formats hold no primitives: no warning
   if is_stopped(list) or may_hold_primitives(path) then skip(subject, list) end
 end
 

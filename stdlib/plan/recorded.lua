@@ -1,2 +1,2 @@
---- Journals of searches by the options of their planner, which finds its own here. See clench.plan.journal.
+--- Maps the options of a planner to the journal of its search. See clench.plan.journal.
 return setmetatable({}, {__mode = "k"})

@@ -18,7 +18,6 @@ return function(name, options, read_more)
     own.standoff = read:positive("standoff", 0.15, 10)
     own.distance = read:not_negative("distance", 0.1)
     own.on_grasp = read:callback "on_grasp"
-    if own.on_grasp and type(own.on_grasp) ~= "function" then read:expected("on_grasp", "a function", own.on_grasp) end
     if read_more then read_more(read, own, job) end
   end)
   local no_force = own.verify and drives.no_force(job.hand)

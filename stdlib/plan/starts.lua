@@ -13,9 +13,10 @@ local function self_collisions(hand, dofs)
   return #hand.world:colliding(hand)
 end
 
-local many_links = 64  -- of so many, moving one DOF at a time takes too long: its time grows with the fourth power of their number
+-- With more links, moving one DOF at a time takes too long: its time grows with the fourth power of the number of links.
+local many_links = 64
 
--- All DOFs that close move back together, by the smallest part of their ranges that leaves fewest collisions.
+-- Moves all closing DOFs back together, by the smallest fraction of their ranges that leaves fewest collisions.
 local function freed_together(hand, dofs, count)
   local best, limits, info = dofs, hand.dof_limits, hand.dof_info
   for part = 0.1, 0.9, 0.1 do

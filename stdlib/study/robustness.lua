@@ -1,4 +1,5 @@
 -- stdlib/study/robustness.lua
+local call_script = require "clench.call_script"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
@@ -93,7 +94,7 @@ return function(grasp, options)
     world:restore(placed.start)
     object.pose = erred_pose(stream(seed, sample, "place"), placed.pose, position, angle)
     if not back_off(hand, grasp.dofs) or #world:colliding(object) > 0 then return nil end
-    close(hand, object)
+    call_script("study.robustness: close", close, hand, object)
     return clench.grasp(hand, object, alike)
   end
 

@@ -9,8 +9,9 @@ local hand = world:add_robot("models/hands/barrett/barrett.cfg", anywhere)
 local arm = world:add_robot("models/arms/puma560/puma560.cfg", anywhere)
 local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
 local picture = clench.render(world, {size = {16, 16}, quality = "draft"})
-local recording, log = world:record(), world:log {quantities = {"energy"}}
-world:run(0.1)
+local empty = clench.world()
+local recording, log = empty:record(), empty:log {quantities = {"energy"}}
+empty:run(0.1)
 
 -- reads the path; `[{key}]`: as that option
 local readers = {

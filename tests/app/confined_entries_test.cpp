@@ -1,10 +1,7 @@
 // Every entry of the API that opens files, where reading is confined.
 #include "command.h"
 
-using clench::test::Folder;
-using clench::test::has;
-using clench::test::run;
-namespace fs = std::filesystem;
+using namespace clench::test;
 
 TEST_CASE("every entry that opens files keeps within the folder of --confine, through links, too") {
   const Folder folder;

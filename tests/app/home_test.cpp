@@ -1,10 +1,7 @@
 // Our own models and worlds: found from any folder, and before those of others.
 #include "command.h"
 
-using clench::test::Folder;
-using clench::test::has;
-using clench::test::run;
-namespace fs = std::filesystem;
+using namespace clench::test;
 
 static const std::string loads =
     "-q -e 'local w = clench.load \"worlds/barrett_mug.wld\" w:add_object "

@@ -2,10 +2,7 @@
 #include "clench/base/printable.h"
 #include "command.h"
 
-using clench::test::Folder;
-using clench::test::has;
-using clench::test::run;
-namespace fs = std::filesystem;
+using namespace clench::test;
 
 // escape sequences, a line of its own, a C1 control and directions of text
 static const std::string hostile =

@@ -140,7 +140,7 @@ TEST_CASE("Ctrl-C ends the contacts of large meshes that lie on each other") {
       "for _ = 1, 1000 do w:contacts(a, b) end");
 }
 
-TEST_CASE("Ctrl-C ends what threads do") {
+TEST_CASE("Ctrl-C ends parallel work") {
   call_ends_by_interrupt(
       "", "clench.parallel.map(function() while true do end end, {1, 2}, {threads = 2})");
 }

@@ -12,7 +12,7 @@ TEST_CASE(
   const Folder folder;
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
-  CHECK(has(end_by("KILL", command + " --threads 1 --count 45", out), "code 137"));
+  CHECK(has(end_by("KILL", command + " --threads 1 --count 12", out), "code 137"));
   // of a line that is cut the rest is read, with a warning
   const std::string text = text_of(out);
   folder.file("a.jsonl", text.substr(0, text.size() - 100));
@@ -21,12 +21,12 @@ TEST_CASE(
   CHECK(has(end_by("TERM", command + " --threads 1 --resume", out), "code 143"));
   const auto rest = run(command + " --resume");
   CHECK(rest.code == 0);
-  CHECK(has(rest.out, "128 candidates in "));
+  CHECK(has(rest.out, "64 candidates in "));
   CHECK(!fs::exists(out + ".search"));
-  CHECK(run(barrett + "--no-verify --seed 3 --threads 1 --count 45 -o " + other).code == 0);
+  CHECK(run(barrett + "--no-verify --seed 3 --threads 1 --count 12 -o " + other).code == 0);
   CHECK(text_of(out) == text_of(other));
   // there is nothing left to do
-  const auto done = run(command + " --resume --count 45");
+  const auto done = run(command + " --resume --count 12");
   CHECK(done.code == 0);
   CHECK(has(done.out, "a.jsonl: the search is complete\n"));
   CHECK(text_of(out) == text_of(other));
@@ -47,9 +47,9 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
     CHECK(text_of(out) == list);
     CHECK(result.out.find("candidates") == std::string::npos);
   };
-  refused(command, "-o: " + out +
-                       " is the list of this search: --resume goes on with it, --overwrite begins "
-                       "it again\n");
+  refused(command,
+          "-o: " + out +
+              " is the list of this search: --resume continues it, --overwrite starts it anew\n");
   refused(command + " --seed 2",
           " is the list of another search: expected --seed '2', got '1'; --overwrite replaces it");
   refused(command + " --seed 2 --resume",
@@ -86,7 +86,7 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
   CHECK(text_of(replaced) == list);
 }
 
-TEST_CASE("what plan cannot read, or finds nothing for, leaves files as they are") {
+TEST_CASE("a search that fails or finds nothing leaves files unchanged") {
   const Folder folder;
   std::string outputs;
   const std::pair<const char*, const char*> files[] = {{"-o", "a.jsonl"}, {"--sheet", "a.png"}};
@@ -137,7 +137,7 @@ TEST_CASE("pipes, devices and folders are no files that plan writes") {
   CHECK(has(page.out, sentence));
 }
 
-TEST_CASE("on a full disk a search ends, prints what it found, and says so once") {
+TEST_CASE("on a full disk a search ends, prints its grasps, and reports the error once") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   // so many blocks of 512 or 1024 bytes that a few grasps fit
@@ -165,7 +165,7 @@ TEST_CASE("a list that another program has replaced meanwhile is left to it") {
   CHECK(text_of(out) == "theirs\n");
 }
 
-TEST_CASE("what plan prints and nobody reads keeps it from writing nothing") {
+TEST_CASE("a closed output pipe does not keep plan from writing its files") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   const std::string text =

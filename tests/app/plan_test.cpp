@@ -112,7 +112,7 @@ TEST_CASE("a signal ends a search with the grasps so far and its code") {
     CAPTURE(text);
     CHECK(has(text, "barrett grasps flask: interrupted\n"));
     CHECK(has(text, "interrupted: these are the grasps until then"));
-    CHECK(has(text, "a.jsonl: --resume goes on with this search\n"));
+    CHECK(has(text, "a.jsonl: --resume continues this search\n"));
     CHECK(text.ends_with(fmt::format("code {}\n", code)));
     const std::string list = epsilons(out);
     CHECK(list.find("clench") == std::string::npos);

@@ -172,7 +172,7 @@ TEST_CASE("what is no regular file is neither read nor replaced") {
       (base + "/loop: the file cannot be read: Too many levels of symbolic links").c_str(), Error);
 }
 
-TEST_CASE("a text is appended on a line of its own") {
+TEST_CASE("a text is appended on a separate line") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.txt", link = folder.path() / "b.txt";
   append_file(path, "one");

@@ -23,7 +23,7 @@ bool stops() {
 
 }  // namespace
 
-TEST_CASE("a stop that is asked for ends what the thread does, as long as it is watched") {
+TEST_CASE("a stop request ends work of a watched thread") {
   const auto watcher = std::make_shared<Silent>();
   CHECK_FALSE(stops());
   {

@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   measure_large_mesh(brief ? 10000 : 1000000, report);
   report.sort();
 
-  std::vector<std::string> libraries = {"ours", "all pairs"};
+  std::vector<std::string> libraries = {"ours", "all pairs", "lattice"};
   for (const Peer& peer : peers()) libraries.push_back(peer.name);
   report.print(libraries);
   const bool good = report.judge(aims(report));

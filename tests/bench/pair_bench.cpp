@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/peers.h"
+#include "clench/geometry/query/penetration.h"
 #include "clench/geometry/query/triangle.h"
 
 namespace clench::bench {
@@ -47,6 +48,27 @@ constexpr double contact_threshold = 1e-4;
 // every so many poses all pairs of triangles are measured
 constexpr int compared = 50;
 
+// Depth of the deepest point of a lattice that lies in both, step or more apart: at most the depth of
+// the overlap.
+double lattice_depth(const Shape& a, const Shape& b, const Pose& X, double step) {
+  constexpr double max_points = 1e5;
+  const Bounds box_b = b.bounds_at(X);
+  const Eigen::Vector3d low = a.bounds().low.cwiseMax(box_b.low),
+                        size = a.bounds().high.cwiseMin(box_b.high) - low;
+  if (!(size.array() > 0).all()) return 0;
+  step = std::max(step, std::cbrt(size.prod() / max_points));
+  const Pose X_BA = X.inverse();
+  double deepest = 0;
+  for (double x = step / 2; x < size.x(); x += step)
+    for (double y = step / 2; y < size.y(); y += step)
+      for (double z = step / 2; z < size.z(); z += step) {
+        const Eigen::Vector3d p = low + Eigen::Vector3d(x, y, z);
+        if (contains(a, p) && contains(b, X_BA * p))
+          deepest = std::max(deepest, closest_point(a, p).distance);
+      }
+  return deepest;
+}
+
 // steps of a fraction of a millimetre, and a turn with them
 Pose step_from(const Pose& X, int step) {
   const double t = step;
@@ -71,12 +93,14 @@ class PairBench {
     for (int begin = 0; begin < count; begin += block) {
       const int end = std::min(begin + block, count);
       collide(begin, end), measure(begin, end), follow(begin, end), touch(begin, end);
+      sink(begin, end);
     }
     for (int i = 0; i < count; i += compared) compare_with_brute_force(i);
     report_.add("collide " + situation_, name_, collide_);
     report_.add("distance " + situation_, name_, distance_);
     report_.add("seeded distance " + situation_, name_, seeded_);
     report_.add("pairs within 0.1 mm " + situation_, name_, within_);
+    if (!depths_.empty()) report_.add("depth " + situation_, name_, depths_);
   }
 
  private:
@@ -141,6 +165,15 @@ class PairBench {
       if (i % compared == 0) near_[i] = std::move(near);
     }
   }
+  // One pose of a block: ours finds the depth to 0.1 %, the lattice to a tenth.
+  void sink(int begin, int end) {
+    if (!a_.closed() || !b_.closed() || begin == end || !hits_[begin]) return;
+    const auto found = timed(depths_["ours"], [&] { return penetration(a_, b_, poses_[begin]); });
+    if (found.depth == 0) return;
+    const double sampled = timed(
+        depths_["lattice"], [&] { return lattice_depth(a_, b_, poses_[begin], found.depth / 10); });
+    report_.check(sampled <= found.bound + 1e-12, where(begin, "lattice", "depth"));
+  }
   void compare_with_brute_force(int i) {
     const Brute slow = brute(a_, b_, poses_[i], contact_threshold);
     const Distance& d = distances_[i];
@@ -161,7 +194,7 @@ class PairBench {
   std::vector<char> hits_;
   std::vector<Distance> distances_;
   std::map<int, std::vector<TrianglePair>> near_;
-  Times collide_, distance_, seeded_, within_;
+  Times collide_, distance_, seeded_, within_, depths_;
 };
 
 }  // namespace

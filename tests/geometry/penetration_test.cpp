@@ -6,6 +6,7 @@
 #include <map>
 
 #include "clench/base/error.h"
+#include "clench/geometry/query/exposed.h"
 #include "clench/geometry/query/triangle.h"
 #include "support/meshes.h"
 #include "support/shared.h"
@@ -257,6 +258,42 @@ TEST_CASE("meshes of a micrometre and of a kilometre have depths that scale") {
                     {X.rotation, size * X.position}, {.absolute = 1e-6 * size});
     CHECK(found.depth / size == doctest::Approx(depth).epsilon(2e-3));
   }
+}
+
+TEST_CASE("a search with a short queue keeps the tolerance") {
+  Random random(11);
+  for (int i = 0; i < 3; ++i) {
+    const auto a = Shape::make(potato(random)), b = Shape::make(potato(random));
+    const Pose X{random_turn(random), {0.5, 0.2, 0.1}};
+    const Penetration longer = penetration(*a, *b, X);
+    REQUIRE(longer.depth > 0);
+    for (const size_t regions : {size_t{0}, size_t{3}, size_t{30}}) {
+      const Penetration found = penetration(*a, *b, X, {.max_regions = regions});
+      CHECK(found.depth >= longer.depth - 1e-6 - 1e-3 * longer.depth);
+      CHECK(found.depth <= longer.bound + 1e-12);
+      CHECK(found.bound >= longer.depth - 1e-12);
+      CHECK(found.bound <= found.depth * (1 + 1e-3) + 1e-6 + 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a shape keeps the boundary of its union, unless a stop interrupts the search for it") {
+  Mesh both = box(1, 1, 1);
+  const Mesh other = box(1, 1, 1);
+  const int first = static_cast<int>(both.vertices.size());
+  for (const Vector3d& p : other.vertices) both.vertices.push_back(p + Vector3d(0.5, 0.25, 0.125));
+  for (const Triangle& t : other.triangles)
+    both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const auto shape = Shape::make(both);
+  struct Silent : Watcher {
+    void show(double, std::string_view) override {}
+  };
+  const auto watcher = std::make_shared<Silent>();
+  watcher->stop();
+  CHECK_THROWS_AS(exposed_surface(*shape, Progress(watcher)), Stopped);
+  const auto kept = exposed_surface(*shape);
+  CHECK(kept->shape);
+  CHECK(exposed_surface(*shape) == kept);
 }
 
 TEST_CASE("tolerances must be above 0, and a watcher ends the search") {

@@ -1,7 +1,9 @@
 // Long queries and the making of shapes check often whether they are to stop.
 #include <doctest/doctest.h>
 
+#include "clench/base/random.h"
 #include "clench/base/watched.h"
+#include "clench/geometry/mesh/hull.h"
 #include "clench/geometry/query/queries.h"
 #include "clench/geometry/tree/tree.h"
 #include "support/shapes.h"
@@ -68,4 +70,30 @@ TEST_CASE("a shape whose tree was stopped makes it when it is next asked for") {
     CHECK_THROWS_AS(shape->tree(), Stopped);
   }
   CHECK(distance(*shape, *shape, X_AB).distance == distance(*other, *other, X_AB).distance);
+}
+
+TEST_CASE("a hull stops between two points that it adds, and its memory is freed") {
+  Random random(1);
+  Eigen::MatrixXd points(5, 400);
+  for (int i = 0; i < points.cols(); ++i) {
+    for (int k = 0; k < 5; ++k) points(k, i) = random.normal();
+    points.col(i).normalize();
+  }
+  const auto make = [&] { return convex_hull(points).facets.size(); };
+  const size_t count = make();
+  CHECK(count > 5000);
+  uint64_t checks = 0;
+  {
+    const Watched watched{Progress()};
+    make();
+    checks = watched.checks();
+  }
+  CHECK(checks > count / 1000);
+  for (const uint64_t at : {uint64_t{1}, checks / 2}) {
+    Watched watched{Progress()};
+    watched.stop_at(at);
+    CHECK_THROWS_AS(make(), Stopped);
+    CHECK(watched.checks() <= checks);
+  }
+  CHECK(make() == count);
 }

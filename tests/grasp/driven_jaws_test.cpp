@@ -67,7 +67,7 @@ TEST_CASE("a motor that closes with a millinewton holds as much by friction") {
   CHECK(largest_weight(j) == doctest::Approx(2 * 0.5 * 0.001));
 }
 
-TEST_CASE("random jaws hold twice the friction of what their weaker motor presses with") {
+TEST_CASE("random jaws hold twice the friction force of their weaker motor") {
   Random random(11);
   for (int trial = 0; trial < 300; ++trial) {
     const double mu = random.uniform(0.1, 1);

@@ -97,7 +97,7 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(slide(1.58), doctest::Contains("must lie in [-0.5, 1.57] m"), Error);
 }
 
-TEST_CASE("a hand that refuses a grasp stands where it was") {
+TEST_CASE("a hand keeps its state when a grasp does not fit it") {
   Hand h;
   const auto before = h.apply(h.grasp({"a1", "a2", "b1"}, {0.1, 0.2, 0.3}));
   GraspSpec g = h.grasp({"a1", "b1"}, {0.4, 3});

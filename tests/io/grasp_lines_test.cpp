@@ -119,7 +119,13 @@ TEST_CASE("a list that is cut anywhere in its last line keeps the others, with a
   const size_t last = text.rfind('\n', text.size() - 2) + 1;
   std::string warned;
   const ReadOptions options{.warn = [&](const std::string& sentence) { warned += sentence; }};
+  // all cuts near the ends of the line, and some between
+  constexpr size_t step = 7;
+  const auto is_tried = [&](size_t size) {
+    return size < last + 20 || size + 20 > text.size() || size % step == 0;
+  };
   for (size_t size = last; size <= text.size(); ++size) {
+    if (!is_tried(size)) continue;
     CAPTURE(size);
     write_file(path, text.substr(0, size));
     warned.clear();
@@ -194,7 +200,7 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
       {list_head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_units":["rad","deg"])"),
        "g.jsonl:2: dof_units: expected the unit rad or m, got 'deg'"},
       {list_head + "\n" + with(R"("dofs":[])", R"("dofs":[1,2],"dof_names":["a","a"])"),
-       "g.jsonl:2: dof_names: 'a' stands there twice"},
+       "g.jsonl:2: dof_names: 'a' appears twice"},
       {list_head + "\n" + with(R"("joints":[])", R"("joints":1)"),
        "joints: expected a list of numbers, got 1"},
       {list_head + "\n" + with("true", "1"), "soft: expected true or false, got 1"},

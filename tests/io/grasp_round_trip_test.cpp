@@ -228,7 +228,7 @@ void check_back(const GraspSpec& a, const GraspSpec& b, const SavedFormat& forma
 
 }  // namespace
 
-TEST_CASE("what any format saves reads back, or it is refused and nothing is written") {
+TEST_CASE("saved grasps read back in any format, or nothing is written") {
   const TemporaryFolder folder;
   Random random(49);
   std::map<std::string, int> saved, refused;
@@ -273,7 +273,7 @@ TEST_CASE("a list without grasps, and one without DOFs, are saved in every forma
   }
 }
 
-TEST_CASE("what would not read back is named") {
+TEST_CASE("data that would not read back is named") {
   const TemporaryFolder folder;
   Random random(2);
   const auto refuse = [&](auto change, const char* file, const char* format, const char* message) {

@@ -213,7 +213,7 @@ TEST_CASE("arrays that share bytes or names are refused") {
   refuse(two, "a.npz: a: the archive holds two arrays of that name");
 }
 
-TEST_CASE("JSON is read value by value, with its lines, and what is not JSON is named") {
+TEST_CASE("JSON is read with the lines of its values, and syntax errors are named") {
   const ValueTree tree = parse_yaml(
       "a.json",
       " {\"a\": [1, -2.5e+3, true, null, \"x\\u00e9\\n\\ud83d\\ude00\"],\n\"b\": {}, \"c\":[]}");

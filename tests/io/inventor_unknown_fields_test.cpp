@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3d> corners_of(const BodySpec& body) {
 
 }  // namespace
 
-TEST_CASE("an unknown field is skipped with its value, whatever kind of value that is") {
+TEST_CASE("an unknown field is skipped with its value of any kind") {
   const char* values[] = {"3",
                           "-1.5e3 +2 .5",
                           "1 2, 3",
@@ -80,13 +80,13 @@ TEST_CASE("an unknown field is skipped with its value, whatever kind of value th
     }
 }
 
-TEST_CASE("what braces follow is an unknown field where a node has no children, else a node") {
+TEST_CASE("a name before braces is an unknown field in a node without children, else a node") {
   CHECK(read_nodes_of("Material { foo { 1 { 2 } } }\nCube { bar { 1 { 2 } } }").warnings ==
         std::vector<std::string>{"a.iv:2: Material: unknown field 'foo' is skipped",
                                  "a.iv:3: unknown node 'bar' is skipped"});
 }
 
-TEST_CASE("several unknown fields are named each, with what may have been meant") {
+TEST_CASE("each of several unknown fields is named, with a suggestion") {
   const Read read = read_nodes_of("Cube { widht 3 foo 1 2 bar BAZ\n qux [ 1 ] }");
   CHECK(read.warnings ==
         std::vector<std::string>{
@@ -97,7 +97,7 @@ TEST_CASE("several unknown fields are named each, with what may have been meant"
   CHECK(read.body.shape->bounds().size().x() == doctest::Approx(0.002));
 }
 
-TEST_CASE("an unknown field without a value, or what is no name, is refused") {
+TEST_CASE("an unknown field without a value, or an invalid name, is rejected") {
   const auto refused = [](const std::string& nodes, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_nodes_of(nodes), sentence.c_str(), Error);
   };

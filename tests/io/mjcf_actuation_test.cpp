@@ -86,7 +86,7 @@ TEST_CASE("an actuatorfrcrange of two zeros undoes that of a class, unless it li
   CHECK_FALSE(pulled(zeros + limits).driven);
 }
 
-TEST_CASE("a motor on a joint that stands still drives no leader") {
+TEST_CASE("a motor on a fixed joint drives no leader") {
   const ToldRobot told = three(
       "<equality><joint joint1='b' joint2='a' polycoef='0 0'/></equality>"
       "<actuator><motor joint='b' ctrlrange='-3 3'/><motor joint='c'/></actuator>");
@@ -94,7 +94,7 @@ TEST_CASE("a motor on a joint that stands still drives no leader") {
   CHECK(told.dof("c").driven);
 }
 
-TEST_CASE("actuators without force drive nothing, which is told") {
+TEST_CASE("actuators without force drive nothing, with a warning") {
   const ToldRobot told = three(
       "<actuator><motor name='still' joint='a' gear='0'/><position joint='b' kp='0'/>"
       "<motor joint='c' forcerange='0 0' forcelimited='true'/></actuator>");
@@ -113,7 +113,7 @@ TEST_CASE("inheritrange takes the range of controls from that of the target") {
             .warned("position: inheritrange: expected a target with a range; not used"));
 }
 
-TEST_CASE("what is not simulated between control and force is told") {
+TEST_CASE("dynamics between control and force are not simulated, with a warning") {
   CHECK(three("<actuator><position joint='a' timeconst='0.1'/></actuator>")
             .warned("<position>: its control acts at once: the time constant of its filter is not "
                     "used"));
@@ -146,7 +146,7 @@ TEST_CASE("tendons that pull joints in two ratios leave them independent") {
   CHECK(motor.robot.dofs.size() == 3);
 }
 
-TEST_CASE("two tendons of one ratio tie their joints, and say what that costs") {
+TEST_CASE("two tendons of one ratio couple their joints, with a warning") {
   const ToldRobot told =
       three("<tendon>" + fixed("t", 1, 2) + fixed("u", 2, 4) +
             "</tendon><actuator><motor tendon='t'/><motor tendon='u'/></actuator>");

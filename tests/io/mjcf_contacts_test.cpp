@@ -40,7 +40,7 @@ const std::string ball_xml =
 
 }  // namespace
 
-TEST_CASE("a link collides with what carries it when that is fixed to the world") {
+TEST_CASE("a link collides with its parent if that is fixed to the world") {
   CHECK(linked_bodies("").robot.collision_rules.pairs_on == Pairs{{-1, 0}});
   CHECK(linked_bodies("<freejoint/>").robot.collision_rules.pairs_on.empty());
   // between links that move a carrier never collides, whatever is fixed to it
@@ -106,7 +106,7 @@ TEST_CASE("switches of the simulation are followed or warned of by name") {
   CHECK(all.warned("constraint=\"disable\""));
 }
 
-TEST_CASE("parents collide where their filter is off, whatever later flags say of others") {
+TEST_CASE("parents collide if their filter is off, independently of later flags") {
   TemporaryFolder folder;
   for (const char* more : {"", "<flag contact='enable'/>"}) {
     const ToldRobot told(folder.write(

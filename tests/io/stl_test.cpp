@@ -50,7 +50,7 @@ TEST_CASE("what is wrong in an ascii STL file is told by line") {
   refused("solid\nendsolid", " expected triangles, got none");
 }
 
-TEST_CASE("what surrounds the facets of an ascii STL file may be missing, or more than expected") {
+TEST_CASE("text around the facets of an ASCII STL file may be missing or longer than expected") {
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
       "endfacet\n";

@@ -65,14 +65,14 @@ test("a check names the DOFs that no motor closes", function(t)
   t.equal(not_closed [[<motor joint="%s"/>]], nil)
 end)
 
-test("a shaken grip presses with what its motors exert, and the verdict says so", function(t)
+test("a shaken grip presses with its motors' efforts, and the verdict reports them", function(t)
   local hand, block = closed(t, [[<motor joint="%s" ctrlrange="-3 3"/>]])
   local verdict = clench.study.shake {hand = hand, object = block, mass = 0.2, force = 0.1, grip_force = 100, seconds = 0.1, settle = 0.1}
   t.close(verdict.grip_force, 6, 1e-3)
   t.ok(tostring(verdict):find("gripped with 6 N of normal forces, 100 N asked for", 1, true))
 end)
 
-test("a grip slips when a growing load reaches what friction holds of the motors' efforts", function(t)
+test("a grip slips when the load exceeds the friction force of the motors' efforts", function(t)
   local random = clench.random(3)
   local kinds = {  -- each of a DOF that stands at q and of an effort
     function(effort) return [[<motor joint="%%s" gear="%.17g" ctrlrange="-0.5 1"/>]], effort end,
@@ -98,7 +98,7 @@ test("a grip slips when a growing load reaches what friction holds of the motors
   end
 end)
 
-test("a motor that nothing limits is named wherever its effort counts", function(t)
+test("a motor without a limit is named wherever its effort counts", function(t)
   local hand, block, grasp = closed(t, [[<position joint="%s" kp="100"/>]])
   t.equal(hand.effort_ranges[1], {-math.huge, math.huge})
   local statement = "effort of joints j1, j2: unlimited (none given)"
@@ -152,7 +152,7 @@ test("a hand without motors does not close by them", function(t)
   t.equal(opens.effort_ranges[1], {-20.0, 0.0})
 end)
 
-test("a servo pushes no harder than the end of its control range makes it, whatever force is added", function(t)
+test("the control range of a servo bounds its effort, whatever force is added", function(t)
   for _, controller in ipairs {"position", "effort"} do
     local hand, block = closed(t, [[<position joint="%s" kp="100" ctrlrange="0 0.04"/>]])
     local world = hand.world

@@ -104,7 +104,7 @@ grasps:
   t.equal(before, {0.05, 0, 0.15, 0})
 end)
 
-test("check says what a list holds, in every format, and convert writes it in others", function(t)
+test("check summarizes lists in every format, and convert writes them in others", function(t)
   local world, hand = twin()
   hand:set_dofs {0.1, 0.2, 0.3, 0.4}
   local list = clench.grasps()

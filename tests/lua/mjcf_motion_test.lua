@@ -15,7 +15,7 @@ test("a free joint's damping slows a fall", function(t)
   t.equal(world:body "ball".free_damping, 2.0)
 end)
 
-test("a link comes to rest on what carries it where that is fixed", function(t)
+test("a link comes to rest on its fixed parent", function(t)
   local world = load [[<worldbody><body name="stand"><geom type="box" size="0.02 0.05 0.02" pos="0.3 0 -0.05"/>
     <body name="plank"><joint name="j" axis="0 1 0"/><geom type="box" size="0.2 0.05 0.0001" pos="0.2 0 0"/></body></body></worldbody>]]
   world:run(0.5)

@@ -60,7 +60,7 @@ test("a journal changes nothing of a search", function(t)
   t.equal(journal.head_of(path).count, count_wanted)
 end)
 
-test("a search that knows all of itself tries nothing and finds the same", function(t)
+test("a search with a complete journal tries nothing and finds the same grasps", function(t)
   local known, clean = journal.read(path)
   t.equal(journal.head({name = "bar"}, count_wanted) .. clean, text)
   local count = 0
@@ -68,7 +68,7 @@ test("a search that knows all of itself tries nothing and finds the same", funct
   t.equal(count, 0)
 end)
 
-test("a search that ended after a round goes on", function(t)
+test("a search that ended after a round continues", function(t)
   local short = test.path ".search"
   local first = record_in(short, 1)
   t.equal(first.report.candidates, 64)
@@ -76,7 +76,7 @@ test("a search that ended after a round goes on", function(t)
   check_same(t, continued((journal.read(short))), without_break)
 end)
 
-test("wherever a journal is cut, the search goes on from the last piece that is complete", function(t)
+test("wherever a journal is cut, the search continues from the last complete piece", function(t)
   local random = clench.random(8)
   local cut = test.path ".search"
   local head = #journal.head({name = "bar"}, count_wanted)
@@ -96,7 +96,7 @@ test("wherever a journal is cut, the search goes on from the last piece that is 
   end
 end)
 
-test("starts that jaws have shifted come back to the bit", function(t)
+test("starts that jaws have shifted are restored bit-exactly", function(t)
   local jaws, shifted = "models/hands/parallel_jaw/parallel_jaw.cfg", test.path ".search"
   record_in(shifted, 1, jaws)
   t.ok(clench.files.read_text(shifted):find('"moved":true', 1, true))
@@ -105,7 +105,7 @@ test("starts that jaws have shifted come back to the bit", function(t)
   t.ok(known[1])
 end)
 
-test("pieces that are missing in between are tried, and take their places", function(t)
+test("missing pieces are tried in their places", function(t)
   local known = journal.read(path)
   local random = clench.random(2)
   for first in pairs(journal.read(path)) do
@@ -114,7 +114,7 @@ test("pieces that are missing in between are tried, and take their places", func
   check_same(t, continued(known), without_break)
 end)
 
-test("a damaged journal is read up to the damage, and a file of another kind is none", function(t)
+test("a damaged journal is read up to the damage, and other files are rejected", function(t)
   local damaged = test.path ".search"
   local at = text:find('{"search":{"best_load"', #text // 2, true) or text:find('{"search":', #text // 2, true)
   clench.files.save_text(damaged, text:sub(1, at) .. "x" .. text:sub(at + 1))

@@ -17,7 +17,7 @@ test("a search whose time ends before its first candidate says so", function(t)
   t.equal(#run.report.causes, 1)
 end)
 
-test("any planner whose time is over ends, and the world is as it was given", function(t)
+test("a planner ends when its time is over, and restores the world", function(t)
   for _, planner in ipairs {"sample", "random", "anneal", "guided", "loop"} do
     local world = clench.world()
     local hand, object = world:add_robot "models/hands/barrett/barrett.cfg", world:add_object "models/objects/flask.iv"
@@ -29,7 +29,7 @@ test("any planner whose time is over ends, and the world is as it was given", fu
   end
 end)
 
-test("what comes after a search whose time has ended is not interrupted", function(t)
+test("work after a search whose time has ended is not interrupted", function(t)
   local run = start("anneal", {seconds = 0.1, steps = 1000000000})
   t.ok(run.report.steps < 1000000000)
   -- the hand has closed from the states that were found

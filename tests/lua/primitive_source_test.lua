@@ -31,7 +31,7 @@ test("primitives beside the object's file come first", function(t)
   t.equal(list[1].kind, "sphere")
 end)
 
-test("then those below the root, as GraspIt! keeps them", function(t)
+test("primitives below the root, as in GraspIt!, come second", function(t)
   local folder = test.folder()
   local object = write(folder .. "/objects/a.iv", faces)
   t.equal(select(2, find(object, folder)), "bounding box")
@@ -45,7 +45,7 @@ test("then those below the root, as GraspIt! keeps them", function(t)
   t.equal(select(2, find(object)), folder .. "/models/objects/primitives/a.iv")
 end)
 
-test("then those in the object's own file, and at last its bounding box", function(t)
+test("primitives in the object's own file come third, its bounding box last", function(t)
   local folder = test.folder()
   local path = write(folder .. "/a.iv", cube)
   local list, source = find(path)
@@ -66,7 +66,7 @@ test("then those in the object's own file, and at last its bounding box", functi
   t.equal(select(2, find(write(folder .. "/c.iv", cube), nil, {unit = "cm"})), "bounding box")
 end)
 
-test("a file of primitives that cannot be read is an error, and so is an object without a surface", function(t)
+test("an unreadable file of primitives is an error, and so is an object without a surface", function(t)
   local folder = test.folder()
   local path = write(folder .. "/a.iv", cube)
   write(folder .. "/primitives/a.iv", "nonsense")
@@ -75,7 +75,7 @@ test("a file of primitives that cannot be read is an error, and so is an object 
   t.fails(function() find(frame) end, "plan.primitive: object: '", "has no surface; the option primitives says what it is like")
 end)
 
-test("the report says what the primitives were taken from", function(t)
+test("the report names the source of the primitives", function(t)
   local world = clench.load "worlds/parallel_jaw_cube.wld"
   local hand, object = world.robots[1], world.objects[1]
   local run = clench.plan.primitive {hand = hand, object = object, density = 1, count = 1}

@@ -7,7 +7,7 @@ local text = require "clench.page.text"
 local hostile = {"\27[31m", "\r", "\n", "\0", "\127", "\u{85}", "\u{9B}31m", "\u{2028}", "\u{2029}", "\u{202A}", "\u{202E}", "\u{2066}", "\u{2069}"}
 local kept = {"a", "é", "\u{A0}", "\u{2027}", "\u{202F}", "\u{2065}", "\u{206A}", "\u{10FFFF}", "日本", "\xE9"}
 
-test("what would be obeyed is shown as one mark, and nothing else is", function(t)
+test("each character that a terminal would obey is replaced by one mark, and no others are", function(t)
   for _, word in ipairs(hostile) do
     local shown = printable("a" .. word .. "b")
     t.ok(not shown:find(word, 1, true), word)
@@ -17,7 +17,7 @@ test("what would be obeyed is shown as one mark, and nothing else is", function(
   t.equal(printable("a\n\tb\27", "\n\t"), "a\n\tb?")
 end)
 
-test("names have none of them", function(t)
+test("names contain no control characters", function(t)
   local world = clench.world {}
   for _, word in ipairs(hostile) do
     t.fails(function() world:add_object(clench.shapes.box {1, 1, 1}, {name = "a" .. word .. "b"}) end,
@@ -28,7 +28,7 @@ test("names have none of them", function(t)
   end
 end)
 
-test("messages, JSON, pages and figures have none of them", function(t)
+test("messages, JSON, pages and figures contain no control characters", function(t)
   for _, word in ipairs(hostile) do
     local message = t.fails(function() clench.load("no" .. word .. "file.wld") end, word == "\0" and "without zero bytes" or "no such file")
     t.ok(not message:find(word, 1, true), message)

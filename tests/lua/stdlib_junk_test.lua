@@ -106,7 +106,7 @@ test("no option of the standard library answers junk with an error of Lua's own"
   t.equal(table.concat(list, "\n"), "")
 end)
 
-test("mistakes are told with the caller's line", function(t)
+test("messages name the caller's line", function(t)
   local recording = world:record()
   local function fails(sentence, fn) t.fails(fn, "stdlib_junk_test.lua:", sentence) end
   fails("stats.interval: successes: expected a whole number >= 0, got nothing", function() clench.stats.interval() end)

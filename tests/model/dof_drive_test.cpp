@@ -215,7 +215,7 @@ TEST_CASE("gains that depend on length and an activation in place of the control
   CHECK_FALSE(is_powerless(servo));
 }
 
-TEST_CASE("the range at rest is what all controls of random actuators exert") {
+TEST_CASE("the range at rest covers the efforts of all controls of random actuators") {
   Random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
     ActuatorSpec a;

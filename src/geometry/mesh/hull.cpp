@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <new>
 #include <string>
+#include <string_view>
 
 #include "clench/base/error.h"
 #include "clench/base/watched.h"
@@ -53,9 +55,8 @@ int rank_of(const Normalised& n, double tolerance) {
   return static_cast<int>((values.array() > std::max(tolerance, n.noise) * values[0]).count());
 }
 
-// qhull's state and its messages, freed in any case. It reports its progress among them, which is
-// where it can be stopped: what is thrown there passes through frames of C that own nothing but
-// qhull's memory, as its own errors do by longjmp.
+// Owns qhull's state and messages. qhull reports its progress among the messages, which is where a
+// stop is noticed; it then adds no more points, and the stop is thrown when its C code has returned.
 class Qhull {
  public:
   Qhull() : said_(fopencookie(this, "w", {nullptr, &Qhull::take_message, nullptr, nullptr})) {
@@ -72,11 +73,15 @@ class Qhull {
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
 
-  /// false when qhull refuses
+  /// returns  false if qhull refuses the points
+  /// throws   Stopped
   bool run(Eigen::MatrixXd& points, const char* options) {
     std::string command = options;
-    return qh_new_qhull(&state, static_cast<int>(points.rows()), static_cast<int>(points.cols()),
-                        points.data(), False, command.data(), nullptr, said_) == qh_ERRnone;
+    const int error = qh_new_qhull(&state, static_cast<int>(points.rows()),
+                                   static_cast<int>(points.cols()), points.data(), False,
+                                   command.data(), nullptr, said_);
+    if (stopped_) throw Stopped();
+    return error == qh_ERRnone;
   }
   /// The first line of its errors, "QH6154 ...".
   std::string error() const {
@@ -87,14 +92,30 @@ class Qhull {
   qhT state{};
 
  private:
+  // called by C code: nothing may be thrown out of it
   static ssize_t take_message(void* qhull, const char* text, size_t size) {
-    check_stop();
-    static_cast<Qhull*>(qhull)->text_.append(text, size);
+    static_cast<Qhull*>(qhull)->take({text, size});
     return static_cast<ssize_t>(size);
+  }
+  void take(std::string_view text) noexcept {
+    constexpr size_t longest = 100000;
+    if (stopped_) return;
+    try {
+      check_stop();
+    } catch (const Stopped&) {
+      stopped_ = true;
+      state.STOPadd = 1;  // as if option TA0 were given: add no vertex beyond the first simplex
+    }
+    try {
+      if (text_.size() < longest) text_ += text;
+    } catch (const std::bad_alloc&) {
+      text_.clear();
+    }
   }
 
   std::string text_;
   FILE* said_;
+  bool stopped_ = false;
 };
 
 void read_facets(qhT* qh, const Normalised& n, Hull& hull) {

@@ -22,7 +22,7 @@ Sphere sphere_about(Simplex corners) {
 DepthField::DepthField(const Shape& solid, const Progress& progress)
     : solid_(solid),
       exposed_(exposed_surface(solid, progress)),
-      surface_(exposed_.shape ? *exposed_.shape : solid) {}
+      surface_(exposed_->shape ? *exposed_->shape : solid) {}
 
 Probe DepthField::probe(const Vector3d& p, int seed) const {
   const ClosestPoint near = nearest(p, seed);
@@ -73,7 +73,7 @@ GameRow DepthField::box_row(int side, Simplex corners) const {
 }
 
 // Least u . (p - q) over the points q of a triangle within `reach` of p, or less.
-static double least_along(const Vector3d& u, const Vector3d& p, const Corners& c, double reach) {
+static double min_along(const Vector3d& u, const Vector3d& p, const Corners& c, double reach) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vector3d& q : c) least = std::min(least, u.dot(p - q));
   // the part of a large triangle that is within reach lies in a disk of its plane
@@ -97,15 +97,15 @@ void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangle
   out.complete = out.reach < 0;
   // of large meshes a small part at most
   const size_t all = surface_.mesh().triangles.size();
-  if (out.complete || (all > NearTriangles::most && out.reach > solid_.radius() / 4)) return;
+  if (out.complete || (all > NearTriangles::capacity && out.reach > solid_.radius() / 4)) return;
   const Vector3d from = ball.centre - Vector3d::Map(surface_.tree().centre());
   int count = 0;
   for_near_triangles(surface_.tree(), from.data(), rounding, out.reach, false, [&](int triangle) {
-    if (count < NearTriangles::most) out.triangles[count] = triangle;
+    if (count < NearTriangles::capacity) out.triangles[count] = triangle;
     ++count;
     return false;
   });
-  out.complete = count <= NearTriangles::most;
+  out.complete = count <= NearTriangles::capacity;
   out.count = out.complete ? count : 0;
   if (out.count > few_triangles) return;
   // exactly, for local_rows
@@ -193,10 +193,10 @@ bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles&
   if (!near.complete) return false;
   const double rounding = rounding_of(solid_.bounds(), ball.centre);
   Vector3d u = Vector3d::Zero();
-  std::array<Slope, NearTriangles::most> slopes;
+  std::array<Slope, NearTriangles::capacity> slopes;
   for (int i = 0; i < near.count; ++i) u += (slopes[i] = slope(near.triangles[i])).inward;
-  constexpr int most_turns = 6;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  constexpr int max_turns = 6;
+  for (int turn = 0; turn < max_turns; ++turn) {
     if (!(u.norm() > 1e-6)) return near.count == 0;
     u.normalize();
     // no corner lies farther behind the centre
@@ -208,7 +208,7 @@ bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles&
       const double rise = u.dot(slopes[i].inward) - slopes[i].error;
       if (rise > 0 || rise >= least) continue;
       const Corners c = surface_.mesh().corners(near.triangles[i]);
-      if (least_along(u, ball.centre, c, near.reach) <= behind + rounding) least = rise, worst = i;
+      if (min_along(u, ball.centre, c, near.reach) <= behind + rounding) least = rise, worst = i;
     }
     if (worst < 0) return true;
     const Corners c = surface_.mesh().corners(near.triangles[worst]);

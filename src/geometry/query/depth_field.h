@@ -37,8 +37,8 @@ Slope slope_of(const Shape& shape, int triangle);
 
 /// Triangles of a surface on which the nearest points lie of all points of a ball that are inside.
 struct NearTriangles {
-  static constexpr int most = 256;
-  std::array<int, most> triangles;
+  static constexpr int capacity = 256;
+  std::array<int, capacity> triangles;
   int count = 0;
   bool complete = false;  ///< false: not looked for, or more than fit
   double reach = 0;       ///< of the centre, where the points lie [m]
@@ -55,7 +55,7 @@ class DepthField {
   const Shape& solid() const { return solid_; }
   /// the triangle of the solid that one of the surface is a part of
   int triangle_of_solid(int triangle) const {
-    return exposed_.shape ? exposed_.triangles[triangle] : triangle;
+    return exposed_->shape ? exposed_->triangles[triangle] : triangle;
   }
   /// Surface point nearest to p.   seed  a triangle likely to be near, -1 for none
   ClosestPoint nearest(const Eigen::Vector3d& p, int seed = -1) const {
@@ -81,7 +81,7 @@ class DepthField {
 
  private:
   const Shape& solid_;
-  const ExposedSurface exposed_;
+  const std::shared_ptr<const ExposedSurface> exposed_;
   const Shape& surface_;  // its boundary
   const Slope& slope(int triangle) const;
 

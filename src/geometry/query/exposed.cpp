@@ -201,13 +201,20 @@ bool parts_may_overlap(const Mesh& mesh, DisjointSets& parts) {
 
 }  // namespace
 
-ExposedSurface exposed_surface(const Shape& shape, const Progress& progress) {
+static ExposedSurface find_exposed_surface(const Shape& shape, const Progress& progress) {
   if (!shape.closed()) return {};
   // by common vertices: parts that adjoin have corners at the same places
   DisjointSets parts(shape.mesh().vertices.size());
   for (const Triangle& t : shape.mesh().triangles) parts.join(t[0], t[1]), parts.join(t[0], t[2]);
   if (!parts_may_overlap(shape.mesh(), parts)) return {};
   return Exposure(shape, parts, progress).find();
+}
+
+std::shared_ptr<const ExposedSurface> exposed_surface(const Shape& shape,
+                                                      const Progress& progress) {
+  return shape.exposed([&] {
+    return std::make_shared<const ExposedSurface>(find_exposed_surface(shape, progress));
+  });
 }
 
 }  // namespace clench

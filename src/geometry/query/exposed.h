@@ -14,7 +14,10 @@ struct ExposedSurface {
 };
 
 /// Cuts off what lies within other parts of the shape, and faces on which two parts adjoin. A part
-/// that intersects itself keeps its faces.   throws Stopped
-ExposedSurface exposed_surface(const Shape& shape, const Progress& progress = {});
+/// that intersects itself keeps its faces. The shape keeps the result: any thread may ask.
+/// returns  never null
+/// throws   Stopped
+std::shared_ptr<const ExposedSurface> exposed_surface(const Shape& shape,
+                                                      const Progress& progress = {});
 
 }  // namespace clench

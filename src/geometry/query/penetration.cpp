@@ -59,7 +59,7 @@ class DeepestPoint {
       Region region = queue_.top();
       if (!matters(region.bound)) break;
       queue_.pop();
-      region.kind == Region::Kind::group ? open_group(region) : halve(region);
+      queue_.size() < options_.max_regions ? split(region) : search_depth_first(region);
     }
     if (!queue_.empty()) left_out_ = std::max(left_out_, queue_.top().bound);
     best_.bound = best_.depth > 0 ? std::max(best_.depth, left_out_) : left_out_;
@@ -80,7 +80,23 @@ class DeepestPoint {
       return;
     }
     region.order = ++count_;
-    queue_.push(std::move(region));
+    branch_ ? branch_->push_back(std::move(region)) : queue_.push(std::move(region));
+  }
+
+  void split(Region& region) { region.kind == Region::Kind::group ? open_group(region) : halve(region); }
+
+  // Searches a region to its end; the list of what waits is as long as its parts are nested.
+  void search_depth_first(const Region& first) {
+    std::vector<Region> branch = {first};
+    branch_ = &branch;
+    for (int step = 1; !branch.empty(); ++step) {
+      if (step % 64 == 0) options_.progress.check();
+      Region region = std::move(branch.back());
+      branch.pop_back();
+      if (matters(region.bound)) split(region);
+      else left_out_ = std::max(left_out_, region.bound);
+    }
+    branch_ = nullptr;
   }
 
   bool improves(double distance) const {
@@ -99,7 +115,7 @@ class DeepestPoint {
   // Of triangles of b that cross the surface of a: their corners, and the middle of the points where
   // edges pass through. Some of these are inside, however little the surfaces cross.
   void add_crossings() {
-    constexpr int most_pairs = 4096;
+    constexpr int max_pairs = 4096;
     std::map<int, std::pair<Vector3d, int>> sums;  // by triangle of b
     int pairs = 0;
     for_meeting_pairs(placement_.trees(), [&](int in_a, int in_b) {
@@ -109,7 +125,7 @@ class DeepestPoint {
         if (const auto p = crossing(a[k], a[(k + 1) % 3], b)) sum += *p, ++count;
         if (const auto p = crossing(b[k], b[(k + 1) % 3], a)) sum += *p, ++count;
       }
-      return ++pairs == most_pairs;
+      return ++pairs == max_pairs;
     });
     const auto try_point = [&](const Vector3d& p) {
       const ClosestPoint near = field_.nearest(p);
@@ -290,7 +306,7 @@ class DeepestPoint {
   // Lowers the bound by planes cut where it is attained.
   // source  Kelley (1960), The cutting-plane method
   void tighten(Region& region, const Sphere& ball, const Probe& centre) {
-    constexpr int most_cuts = 10;
+    constexpr int max_cuts = 10;
     const std::span<Vector3d> corners = region.corners();
     Rows rows;
     const auto add = [&](int triangle) {
@@ -304,7 +320,7 @@ class DeepestPoint {
       if (triangle >= 0) add(triangle);
     add(centre.triangle);
     const double first = region.bound;
-    for (int cut = 0; cut < most_cuts; ++cut) {
+    for (int cut = 0; cut < max_cuts; ++cut) {
       const GameSolution game = rows.solve(static_cast<int>(corners.size()));
       if (game.value < region.bound) {
         region.bound = game.value;
@@ -359,7 +375,8 @@ class DeepestPoint {
   std::vector<Vector3d> vertices_;  // of b
   std::vector<int> triangles_;      // of b that may be inside a
   std::priority_queue<Region, std::vector<Region>, Deeper> queue_;
-  NearTriangles near_;  // of the simplex at hand
+  std::vector<Region>* branch_ = nullptr;  // where parts go instead of the queue
+  NearTriangles near_;                     // of the simplex at hand
   int count_ = 0;
   double left_out_ = 0;  // no region left out is deeper [m]
   Penetration best_;

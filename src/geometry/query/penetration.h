@@ -10,6 +10,9 @@ struct PenetrationOptions {
   /// that overlaps by more than rounding has depth 0 for want of `absolute` [m]: while no point is
   /// found inside, 1e-5 of the smaller radius counts where that is less.
   double absolute = 1e-6, relative = 1e-3;
+  /// Regions that wait to be searched, some 200 bytes each. Beyond it the search is depth-first,
+  /// which keeps the tolerance, but takes longer.
+  size_t max_regions = 100'000;
   Progress progress = {};
 };
 

@@ -79,7 +79,7 @@ class PostureReader {
  public:
   PostureReader(const World& world, Id<Robot> hand, const std::string& place,
                 const GraspDofOptions& options)
-      : world_(world), hand_(hand), robot_(world.robot(hand)), place_(place), options_(options) {}
+      : robot_(world.robot(hand)), place_(place), options_(options) {}
 
   /// Values as they are listed, the others as in `q`.
   Eigen::VectorXd read(const std::vector<double>& values, const std::vector<std::string>& names,
@@ -192,8 +192,6 @@ class PostureReader {
     }
   }
 
-  const World& world_;
-  Id<Robot> hand_;
   const Robot& robot_;
   const std::string& place_;
   const GraspDofOptions& options_;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_parts =
+constexpr int max_parts =
     1000;  // DOFs, chains, joints, links: far above any hand, far below what fills the memory
 
 /// The numbers of the DOF as written; their units depend on the kind of its joints, which come
@@ -65,7 +65,7 @@ class CfgReader {
 
 int CfgReader::count(const char* what, int low) {
   const Line line = expected(what);
-  const int value = line.integer(0, what, low, most_parts);
+  const int value = line.integer(0, what, low, max_parts);
   used_up(line, 1);
   return value;
 }

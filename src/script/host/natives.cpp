@@ -18,6 +18,13 @@ static int raise(lua_State* L) {
   throw Error(sentence, given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
 }
 
+// call_script(subject, fn, ...): what the script's function returns; its errors name the subject
+static int call_script(lua_State* L) {
+  const std::string subject = check_string(L, 1, "subject");
+  call_script(L, lua_gettop(L) - 2, LUA_MULTRET, subject);
+  return lua_gettop(L) - 1;
+}
+
 // script_line(): "a.lua:3: ", where the script called into the standard library, or ""
 static int script_line(lua_State* L) {
   push_script_place(L);
@@ -54,6 +61,7 @@ static int deadline(lua_State* L) {
 
 void add_natives(lua_State* L) {
   static constexpr luaL_Reg natives[] = {{"clench.raise", guarded<raise>},
+                                         {"clench.call_script", guarded<call_script>},
                                          {"clench.script_line", script_line},
                                          {"clench.suggest", guarded<suggest>},
                                          {"clench.deadline", guarded<deadline>},

@@ -94,6 +94,7 @@ struct Turn {
   const Parcel* item;
   lua_Integer number;
   Outcome* outcome;
+  std::string subject;  // for messages
 };
 
 int seed_random(lua_State* L, lua_Integer number) {
@@ -113,7 +114,7 @@ int take_turn(lua_State* L) {
   turn.item->unpack(L);
   lua_pushvalue(L, 3);
   lua_pushinteger(L, turn.number);
-  protected_call(L, 3, 1);
+  call_script(L, 3, 1, turn.subject);
   turn.outcome->value = Parcel(L, -1, "the result");
   return 0;
 }
@@ -167,7 +168,8 @@ bool make_ready(Worker& worker, const Task& task, TaskError& failure) {
 void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
   lua_State* L = worker.state.lua();
   for (const auto& [world, moment] : worker.moments) world->restore(*moment);
-  Turn turn{&task.items[i], static_cast<lua_Integer>(i) + 1, &outcome};
+  Turn turn{&task.items[i], static_cast<lua_Integer>(i) + 1, &outcome,
+            fmt::format("{}: items[{}]", task.name.substr(1), i + 1)};
   lua_pushcfunction(L, guarded<take_turn>);
   lua_pushlightuserdata(L, &turn);
   lua_pushvalue(L, 1);
@@ -340,7 +342,7 @@ int map(lua_State* L) {
     lua_pushvalue(L, each);
     lua_rawgeti(L, results, static_cast<lua_Integer>(i) + 1);
     lua_pushinteger(L, static_cast<lua_Integer>(i) + 1);
-    return lua_pcall(L, 2, 0, 0) == LUA_OK;
+    return try_script(L, 2, 0, subject + ": each");
   };
   // the error on top of the stack goes on
   const auto raise = [&] {

@@ -17,7 +17,7 @@ void Deadline::wait(double seconds) {
                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(time);
   if (changed_.wait_until(lock, end, [this] { return closed_; })) return;
   passed_ = true;
-  watcher_->stop();
+  watcher_->stop(StopCause::deadline);
 }
 
 bool Deadline::close() {
@@ -28,7 +28,7 @@ bool Deadline::close() {
   }
   changed_.notify_one();
   thread_.join();
-  if (passed_) watcher_->take_stop();
+  if (passed_) watcher_->take_stop(StopCause::deadline);
   return passed_;
 }
 

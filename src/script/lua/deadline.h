@@ -1,4 +1,4 @@
-// The end of a search's time, as a stop that nobody has to ask for.
+// The time limit of a search.
 #pragma once
 #include <condition_variable>
 #include <memory>
@@ -9,16 +9,16 @@
 
 namespace clench {
 
-/// Stops a watcher once, when so much time has passed, unless it is closed before.
+/// Asks a watcher to stop, once, after a time, unless it is closed before.
 class Deadline {
  public:
-  /// seconds  from now; at once when not above 0 [s]
+  /// seconds  from now; at once if not above 0 [s]
   Deadline(std::shared_ptr<Watcher> watcher, double seconds);
   ~Deadline() { close(); }
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
 
-  /// Ends it; a stop of its own that nothing has heeded is withdrawn.
+  /// Ends the wait, and withdraws the deadline's own request; a stop that the user asked for remains.
   /// returns  has the time passed?
   bool close();
 
@@ -29,7 +29,7 @@ class Deadline {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false, passed_ = false;
-  std::thread thread_;  // the last member: begins when all else is there
+  std::thread thread_;  // the last member: starts when all others are constructed
 };
 
 }  // namespace clench

@@ -11,6 +11,7 @@
 #include "clench/base/text.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/owned.h"
+#include "clench/script/lua/packed.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {
@@ -51,10 +52,38 @@ void push_error_value(lua_State* L, const char* sentence, const char* kind) {
 
 static const char raised_key = 0;  // its address names the place of the waiting error value
 
-void protected_call(lua_State* L, int arguments, int results) {
-  if (lua_pcall(L, arguments, results, 0) == LUA_OK) return;
+// the error's value is on top of the stack
+[[noreturn]] static void raise_later(lua_State* L) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
   throw Raised();
+}
+
+void protected_call(lua_State* L, int arguments, int results) {
+  if (lua_pcall(L, arguments, results, 0) != LUA_OK) raise_later(L);
+}
+
+// (error value) -> the value that the caller gets; upvalue: the subject
+static int explain_callback(lua_State* L) {
+  lua_settop(L, 1);
+  push_packed(L, "callback_error");
+  lua_insert(L, 1);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_call(L, 2, 1);
+  return 1;
+}
+
+bool try_script(lua_State* L, int arguments, int results, std::string_view subject) {
+  const int handler = lua_gettop(L) - arguments;
+  lua_pushlstring(L, subject.data(), subject.size());
+  lua_pushcclosure(L, explain_callback, 1);
+  lua_insert(L, handler);
+  const bool ok = lua_pcall(L, arguments, results, handler) == LUA_OK;
+  lua_remove(L, handler);
+  return ok;
+}
+
+void call_script(lua_State* L, int arguments, int results, std::string_view subject) {
+  if (!try_script(L, arguments, results, subject)) raise_later(L);
 }
 
 // `at`, or a little less where a character of UTF-8 would be cut
@@ -150,14 +179,16 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
 
   // the handler is left: nothing but plain memory is alive
   lua_settop(L, 0);
-  if (failure == Failure::stopped) bar_of(L)->take_stop();
+  // if both asked, this error is the deadline's, and the user's request raises the next one
+  const bool out_of_time = failure == Failure::stopped && bar_of(L)->take_stop(StopCause::deadline);
+  if (failure == Failure::stopped && !out_of_time) bar_of(L)->take_stop();
   if (failure == Failure::raised) {
     lua_rawgetp(L, LUA_REGISTRYINDEX, &raised_key);
     lua_pushnil(L);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
   } else {
     const bool stopped = failure == Failure::stopped;
-    push_error_value(L, stopped ? "interrupted" : message.text,
+    push_error_value(L, out_of_time ? "out of time" : stopped ? "interrupted" : message.text,
                      stopped ? "stopped" : name_of(kind));
   }
   return -1;

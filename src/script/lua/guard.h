@@ -25,6 +25,15 @@ class Raised : public std::exception {
 /// throws  Raised when it fails
 void protected_call(lua_State* L, int arguments, int results);
 
+/// protected_call of a script's function. An error without a message, and a yield, become an error
+/// that names the function.
+/// subject  the function, for messages: "recording:each"
+void call_script(lua_State* L, int arguments, int results, std::string_view subject);
+
+/// As call_script, but leaves the value of an error on the stack.
+/// returns  false when the function fails
+bool try_script(lua_State* L, int arguments, int results, std::string_view subject);
+
 /// Runs fn.
 /// returns  what fn returned, or -1 with an error value on top of the stack
 int run_guarded(lua_State* L, lua_CFunction fn);

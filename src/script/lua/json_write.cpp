@@ -94,7 +94,7 @@ class Writer {
     if (depth >= json_depth) refuse(fmt::format("at most {} levels of tables", json_depth));
     if (luaL_getmetafield(L_, index, "__json") != LUA_TNIL) {
       lua_pushvalue(L_, index);
-      protected_call(L_, 1, 1);
+      call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path_));
       if (++conversions_ > json_depth) refuse("an end to values that stand for values");
       value(-1, depth);
       --conversions_;

@@ -39,7 +39,7 @@ std::function<double()> script_number(lua_State* L, int index) {
     lua_State* const now = *current;
     if (!now || !lua_checkstack(now, 4)) fail("a script's function: there is no script that waits");
     lua_rawgeti(now, LUA_REGISTRYINDEX, function->number);
-    protected_call(now, 0, 1);
+    call_script(now, 0, 1, "energy");
     if (lua_type(now, -1) != LUA_TNUMBER) {
       const std::string got = described(now, -1);
       lua_pop(now, 1);

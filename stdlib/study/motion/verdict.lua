@@ -22,12 +22,12 @@ end
 
 local how = {forces = "by forces in equilibrium", close = "by closing motors", none = "by no motor"}
 
--- the grip as it was asked for
+-- the requested grip
 local function grip_asked(trial, job)
   return trial.grip == "forces" and ("gripped with %.3g N of normal forces"):format(job.grip_force) or "gripped " .. how[trial.grip]
 end
 
--- the grip as it was measured, and what was asked for where that differs
+-- the measured grip, and the requested one if they differ
 local function grip_measured(trial, job)
   local measured, asked = ("%.3g"):format(trial.grip_force), ("%.3g"):format(job.grip_force)
   local text = ("gripped with %s N of normal forces"):format(measured)

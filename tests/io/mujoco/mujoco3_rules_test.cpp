@@ -87,7 +87,7 @@ TEST_CASE("in nested replicas the inner number comes first") {
   CHECK(std::abs(q.dot(Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5))) == Approx(1));
 }
 
-TEST_CASE("what refers to replicas is replicated") {
+TEST_CASE("elements that refer to replicas are replicated") {
   const Scene told = scene("<body name='base'>" + box +
                                "<replicate count='3' euler='0 0 120'><body name='f'>"
                                "<joint name='j' range='0 1'/>" +
@@ -274,7 +274,7 @@ TEST_CASE("primitives are fitted to the inertia or the bounds of a mesh") {
         Approx(1000 * 0.08076165929 * 0.1411426598 * 0.2967051391).epsilon(1e-5));
 }
 
-TEST_CASE("bodies have no mass but what their geoms have") {
+TEST_CASE("bodies have the mass of their geoms") {
   const Scene told = scene(
       "<body name='arm'><joint name='j' axis='0 1 0'/><geom size='.05' pos='0 0 .5' mass='1'/>"
       "<body name='flag'><geom size='.1' mass='0'/></body>"

@@ -300,7 +300,7 @@ TEST_CASE("pairs of bodies that may collide are those of MuJoCo") {
   }
 }
 
-TEST_CASE("a pair collides whatever bits, parents and exclusions say, as in MuJoCo") {
+TEST_CASE("a pair collides independently of bits, parents and exclusions, as in MuJoCo") {
   TemporaryFolder folder;
   const fs::path file = folder.write("m.xml", R"(<mujoco><compiler autolimits="true"/><worldbody>
 <geom name="floor" size="1" contype="0" conaffinity="0"/>

@@ -55,12 +55,12 @@ constexpr double tolerance = 1e-6;
 
 }  // namespace
 
-TEST_CASE("our own MJCF files mean what they mean to MuJoCo") {
+TEST_CASE("our MJCF files have the same meaning as in MuJoCo") {
   CHECK(compare_files("tests/data/mjcf", tolerance) >= 2);
   compare_files("models", tolerance);
 }
 
-TEST_CASE("third-party MJCF files mean what they mean to MuJoCo") {
+TEST_CASE("third-party MJCF files have the same meaning as in MuJoCo") {
   REQUIRE_SHARED();
   CHECK(compare_files(shared() / "data", tolerance) +
             compare_files(shared() / "cases", tolerance) >=

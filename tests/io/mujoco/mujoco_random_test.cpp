@@ -9,7 +9,7 @@
 using namespace clench;
 using namespace clench::test;
 
-TEST_CASE("models at random mean what they mean to MuJoCo") {
+TEST_CASE("random models have the same meaning as in MuJoCo") {
   constexpr int count = 30;  // 200 agree, too, and take some 8 s
   // MuJoCo keeps the vertices of meshes in single precision
   constexpr double tolerance = 1e-5;

@@ -39,7 +39,7 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
     lua_pushstring(L, name);
     lua_pushlstring(L, message.data(), message.size());
     lua_pushstring(L, about);  // nil when null
-    protected_call(L, 3, 0);
+    call_script(L, 3, 0, "clench.log.sink");
     return;
   }
   lua_pop(L, 1);
@@ -79,7 +79,7 @@ static std::string joined(lua_State* L) {
       return 1;
     });
     lua_pushvalue(L, i);
-    protected_call(L, 1, 1);
+    call_script(L, 1, 1, fmt::format("{}: argument {}", subject(L), i));
     if (i > 1) text += ' ';
     text += string_at(L, -1);
     lua_pop(L, 1);

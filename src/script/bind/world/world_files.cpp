@@ -72,7 +72,7 @@ static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& r
   lua_createtable(L, 0, 1);
   if (!root.empty()) set_field(L, "root", root.generic_string());
   push(L, folder);
-  protected_call(L, 2, 1);
+  call_script(L, 2, 1, file);
   const auto* handle = to<WorldHandle>(L, -1);
   if (!handle) fail("{}: expected a script that returns a world, got {}", file, described(L, -1));
   return handle->world;
