@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t max_parts = 1000;  // DOFs, chains, joints, links: far above any hand
+constexpr size_t max_elements = 1000;  // DOFs, chains, joints, links: far above any hand
 
 class XmlRobotReader {
  public:
@@ -81,8 +81,8 @@ RobotSpec XmlRobotReader::read() {
   robot_.base.name = robot_.name + "_base";
   dofs_ = root_.children("dof");
   const auto chains = root_.children("chain");
-  if (dofs_.size() > max_parts || chains.size() > max_parts)
-    root_.fail("expected at most {} DOFs and chains, got {} and {}", max_parts, dofs_.size(),
+  if (dofs_.size() > max_elements || chains.size() > max_elements)
+    root_.fail("expected at most {} DOFs and chains, got {} and {}", max_elements, dofs_.size(),
                chains.size());
   dof_kinds_.resize(dofs_.size());
   for (const XmlElement& e : chains) read_chain(e);
@@ -207,8 +207,8 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
   element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
   const int number = static_cast<int>(chains_.size());
   const auto joints = element.children("joint"), links = element.children("link");
-  if (joints.size() > max_parts || links.size() > max_parts)
-    element.fail("chain: expected at most {} joints and links, got {} and {}", max_parts,
+  if (joints.size() > max_elements || links.size() > max_elements)
+    element.fail("chain: expected at most {} joints and links, got {} and {}", max_elements,
                  joints.size(), links.size());
   if (links.empty()) element.fail("chain: expected a link, got none");
   ChainLinks chain(read_transform_of(element, cache_.options().listeners()), dof_kinds_);
