@@ -56,7 +56,7 @@ local entries = {
   {"clench.log.sink", function(fn)
     clench.log.sink(fn)
     local back <close> = setmetatable({}, {__close = function() clench.log.sink() end})
-    clench.log.warning "a message"
+    clench.log.error "a message"
   end},
   {"clench.log.debug: argument 1", function(fn)
     local level <close> = setmetatable({clench.log.level "debug"}, {__close = function(self) clench.log.level(self[1]) end})

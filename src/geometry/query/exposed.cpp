@@ -7,6 +7,7 @@
 #include "clench/base/disjoint_sets.h"
 #include "clench/geometry/query/placement.h"
 #include "clench/geometry/query/queries.h"
+#include "clench/geometry/tree/tree.h"
 
 namespace clench {
 
@@ -212,7 +213,7 @@ static ExposedSurface find_exposed_surface(const Shape& shape, const Progress& p
 
 std::shared_ptr<const ExposedSurface> exposed_surface(const Shape& shape,
                                                       const Progress& progress) {
-  return shape.exposed([&] {
+  return shape.tree(progress).exposed([&]() -> Tree::ExposedPtr {
     return std::make_shared<const ExposedSurface>(find_exposed_surface(shape, progress));
   });
 }

@@ -83,7 +83,9 @@ class DeepestPoint {
     branch_ ? branch_->push_back(std::move(region)) : queue_.push(std::move(region));
   }
 
-  void split(Region& region) { region.kind == Region::Kind::group ? open_group(region) : halve(region); }
+  void split(Region& region) {
+    region.kind == Region::Kind::group ? open_group(region) : halve(region);
+  }
 
   // Searches a region to its end; the list of what waits is as long as its parts are nested.
   void search_depth_first(const Region& first) {
@@ -93,8 +95,10 @@ class DeepestPoint {
       if (step % 64 == 0) options_.progress.check();
       Region region = std::move(branch.back());
       branch.pop_back();
-      if (matters(region.bound)) split(region);
-      else left_out_ = std::max(left_out_, region.bound);
+      if (matters(region.bound))
+        split(region);
+      else
+        left_out_ = std::max(left_out_, region.bound);
     }
     branch_ = nullptr;
   }

@@ -60,12 +60,10 @@ static int deadline(lua_State* L) {
 }
 
 void add_natives(lua_State* L) {
-  static constexpr luaL_Reg natives[] = {{"clench.raise", guarded<raise>},
-                                         {"clench.call_script", guarded<call_script>},
-                                         {"clench.script_line", script_line},
-                                         {"clench.suggest", guarded<suggest>},
-                                         {"clench.deadline", guarded<deadline>},
-                                         {nullptr, nullptr}};
+  static constexpr luaL_Reg natives[] = {
+      {"clench.raise", guarded<raise>},       {"clench.call_script", guarded<call_script>},
+      {"clench.script_line", script_line},    {"clench.suggest", guarded<suggest>},
+      {"clench.deadline", guarded<deadline>}, {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);
   lua_pop(L, 1);
