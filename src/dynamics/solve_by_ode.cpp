@@ -7,8 +7,8 @@
 
 namespace clench {
 
-// Dantzig's method, which nothing can stop, takes the cube of their number: of so many, about a
-// second.
+// Largest number of contact points. ODE's Dantzig method cannot be stopped, and takes about a second
+// for this many; its time is cubic in the number.
 static constexpr size_t max_contacts = 1000;
 
 void Stepper::solve_by_ode(double h) {

@@ -56,7 +56,7 @@ class Stepper {
     Eigen::MatrixXd Y;      // L^-1 J^T: coordinates x rows
     std::vector<int> rows;  // of all, by column
   };
-  /// What touches each other, straight or through others, and is solved by itself.
+  /// Bodies that touch, directly or through others; solved separately from other islands.
   struct Island {
     std::vector<int> blocks, trees;
   };

@@ -52,7 +52,7 @@ double ratio_of(const Robot& robot, const std::string& name, int dof) {
 
 bool exerts_nothing(const ActuatorSpec& actuator) {
   const bool no_bias = actuator.bias == std::array<double, 3>{0, 0, 0};
-  // a damper slows down what moves, and holds nothing at rest
+  // a damper exerts no force at rest
   return actuator.gear == 0 || (actuator.gain == 0 && no_bias) || actuator.kind == "damper";
 }
 

@@ -159,7 +159,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
     robot.links.push_back(
         {{}, link.parent, first, static_cast<int>(robot.joints.size()), link.X_JL});
   }
-  // actuators that exert nothing drive nothing
+  // actuators without force drive nothing
   for (size_t i = 0; i < robot.dofs.size(); ++i)
     robot.dofs[i].driven = robot.dofs[i].driven && drive_of(robot, static_cast<int>(i)).acts();
   robot.chains = chains_of(spec);

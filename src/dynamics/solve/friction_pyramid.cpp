@@ -122,7 +122,7 @@ void take_damping_away(const MatrixXd& damped, const Velocities& velocities, Vec
 
 }  // namespace
 
-// Pivots take the square of their number each, and as much memory.
+// Largest number of unknowns; time of a pivot and memory are quadratic in it.
 static constexpr int max_unknowns = 6000;
 
 PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& centre,

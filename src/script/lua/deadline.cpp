@@ -9,7 +9,7 @@ Deadline::Deadline(std::shared_ptr<Bar> bar, double seconds)
     : bar_(std::move(bar)), thread_([this, seconds] { wait(seconds); }) {}
 
 void Deadline::wait(double seconds) {
-  // later than any clock counts is never
+  // beyond the range of clocks
   constexpr double never = 1e9;
   const std::chrono::duration<double> time(std::clamp(seconds, 0.0, never));
   std::unique_lock lock(mutex_);
