@@ -52,7 +52,7 @@ local function check_columns(rows, columns)
   local known = {}
   for i, name in ipairs(columns) do
     if type(name) ~= "string" then raise(("csv.write: columns[%d]: expected a name, got %s"):format(i, described(name))) end
-    if known[name] then raise(("csv.write: column '%s' stands there twice"):format(name)) end
+    if known[name] then raise(("csv.write: column '%s' appears twice"):format(name)) end
     known[name] = true
   end
   for _, name in ipairs(all_columns(rows)) do
@@ -116,7 +116,7 @@ function csv.read(path, options)
   if not header then fail(1, "expected names of columns, got an empty file") end
   local rows, known = {columns = {}}, {}
   for c, column in ipairs(header) do
-    if known[column] then fail(1, "column '%s' stands there twice", column) end
+    if known[column] then fail(1, "column '%s' appears twice", column) end
     known[column], rows.columns[c] = true, column
   end
   for i, record in ipairs(all) do

@@ -20,7 +20,7 @@ static void on_interrupt(int signal) {
   if (target) target->interrupt();
 }
 
-// without SA_RESTART, so that a key that is being waited for gives up
+// without SA_RESTART, so that waiting for a key ends
 static void catch_signal(int signal) {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;

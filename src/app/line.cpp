@@ -238,7 +238,7 @@ void LineEditor::remember(const std::string& entry) {
     else
       Draft(t.file, text, 0600).move_to(t.file);
   } catch (const Error&) {
-    // a console without a history is a console still
+    // the console works without a history file
   }
 }
 

@@ -420,7 +420,7 @@ static int main_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    // a file that may not grow is an error of who writes it, not the end of the process
+    // a file that exceeds the size limit is an error of its writer and does not end the process
     std::signal(SIGXFSZ, [](int) {});
     const int code = clench::main_of(argc, argv);
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;

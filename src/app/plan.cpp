@@ -19,15 +19,15 @@ static std::string call(State& state, const std::string& function, const Words& 
                         const Interruptible* running = nullptr) {
   const auto result = state.call("host.plan", function, words);
   std::fflush(stdout);
-  // what a signal ends needs no reason
+  // a search that a signal ended needs no message
   const bool ended = running && running->pressed();
   if (!result.ok && !ended)
     fmt::print(stderr, "clench plan: {}\n", printable(result.error, "\n\t"));
   return result.ok && result.values.size() == 1 ? result.values.front() : "1";
 }
 
-// Searches, saves the list, then shows it. The first signal ends the search, or what is being
-// shown, but not the saving between them; the second one ends the process.
+// Searches, saves the list, then shows it. The first signal ends the search or the display, but not
+// the saving between them; the second one ends the process.
 static int run_plan(State& state, const Words& words) {
   int signal = 0;
   std::string done;
@@ -59,7 +59,8 @@ int plan_grasps(const PlanOptions& options) {
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);
   catch_interrupts();
   catch_endings();
-  std::signal(SIGPIPE, [](int) {});  // what nobody reads must not keep files from being written
+  std::signal(SIGPIPE,
+              [](int) {});  // a closed output pipe must not prevent files from being written
   Words words = words_of(options.reading);
   words.insert(words.end(), options.words.begin(), options.words.end());
   return run_plan(state, words);

@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Numbers from 0, each by itself at first. The least of a set stands for it.
+/// Sets of the numbers from 0, each with one number at first. The least number represents its set.
 class DisjointSets {
  public:
   explicit DisjointSets(size_t count = 0) { reset(count); }

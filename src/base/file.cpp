@@ -116,7 +116,7 @@ fs::path unused_name(const fs::path& beside) {
                      random(), ending.substr(0, ending.size() > max_ending ? 0 : max_ending));
 }
 
-/// False, with errno, when not all of it could be written.
+/// Returns false, with errno, if the text could not be written completely.
 bool write_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = ::write(file, text.data(), text.size());
@@ -181,7 +181,7 @@ void check_folder_of(const fs::path& file) {
        folder_of(file).generic_string());
 }
 
-/// Refuses folders, special files and what permissions protect.
+/// Rejects folders, special files and files without write permission.
 /// returns  the file that the path leads to, and its status if there is one
 static std::pair<fs::path, std::optional<struct stat>> find_target(const fs::path& path) {
   struct stat before;

@@ -1,13 +1,13 @@
-// Text from files, such as names, where it is shown: a terminal or a page would obey part of it.
+// Removes from text, such as names in files, the characters that a terminal or a page would obey.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace clench {
 
-/// Bytes of the character at i of a text in UTF-8 if it is one that is obeyed rather than shown,
-/// else 0. Control characters, line and paragraph separators, and characters that embed, override
-/// or isolate the direction of text (U+202A to U+202E, U+2066 to U+2069) are.
+/// Length of the character at byte i of a text in UTF-8 if it is a control character, a line or
+/// paragraph separator, or embeds, overrides or isolates the direction of text (U+202A to U+202E,
+/// U+2066 to U+2069); else 0 [bytes].
 size_t control_size(std::string_view text, size_t i);
 
 /// Overwrites each such character with one '?'; bytes that are not UTF-8 stay.

@@ -16,7 +16,7 @@ int edit_distance(std::string_view a, std::string_view b);
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
 /// ", expected one of dofs, speed", where they are few, and the nearest: what ends a sentence about
-/// a name that is none of the known.
+/// an unknown name.
 std::string instead_of(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace clench

@@ -1,4 +1,5 @@
-// Stops work that takes no Progress: tree walks, factorizations and sorts deep below a watched call.
+// Stops for work that takes no Progress: walks over trees, factorizations, sorts, whatever lies
+// deep below a call that is watched.
 #pragma once
 #include <cstdint>
 
@@ -6,9 +7,9 @@
 
 namespace clench {
 
-/// During its lifetime check_stop() on this thread asks its Progress; the innermost one counts. An
-/// empty Progress protects work that must not be left half done.
-/// Results do not change: work either ends as it would without it, or throws Stopped.
+/// While it lives, check_stop() on this thread asks its Progress; the innermost one counts. One
+/// with an empty Progress protects what must not be left half done.
+/// It changes no result: work either ends as it would without, or throws Stopped.
 class Watched {
  public:
   explicit Watched(Progress progress) : progress_(std::move(progress)), outer_(innermost_) {
@@ -18,10 +19,13 @@ class Watched {
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
 
-  /// Number of calls of check_stop() so far.
+  /// Calls of check_stop() that it has answered.
   uint64_t checks() const { return checks_; }
-  /// Makes the call of check_stop() with this number, counted from 1, throw Stopped.
+  /// That call of check_stop(), counted from 1, throws Stopped.
   void stop_at(uint64_t check) { stop_at_ = check; }
+
+  /// The Progress of the innermost one on this thread; an empty one when there is none.
+  static Progress current() { return innermost_ ? innermost_->progress_ : Progress(); }
 
  private:
   friend void check_stop();
@@ -35,13 +39,13 @@ class Watched {
   uint64_t checks_ = 0, stop_at_ = 0;
 };
 
-/// Throws Stopped if this thread's innermost Watched is asked to stop. Takes some nanoseconds: call
-/// it every few thousand operations, where nothing is left half done.
+/// Throws Stopped when what watches this thread asks for the end. Takes some nanoseconds: call it
+/// every few thousand operations, where nothing is left half done.
 inline void check_stop() {
   if (Watched::innermost_) Watched::innermost_->check();
 }
 
-/// Calls check_stop() once per `every` calls, for loops with short iterations.
+/// check_stop() at every `every`-th call: for loops whose rounds are short.
 class StopCheck {
  public:
   explicit StopCheck(uint32_t every) : every_(every) {}

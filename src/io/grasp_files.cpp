@@ -47,7 +47,7 @@ static GraspFormat look_into(const fs::path& path) {
   // a head of ours stands on one line
   if (text.substr(0, text.find('\n')).find("clench grasps") != std::string_view::npos)
     return GraspFormat::lines;
-  // which of the two a .json file is, is known when it has been read
+  // the contents of a .json file decide between the two
   return ending_of(path) == ".json" ? GraspFormat::graspgen : GraspFormat::lines;
 }
 
@@ -78,7 +78,7 @@ static GraspFormat format_of_tree(const ValueTree& tree, const std::string& file
       file);
 }
 
-/// What a file of the format holds.   returns  the format
+/// Reads the contents of a file of the format.   returns  the format
 static GraspFormat read_grasp_contents(GraspFormat format, bool is_known, const std::string& file,
                                        std::string bytes, const GraspSink& sink,
                                        const ReadOptions& options) {
@@ -93,7 +93,7 @@ static GraspFormat read_grasp_contents(GraspFormat format, bool is_known, const 
       read_grasp_arrays(file, bytes, sink, options);
       return format;
     case GraspFormat::csv:
-      // line ends in quotes stand for themselves
+      // line ends in quotes are literal
       read_grasp_table(file, bytes, sink, options);
       return format;
     case GraspFormat::graspit:
@@ -147,7 +147,7 @@ GraspFormat grasp_format_to_write(const fs::path& path, const std::string& forma
        in_quotes(file));
 }
 
-// what lines of nine numbers do not hold
+// the parts of a grasp that lines of nine numbers cannot hold
 static void report_planned_losses(std::vector<GraspSpec> grasps, const std::string& file,
                                   const WriteOptions& options) {
   for (GraspSpec& g : grasps) {
@@ -179,7 +179,7 @@ static std::string contents_of(const std::vector<GraspSpec>& grasps, GraspFormat
   return grasps_text(grasps, options.notes);
 }
 
-// nothing is saved that would not be read again
+// data that would not read back is rejected before it is saved
 static void check_reads_back(const std::vector<GraspSpec>& grasps, GraspFormat format,
                              const std::string& file, const std::string& bytes) {
   size_t count = 0;

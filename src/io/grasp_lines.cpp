@@ -135,7 +135,7 @@ class LineParser : public nlohmann::json_sax<Parsed> {
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
     const auto [place, is_new] = open_.back()->emplace(name, nullptr);
-    if (!is_new) line_.fail("key {} stands there twice", in_quotes(name));
+    if (!is_new) line_.fail("key {} appears twice", in_quotes(name));
     value_ = &*place;
     return true;
   }
@@ -397,7 +397,7 @@ void read_grasps(const std::string& file, std::string text, const GraspSink& sin
     options.progress.check();
     const std::optional<Parsed> value = LineParser(line).parse();
     if (!value) {
-      // a program that was killed, or a full disk, leaves the beginning of a line
+      // a killed program or a full disk leaves an incomplete line
       if (!head || !lines.done() || has_last_end)
         line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
       if (options.warn)

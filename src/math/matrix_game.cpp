@@ -30,7 +30,7 @@ class GameTableau {
   }
 
   void solve() {
-    // few are needed; the bound of the solution holds wherever they end
+    // few pivots are needed; the bound of the solution holds after any number of them
     constexpr int max_pivots = 64;
     for (int i = 0; i < max_pivots; ++i)
       if (!improve(i < max_pivots / 2)) return;

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-// Eigen's, with a factorization that can be stopped; its numbers are the same to the bit.
+// Eigen's factorization, bit-identical, that can be stopped.
 // source  Davis (2005), Algorithm 849: a concise sparse Cholesky factorization package
 class StoppableLdlt : public Eigen::SimplicialLDLT<SparseLdl::Matrix, Eigen::Lower> {
  public:

@@ -9,8 +9,8 @@
 
 namespace clench {
 
-// a limit that was stored in 32 bits, or went through degrees and back, is still the limit: eight
-// times half a unit in the last place
+// tolerance for limits that were stored in 32 bits or converted to degrees and back: eight times half
+// a unit in the last place
 static constexpr double limit_rounding = 0x1p-21;
 
 std::string dof_name(const Robot& robot, int dof) {

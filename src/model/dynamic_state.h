@@ -106,11 +106,11 @@ enum class RowKind {
   free_friction
 };
 
-/// What a motor, limit, clutch or dry friction gave in the last step.
+/// Force of a motor, limit, clutch or dry friction in the last step.
 struct RowForce {
   RowKind kind = RowKind::motor;
-  /// of the DOF in the state's arrays; -1 - that of a joint by itself; of a joint tendon: its
-  /// number among those of all robots; of free friction: 6 times the root's index + its axis
+  /// DOF in the state's arrays; of a joint that has left its DOF, -1 - its index; of a joint tendon,
+  /// its number among those of all robots; of free friction, 6 times the root's index + its axis
   int index = 0;
   double force = 0;  ///< [N or N m]
 };

@@ -158,7 +158,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
     robot.links.push_back(
         {{}, link.parent, first, static_cast<int>(robot.joints.size()), link.X_JL});
   }
-  // actuators that exert nothing drive nothing
+  // actuators without force drive nothing
   for (int i = 0; i < static_cast<int>(spec.dofs.size()); ++i) {
     DofDrive drive = drive_of(spec, i);
     DofSpec& dof = robot.dofs[i];

@@ -156,12 +156,12 @@ class World {
   // --- named states ---
   const std::vector<Keyframe>& keyframes() const { return settings_->keyframes; }
   /// In place of one of the same name.
-  /// throws Error for a name or a place that is none, a stale id, or DOFs outside their limits
+  /// throws Error for an invalid name or pose, a stale id, or DOFs outside their limits
   void add_keyframe(Keyframe keyframe);
   /// Where all bodies and robots are now, as one.
   Keyframe current_keyframe(const std::string& name) const;
   /// Everything that it names goes where it says, but for what was removed or is carried.
-  /// throws Error that lists the names when there is none of this one
+  /// throws Error for an unknown name, which lists the names
   void set_keyframe(std::string_view name);
 
   // --- time machine ---

@@ -107,7 +107,7 @@ uint64_t World::hash() const {
     h.add(b.soft_layer);
     h.add(b.poisson_ratio);
     h.add(b.restitution);
-    // what most bodies lack leaves the hash as it is
+    // defaults do not change the hash
     for (const double x :
          {b.free_damping, b.free_friction, b.free_armature, b.gravity_compensation})
       if (x != 0) h.add(x);

@@ -57,8 +57,8 @@ void check_appearance(const Appearance& appearance, std::string_view subject);
 /// Centre of mass as the spec gives it, else the solid's; of an open surface, the surface's [m].
 Eigen::Vector3d com_of(const BodySpec& spec);
 /// Inertia per mass about the centre of mass as the spec gives it, else the solid's; of an open
-/// surface, or one that folds over so that its solid is none, that of a solid ball of the surface's
-/// radius [m^2].
+/// surface, or one folded on itself without a volume, that of a solid ball of the surface's radius
+/// [m^2].
 Eigen::Matrix3d inertia_of(const BodySpec& spec);
 /// Is it that ball's?
 bool inertia_is_of_ball(const BodySpec& spec);

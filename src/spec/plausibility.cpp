@@ -80,7 +80,7 @@ std::string doubt_gravity(const Eigen::Vector3d& gravity) {
 
 // of a file that gives a mass
 static std::string doubt_given_mass(const BodySpec& body) {
-  // the least mass stands for none
+  // the smallest mass stands for 0
   return body.mass_given && body.mass > mass_rule.min ? doubt_mass(body.mass, body.shape.get())
                                                       : "";
 }

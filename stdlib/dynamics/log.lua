@@ -47,7 +47,7 @@ local function sources_of(read, world)
   local sources, seen = {}, {time = true}
   local function add(list)
     for _, source in ipairs(list) do
-      if seen[source[1]] then read:fail("quantities: '%s' stands there twice", source[1]) end
+      if seen[source[1]] then read:fail("quantities: '%s' appears twice", source[1]) end
       seen[source[1]] = true
       sources[#sources + 1] = source
     end

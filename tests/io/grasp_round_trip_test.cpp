@@ -288,7 +288,7 @@ TEST_CASE("data that would not read back is named") {
          "a.jsonl: the list would not read back, so nothing is saved: a.jsonl:3: dofs: expected a "
          "list of numbers, got null");
   refuse([](GraspSpec& g) { g.dof_units[0] = "m"; }, "a.csv", "",
-         "nothing is saved: a.csv:1: DOF: 'a' stands there twice");
+         "nothing is saved: a.csv:1: DOF: 'a' appears twice");
   refuse([](GraspSpec& g) { g.dof_units[0] = "m"; }, "a.npz", "",
          "a.npz: grasps[2]: expected DOFs in the units of the first grasp, rad, m, got m, m");
   refuse([](GraspSpec& g) { g.dof_names.clear(); }, "a.yaml", "",

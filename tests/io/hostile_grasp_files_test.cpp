@@ -229,8 +229,8 @@ TEST_CASE("JSON is read with the lines of its values, and syntax errors are name
   CHECK(root.find("b")->described() == "a map");
   CHECK(root.find("c")->described() == "a list of 0");
   CHECK(!root.find("d"));
-  CHECK_THROWS_WITH_AS(parse_yaml("a.json", "{\"a\":1,\"a\":2}"),
-                       "a.json:1: key 'a' stands there twice", Error);
+  CHECK_THROWS_WITH_AS(parse_yaml("a.json", "{\"a\":1,\"a\":2}"), "a.json:1: key 'a' appears twice",
+                       Error);
   // long texts are JSON or nothing
   const std::string blanks(600000, ' ');
   const std::pair<const char*, const char*> faults[] = {

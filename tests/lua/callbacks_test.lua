@@ -56,7 +56,7 @@ local entries = {
   {"clench.log.sink", function(fn)
     clench.log.sink(fn)
     local back <close> = setmetatable({}, {__close = function() clench.log.sink() end})
-    clench.log.warning "a message"
+    clench.log.error "a message"
   end},
   {"clench.log.debug: argument 1", function(fn)
     local level <close> = setmetatable({clench.log.level "debug"}, {__close = function(self) clench.log.level(self[1]) end})
@@ -80,7 +80,7 @@ local entries = {
   end, wrong = "energy: expected a function that gives a number, got a function"},
   {"plan.sample: on_grasp", function(fn)
     local hand, object = hand_and_object()
-    clench.plan.sample {hand = hand, object = object, count = 1, refine = 0, threads = 1, on_grasp = fn}
+    clench.plan.sample {hand = hand, object = object, count = 1, candidates = 8, refine = 0, threads = 1, on_grasp = fn}
   end},
   {"study.robustness: close", function(fn) clench.study.robustness(grasp_of_scene(), {samples = 1, position = 1e-4, close = fn}) end},
   {"callback.lua", function(fn)

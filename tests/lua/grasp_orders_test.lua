@@ -50,7 +50,7 @@ test("DOFs without names are warned of, and dof_order gives their order", functi
   end
   t.fails(function() grasp:apply(world, {dof_order = "breadth"}) end, "unknown dof_order 'breadth'")
   t.fails(function() grasp:apply(world, {dof_order = {"a1"}}) end, "dof_order: expected as many names as there are DOFs, 4, got 1")
-  t.fails(function() grasp:apply(world, {dof_order = {"a1", "a1"}}) end, "dof_order: 'a1' stands there twice")
+  t.fails(function() grasp:apply(world, {dof_order = {"a1", "a1"}}) end, "dof_order: 'a1' appears twice")
   t.fails(function() clench.grasps(file, {dof_order = "isaac"}) end, "dof_order: expected the option 'hand' with it, or a list of names, got neither")
   local with_names = multigripper("1, 0, 0, 0", '["a1", "a2", "b1", "b2"]')
   said = warned(function() clench.grasps(with_names, {dof_order = "isaac", hand = hand}) end)

@@ -101,13 +101,13 @@ double feedforward_effort(const World& world, const Coordinate& c, const Dynamic
   if (c.joint >= 0) return 0;
   const DofControl& control = state.controls[c.dof_index];
   EffortRange range = effort_limits(world, c.robot, c.dof);
-  // nothing but the control of a servo makes its effort here
+  // in this mode the effort of a servo comes from its control alone
   if (control.mode == ControlMode::effort && drive_at(world, c).has_servo())
     range = effort_range(world, c.robot, c.dof);
   return std::clamp(control.effort, range.low, range.high);
 }
 
-// The part of a servo's effort, velocity feedback apart, that no control within its range makes.
+// Excess of a servo's effort, without velocity feedback, over the efforts of all controls in its range.
 // Gains of a script replace the law of the servo, its control included.
 // rounding  of the effort [N m or N]
 static double beyond_control(const World& world, const Coordinate& c, double effort,
@@ -220,7 +220,7 @@ class RowMaker {
     const EffortRange limits = effort_limits(world_, c.robot, c.dof);
     const double gain = h_ * (gains.kd + h_ * gains.kp);
     if (!(gain > 0)) return;
-    // both together stay within the limits, whatever each alone would be
+    // the sum stays within the limits
     const double given = feedforward_effort(world_, c, state_);
     double rest = control.effort - given;
     rest -=

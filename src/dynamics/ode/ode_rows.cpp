@@ -47,7 +47,7 @@ dJointID OdeScene::add_motor(const OdeTree& tree, const OdeJoint& joint, double 
 
 void OdeScene::add_row(const CoordinateRow& row) {
   const OdeTree& tree = trees_[row.tree];
-  // ODE has no joint that acts on several coordinates, nor on the six of a root
+  // ODE has no joint that acts on several coordinates, or on the six coordinates of a root
   const int lead = row.arms.empty() ? tree.lead[row.coordinate] : -1;
   rows_.push_back({row.tree, lead, 1, std::make_unique<dJointFeedback>(), false});
   if (lead < 0) return;

@@ -224,7 +224,7 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
   }
 }
 
-// viscous resistance to free motion, as it is when the step ends
+// viscous resistance to free motion at the end of the step
 void OdeScene::damp_root(const Articulation& tree, int number) {
   const Eigen::MatrixXd& damped = problem_.forces[number].root_velocity_part;
   if (damped.size() == 0) return;

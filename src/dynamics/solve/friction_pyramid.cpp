@@ -130,7 +130,7 @@ double inscribed_cone(int tangents, int edges) {
   return of_polygon / std::sqrt(1 + of_polygon * of_polygon);
 }
 
-// Pivots take the square of their number each, and as much memory.
+// Largest number of unknowns; time of a pivot and memory are quadratic in it.
 static constexpr int max_unknowns = 6000;
 
 PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& centre,

@@ -25,7 +25,7 @@ struct TreeBody {
   bool welded = false;
 };
 
-/// What a velocity belongs to: a DOF whose joints follow it, or a joint by itself.
+/// Owner of a velocity: a DOF whose joints follow it, or a joint that has left its DOF.
 struct Coordinate {
   Id<Robot> robot;
   int dof = -1;                           ///< of the robot

@@ -77,9 +77,9 @@ class Qhull {
   /// throws   Stopped
   bool run(Eigen::MatrixXd& points, const char* options) {
     std::string command = options;
-    const int error = qh_new_qhull(&state, static_cast<int>(points.rows()),
-                                   static_cast<int>(points.cols()), points.data(), False,
-                                   command.data(), nullptr, said_);
+    const int error =
+        qh_new_qhull(&state, static_cast<int>(points.rows()), static_cast<int>(points.cols()),
+                     points.data(), False, command.data(), nullptr, said_);
     if (stopped_) throw Stopped();
     return error == qh_ERRnone;
   }

@@ -95,7 +95,7 @@ void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangle
   out.count = 0;
   out.reach = centre.deepest(2 * ball.radius) + rounding;
   out.complete = out.reach < 0;
-  // of large meshes a small part at most
+  // of a large mesh, only a small part
   const size_t all = surface_.mesh().triangles.size();
   if (out.complete || (all > NearTriangles::capacity && out.reach > solid_.radius() / 4)) return;
   const Vector3d from = ball.centre - Vector3d::Map(surface_.tree().centre());

@@ -7,6 +7,7 @@
 #include "clench/base/disjoint_sets.h"
 #include "clench/geometry/query/placement.h"
 #include "clench/geometry/query/queries.h"
+#include "clench/geometry/tree/tree.h"
 
 namespace clench {
 
@@ -24,7 +25,7 @@ struct Segment {
   Vector2d p, q;
 };
 
-// Pieces of a triangle in its plane, cut by other triangles until none of these passes through one.
+// A triangle cut into pieces by other triangles, until no triangle passes through a piece.
 class CutTriangle {
  public:
   explicit CutTriangle(const Corners& c) : origin_(c[0]) {
@@ -66,7 +67,7 @@ class CutTriangle {
   Vector2d flat(const Vector3d& p) const { return {x_.dot(p - origin_), y_.dot(p - origin_)}; }
 
   void cut_along(const Segment& segment) {
-    constexpr size_t many = 4096;  // pieces: where there are more, some stay uncut
+    constexpr size_t many = 4096;  // pieces; beyond it some stay uncut
     const Vector2d along = segment.q - segment.p;
     if (!(along.norm() > 1e-12 * size_)) return;
     const Vector2d normal = Vector2d(-along.y(), along.x()).normalized();
@@ -152,7 +153,7 @@ class Exposure {
     return contains(shape_, p + step) != contains(shape_, p - step);
   }
 
-  // Adds what of a triangle is exposed.   returns  is that all of it?
+  // Adds the exposed part of a triangle.   returns  is the triangle exposed completely?
   bool add_exposed(int triangle, Mesh& out) const {
     if (without_area(shape_.mesh(), triangle)) return true;
     const Corners c = shape_.mesh().corners(triangle);
@@ -212,7 +213,7 @@ static ExposedSurface find_exposed_surface(const Shape& shape, const Progress& p
 
 std::shared_ptr<const ExposedSurface> exposed_surface(const Shape& shape,
                                                       const Progress& progress) {
-  return shape.exposed([&] {
+  return shape.tree(progress).exposed([&]() -> Tree::ExposedPtr {
     return std::make_shared<const ExposedSurface>(find_exposed_surface(shape, progress));
   });
 }

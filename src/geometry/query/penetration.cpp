@@ -22,13 +22,13 @@ struct Region {
   enum class Kind { group, surface, solid };
   Kind kind = Kind::group;
   double bound = 0;  // nothing in it is deeper [m]
-  int order = 0;     // of creation: decides between equal bounds
+  int order = 0;     // of creation; breaks ties between equal bounds
   int begin = 0, end = 0;
   std::array<Vector3d, 4> points{};
-  // triangles of a that the bound follows from; those of the halves are likely the same
+  // triangles of a that determine the bound; likely to determine those of the halves
   std::array<int, 4> triangles = {-1, -1, -1, -1};
   int nearest = -1;
-  bool held = false;  // of a simplex of the solid: certainly in b
+  bool held = false;  // is this simplex of the solid certainly inside b?
 
   std::span<Vector3d> corners() {
     return {points.data(), kind == Kind::solid ? size_t{4} : size_t{3}};
@@ -83,9 +83,11 @@ class DeepestPoint {
     branch_ ? branch_->push_back(std::move(region)) : queue_.push(std::move(region));
   }
 
-  void split(Region& region) { region.kind == Region::Kind::group ? open_group(region) : halve(region); }
+  void split(Region& region) {
+    region.kind == Region::Kind::group ? open_group(region) : halve(region);
+  }
 
-  // Searches a region to its end; the list of what waits is as long as its parts are nested.
+  // Searches a region completely. The length of the stack is bounded by the depth of the nesting.
   void search_depth_first(const Region& first) {
     std::vector<Region> branch = {first};
     branch_ = &branch;
@@ -93,8 +95,10 @@ class DeepestPoint {
       if (step % 64 == 0) options_.progress.check();
       Region region = std::move(branch.back());
       branch.pop_back();
-      if (matters(region.bound)) split(region);
-      else left_out_ = std::max(left_out_, region.bound);
+      if (matters(region.bound))
+        split(region);
+      else
+        left_out_ = std::max(left_out_, region.bound);
     }
     branch_ = nullptr;
   }
@@ -112,8 +116,8 @@ class DeepestPoint {
 
   // --- crossings ---
 
-  // Of triangles of b that cross the surface of a: their corners, and the middle of the points where
-  // edges pass through. Some of these are inside, however little the surfaces cross.
+  // Tries the corners of triangles of b that cross the surface of a, and the mean of the points where
+  // edges pass through. Some of them are inside, however small the overlap is.
   void add_crossings() {
     constexpr int max_pairs = 4096;
     std::map<int, std::pair<Vector3d, int>> sums;  // by triangle of b
@@ -137,7 +141,7 @@ class DeepestPoint {
     }
   }
 
-  // Where a segment passes through a triangle.
+  // Intersection of a segment and a triangle.
   static std::optional<Vector3d> crossing(const Vector3d& p, const Vector3d& q, const Corners& c) {
     const Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]);
     const double from = normal.dot(p - c[0]), to = normal.dot(q - c[0]);
@@ -209,7 +213,7 @@ class DeepestPoint {
 
   // --- solid ---
 
-  // the box that both shapes lie in, cut into six tetrahedra about a diagonal
+  // the intersection of the bounding boxes, divided into six tetrahedra about a diagonal
   void add_solid() {
     Bounds own;
     for (const Vector3d& p : vertices_) own.add(p);
@@ -230,7 +234,7 @@ class DeepestPoint {
 
   bool holds(const Vector3d& p) const { return contains(b_, placement_.to_b(p)); }
 
-  // Is no point of the ball in b? Tells also whether all of them are.
+  // Is the ball outside b? `held` receives: is it inside b?
   bool is_beside(const Sphere& ball, bool& held) const {
     const Vector3d p_B = placement_.to_b(ball.centre);
     const Vector3d from = p_B - Vector3d::Map(b_.tree().centre());
@@ -273,7 +277,7 @@ class DeepestPoint {
     if (!solid && centre.inside) take(ball.centre, centre.distance, centre.triangle);
     if (!matters(region.bound)) return push(std::move(region));
     field_.find_near(ball, centre, near_);
-    // maxima on the surface of b are looked for there
+    // the surface search finds maxima on the surface of b
     if (solid) {
       if (field_.rises(region.corners(), ball, near_)) return;
       if (!region.held && is_beside(ball, region.held)) return;
@@ -303,7 +307,7 @@ class DeepestPoint {
     }
   };
 
-  // Lowers the bound by planes cut where it is attained.
+  // Lowers the bound by cutting planes at the point where it is attained.
   // source  Kelley (1960), The cutting-plane method
   void tighten(Region& region, const Sphere& ball, const Probe& centre) {
     constexpr int max_cuts = 10;

@@ -96,13 +96,6 @@ size_t Shape::bytes() const {
          part_extremes_.capacity() * sizeof(Extremes);
 }
 
-std::shared_ptr<const ExposedSurface> Shape::exposed(
-    FunctionRef<std::shared_ptr<const ExposedSurface>()> find) const {
-  const std::lock_guard lock(exposing_);
-  if (!exposed_) exposed_ = find();
-  return exposed_;
-}
-
 const Tree& Shape::build_tree(const Progress& progress) const {
   const std::lock_guard lock(building_);
   if (!tree_) {

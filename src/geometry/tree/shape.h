@@ -5,7 +5,6 @@
 #include <memory>
 #include <mutex>
 
-#include "clench/base/function_ref.h"
 #include "clench/base/progress.h"
 #include "clench/geometry/mesh/ball.h"
 #include "clench/geometry/mesh/mass.h"
@@ -14,10 +13,8 @@
 
 namespace clench {
 
-// bounding volumes over the triangles; only queries know its layout
+// bounding volumes over the triangles; its layout is nobody's business but the queries'
 class Tree;
-// of query/exposed, which computes it
-struct ExposedSurface;
 
 class Shape {
  public:
@@ -51,18 +48,14 @@ class Shape {
   const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
   /// fingerprint of vertices and triangles: equal for equal bits
   uint64_t hash() const { return hash_; }
-  /// Memory of the shape and its tree, about.
+  /// that it takes, about, with its tree
   size_t bytes() const;
-  /// Built on first use, since reading, checking or converting a mesh needs none. Any thread may ask.
+  /// built when first asked: who reads, checks or converts a mesh needs none. Any thread may ask.
   /// throws Stopped, and then has none
   const Tree& tree(const Progress& progress = {}) const {
     const Tree* const built = built_.load(std::memory_order_acquire);
     return built ? *built : build_tree(progress);
   }
-  /// The boundary of a union, which `find` computes on first use. Any thread may ask.
-  /// throws as find, and then has none
-  std::shared_ptr<const ExposedSurface> exposed(
-      FunctionRef<std::shared_ptr<const ExposedSurface>()> find) const;
 
  private:
   Shape();
@@ -82,8 +75,6 @@ class Shape {
   mutable std::mutex building_;
   mutable std::unique_ptr<const Tree> tree_;
   mutable std::atomic<const Tree*> built_ = nullptr;
-  mutable std::mutex exposing_;
-  mutable std::shared_ptr<const ExposedSurface> exposed_;
 };
 
 using ShapePtr = std::shared_ptr<const Shape>;

@@ -4,14 +4,18 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
+#include "clench/base/function_ref.h"
 #include "clench/geometry/tree/bounding_polytope.h"
 
 namespace clench {
 
 struct Mesh;
 class Progress;
+struct ExposedSurface;  // of query/exposed
 
 /// Eight boxes side by side: the children of a node.
 struct alignas(32) BoxBundle {
@@ -41,6 +45,15 @@ class Tree {
   double radius() const { return radius_; }         ///< no vertex is farther from the centre [m]
   std::size_t bytes() const;
 
+  using ExposedPtr = std::shared_ptr<const ExposedSurface>;
+  /// The boundary of a union, which `find` computes on first use. Any thread may ask.
+  /// throws as find, and then keeps none
+  ExposedPtr exposed(FunctionRef<ExposedPtr()> find) const {
+    const std::lock_guard lock(exposing_);
+    if (!exposed_) exposed_ = find();
+    return exposed_;
+  }
+
  private:
   friend class TreeBuilder;
   std::vector<BoxBundle> boxes_;
@@ -48,6 +61,8 @@ class Tree {
   BoundingPolytope bounding_polytope_;
   double centre_[3] = {};
   double radius_ = 0;
+  mutable std::mutex exposing_;
+  mutable ExposedPtr exposed_;
 };
 
 /// no path from the root passes more bundles

@@ -115,7 +115,7 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
       if (demand.springs_only && std::isfinite(p.high[k])) p.low[k] = p.high[k];
       continue;
     }
-    // a motor exerts what it takes, but only in directions in which it exerts anything
+    // a motor without a limit exerts any effort in the directions in which it can push
     if (demand.unlimited && p.low[k] < p.high[k]) {
       if (p.high[k] > 0) p.high[k] = no_bound;
       if (p.low[k] < 0) p.low[k] = -no_bound;

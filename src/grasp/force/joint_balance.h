@@ -33,10 +33,11 @@ struct JointBalance {
   Eigen::VectorXd tendons;
 };
 
-/// Motors exert what effort_range allows, each direction by itself. The clutch of a joint that has
-/// broken away presses the way it closed, with at most its DOF's breakaway torque, without limit
-/// where that is 0.
-/// arms          the joints of robots that carry the hand, too
+/// Linear relation between contact forces and the efforts of motors, springs and clutches. Motors
+/// exert efforts within effort_range, which may differ between the two directions. The clutch of a
+/// joint that has broken away presses in its closing direction, with at most its DOF's breakaway
+/// torque; a breakaway torque of 0 means no limit.
+/// arms          includes the joints of robots that carry the hand
 /// link_weights  springs also hold what gravity gives to each joint
 JointBalance joint_balance(const World& world, const Grasp& grasp, bool arms = false,
                            bool link_weights = false);

@@ -169,7 +169,7 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
     throw;
   }
   if (posture.own.empty()) return;
-  // joints that stand where their DOF puts them follow it
+  // joints at the positions given by their DOF follow it
   std::vector<JointPosition> own = posture.own;
   for (size_t j = 0; j < own.size(); ++j)
     if (own[j] && *own[j] == world.joints(hand)[static_cast<Eigen::Index>(j)]) own[j].reset();

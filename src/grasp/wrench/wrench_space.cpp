@@ -36,10 +36,10 @@ constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 // leave one.
 constexpr double poor = 3e-10;
 
-// The last digits of so many take long: whether the origin is inside is found without them.
+// Beyond this number of wrenches the last digits take too long; whether the origin is inside is decided without them.
 constexpr size_t many_wrenches = 10'000;
 
-// How near to the most a contact's answer must come to count as it.
+// Tolerance within which a contact counts as attaining the support.
 constexpr double carries = 1e-9;
 
 constexpr int max_facets = 1'000'000;

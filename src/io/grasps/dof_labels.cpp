@@ -18,7 +18,7 @@ void check_dof_units(const std::string& place, const std::vector<std::string>& u
 void check_dof_names(const std::string& place, const std::vector<std::string>& names) {
   std::set<std::string> known;
   for (const std::string& name : names)
-    if (!known.insert(name).second) fail("{}: {} stands there twice", place, in_quotes(name));
+    if (!known.insert(name).second) fail("{}: {} appears twice", place, in_quotes(name));
 }
 
 }  // namespace clench

@@ -5,12 +5,12 @@
 
 namespace clench {
 
-/// Units are rad or m; empty and "rad or m", as we write it, say that it is not known.
+/// Checks the unit of a DOF: rad, m, or unknown (empty, or "rad or m" as written by this module).
 /// throws Error  "g.csv:1: dof a [deg]: expected the unit rad or m, got 'deg'", begun by `place`
 void check_dof_unit(const std::string& place, const std::string& unit);
 void check_dof_units(const std::string& place, const std::vector<std::string>& units);
 
-/// throws Error  "g.jsonl:2: dof_names: 'a' stands there twice", begun by `place`
+/// throws Error  "g.jsonl:2: dof_names: 'a' appears twice", begun by `place`
 void check_dof_names(const std::string& place, const std::vector<std::string>& names);
 
 }  // namespace clench

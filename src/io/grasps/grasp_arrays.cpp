@@ -45,7 +45,7 @@ std::string grasp_arrays_bytes(const std::vector<GraspSpec>& grasps, const std::
   texts("planners", [](const GraspSpec& g) {
     return g.labels.contains("planner") ? g.labels.at("planner") : std::string();
   });
-  // what the arrays hold is not lost
+  // contents of the arrays are not losses
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
     g.info.erase("energy");

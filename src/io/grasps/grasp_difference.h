@@ -1,4 +1,4 @@
-// What a format would not give back of a grasp.
+// Parts of a grasp that a format does not preserve.
 #pragma once
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace clench {
 
-/// The first part of the grasp that the format holds and that `back`, as it was read, has otherwise:
-/// "the label 'note'"; empty: there is none. Poses of graspgen and of graspit are compared up to the
-/// rounding of matrices and millimetres.
+/// Compares a grasp with `back`, which was read from the format's text. Poses of graspgen and of
+/// graspit are compared up to the rounding of matrices and millimetres.
+/// returns  the first part that the format holds and that differs, "the label 'note'"; empty if none
 std::string difference(const GraspSpec& grasp, const GraspSpec& back, GraspFormat format);
 
 }  // namespace clench

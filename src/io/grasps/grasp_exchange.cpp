@@ -44,7 +44,7 @@ struct Value {
     if (node.kind() != ValueKind::scalar) refuse("a text");
     return std::string(node.text());
   }
-  /// The text at a key; empty when there is none.
+  /// The text at a key; empty if the key is absent.
   std::string text_at(std::string_view key) const { return has(key) ? get(key).text() : ""; }
   double number() const {
     const auto x = node.kind() == ValueKind::scalar && !node.quoted() ? parse_number(node.text())
@@ -140,7 +140,7 @@ std::string text_list(const std::vector<std::string>& texts) {
 std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                              const WriteOptions& options) {
   check_writable(grasps, file, true, true);
-  // what the list holds is not lost
+  // contents of the list are not losses
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
     g.info.erase("confidence");
@@ -274,7 +274,7 @@ void read_isaac_grasps(const ValueTree& tree, const std::string& file, GraspColl
 std::string graspgen_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                           const WriteOptions& options) {
   check_writable(grasps, file, false, true);
-  // what the list holds is not lost
+  // contents of the list are not losses
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
     for (const char* held : {"scale", "object_in_gripper"}) g.info.erase(held);

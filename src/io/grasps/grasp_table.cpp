@@ -28,7 +28,7 @@ static constexpr std::pair<const char*, std::string GraspSpec::*> text_columns[]
 
 static std::string text_cell(const std::string& text) { return text.empty() ? "" : csv_cell(text); }
 
-// a number that is not finite is not known
+// a number that is not finite counts as unknown
 static std::string number_cell(double x) { return std::isfinite(x) ? real_text(x) : ""; }
 
 // a seed and other counts are integers
@@ -249,14 +249,14 @@ class TableReader {
     std::vector<std::string> dofs, numbered;
     for (const Column& c : columns_) {
       if (!known.insert(c.name).second)
-        fail("{}: column {} stands there twice", place, in_quotes(c.name));
+        fail("{}: column {} appears twice", place, in_quotes(c.name));
       if (c.role != ColumnRole::dof && c.role != ColumnRole::numbered_dof) continue;
       check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
       (c.role == ColumnRole::dof ? dofs : numbered).push_back(c.key);
     }
     for (const char* name : pose_columns)
       if (!known.contains(name)) fail("{}: expected a column '{}', got none", place, name);
-    // columns may differ in their unit alone
+    // columns may differ only in their units
     check_dof_names(place + ": DOF", dofs);
     check_dof_names(place + ": DOF", numbered);
     // in their order from the first on

@@ -14,13 +14,13 @@ constexpr std::string_view shortcuts[] = {
     "general", "motor",    "position", "velocity", "intvelocity", "damper", "cylinder",
     "muscle",  "adhesion", "dcmotor",  "pid",      "orientation", "plugin"};
 
-/// Parameters that the elements of a class, then the actuator's own, write in turn.
+/// Parameters of an actuator, written by the elements of its class and then by its own.
 struct Law {
   std::string dynamics = "none", gain_type = "fixed", bias_type = "none";
   std::array<double, 9> gain = {1};
   std::array<double, 9> bias = {};
   double inherit_range = 0;
-  bool other = false;  // a kind whose force these parameters do not describe
+  bool other = false;  // kind of actuator that these parameters do not describe
 
   void read(const XmlElement& element, MjcfDocument& document);
 

@@ -11,14 +11,14 @@ namespace clench {
 struct MjcfActuator {
   XmlValues values;
   ActuatorSpec spec;  ///< `dof`, `pulls` and `length_at_0` are not set
-  /// range of controls of a position servo, as a part of that of its target; 0: not given
+  /// control range of a position servo, as a fraction of the range of its target; 0: not given
   double inherit_range = 0;
   std::string dynamics = "none";  ///< between control and force, which are not simulated
   int group = 0;
 };
 
-/// A range, such as "ctrlrange", where the attribute `limited_name` lets it count: two zeros undo that
-/// of a class unless that attribute is "true".
+/// A range, such as "ctrlrange", if the attribute `limited_name` enables it. A range of two zeros
+/// cancels that of the class, unless the attribute is "true".
 std::optional<std::array<double, 2>> limited_range(const XmlValues& values, MjcfDocument& document,
                                                    const char* range, const char* limited_name);
 
@@ -36,7 +36,7 @@ MjcfActuatorSwitches read_actuator_switches(const MjcfDocument& document);
 /// All shortcuts of <general>, such as <motor> and <position>, write into one set of parameters:
 /// those of a class, whatever they are called there, are the defaults of any actuator of the class.
 /// source  MuJoCo 3: XML reference, "actuator", and mjs_setToPosition and its siblings
-/// throws  Error for a number or word that is none
+/// throws  Error for an invalid number or word
 MjcfActuator read_mjcf_actuator(MjcfDocument& document, const XmlElement& element);
 
 }  // namespace clench

@@ -39,7 +39,7 @@ struct Params {
   }
 };
 
-/// An icosahedron whose triangles are cut into four, its vertices moved onto the unit sphere.
+/// Unit sphere from an icosahedron: triangles are divided into four, vertices moved onto the sphere.
 Mesh sphere(const Params& params) {
   const int cuts = params.integer(0, "subdivision", 0, 4);
   const double a = 1 / std::sqrt(1 + std::numbers::phi * std::numbers::phi),

@@ -45,7 +45,7 @@ bool MjcfContacts::listed(const std::vector<MjcfGeom>& a, const std::vector<Mjcf
 
 bool MjcfContacts::collide(const std::vector<MjcfGeom>& a, const std::vector<MjcfGeom>& b,
                            const std::string& name_a, const std::string& name_b) {
-  // geoms of the same bits are alike, but for those of pairs
+  // geoms with the same bits are equivalent, except those of pairs
   const auto kinds = [](const std::vector<MjcfGeom>& geoms) {
     std::vector<const MjcfGeom*> out;
     const auto alike = [](const MjcfGeom& x, const MjcfGeom& y) {
@@ -68,14 +68,14 @@ bool MjcfContacts::collide(const std::vector<MjcfGeom>& a, const std::vector<Mjc
 void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
   TreeModel& model = tree.model;
   const int count = static_cast<int>(model.links.size());
-  // links fixed to each other count as their first one, and so does what carries it
+  // links fixed to each other are represented by the first one, as is the link that carries them
   std::vector<int> piece(count), carrier(count, -1), neighbour(count, -1);
   for (int i = 0; i < count; ++i) {
     const TreeLink& link = model.links[i];
     const bool fixed = link.parent >= 0 && link.joints.empty();
     piece[i] = fixed ? piece[link.parent] : i;
     carrier[i] = fixed ? carrier[link.parent] : link.parent < 0 ? -1 : piece[link.parent];
-    // a world lets a link not collide with the nearest one with a shape on the way to the base
+    // a World excludes collisions of a link with the nearest link with a shape towards the base
     for (int up = link.parent; up >= 0 && neighbour[i] < 0; up = model.links[up].parent)
       if (model.links[up].body.shape || up == 0) neighbour[i] = up;
   }
@@ -103,7 +103,7 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
       const bool off = !bits || (filtered && !are_listed);
       apart += !bits;
       const bool neighbours = neighbour[j] == i;
-      // what is fixed to each other never moves against each other
+      // links fixed to each other never move relative to each other
       if (!bits || (off && is_excluded) || (off && !neighbours && !one))
         model.never_meet.emplace_back(i, j);
       else if (!off && neighbours && !one)

@@ -1,4 +1,4 @@
-// Which geoms of an MJCF model collide: bits, <pair>, <exclude>, and the filter of parents.
+// Collision filters of an MJCF model: bits, <pair>, <exclude>, and the filter of parents.
 #pragma once
 #include <functional>
 #include <set>

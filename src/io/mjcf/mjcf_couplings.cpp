@@ -67,18 +67,18 @@ class Couplings {
   TreeModel& tree_;
   std::map<std::string, int> numbers_;
   std::map<std::string, bool>
-      others_;             // joints in the file by another name or none: are they free?
-  bool composes_ = false;  // are there elements that would make joints?
+      others_;             // joints of the file with another name or none: are they free?
+  bool composes_ = false;  // are there elements that generate joints?
   std::deque<MjcfTendon> tendons_;
   std::vector<MjcfDrive> drives_;
   bool has_actuators_ = false;
   const std::set<std::string>& elsewhere_;  // joints of other robots
-  const bool tells_;                        // of what concerns no joint at all
+  const bool tells_;                        // reports elements that concern no joint
   UnusedXml told_already_;
   UnusedXml& unused_;
   const MjcfActuatorSwitches switches_;
   std::set<std::string> unknown_laws_;
-  /// What is not used, once per kind: the place of the first, and names.
+  /// Elements that are not used, by kind: the place of the first, and names.
   struct Unused {
     std::string place;
     std::vector<std::string> names = {};
@@ -86,8 +86,8 @@ class Couplings {
   std::map<std::string, Unused> loops_, targets_;
 };
 
-/// Does it concern this robot? What names joints of others alone does not; what names none is told
-/// once.
+/// Does an element concern this robot? Elements that name joints of other robots only do not; those
+/// that name no joint are reported once.
 bool Couplings::concerns(const XmlValues& values) const {
   bool others = false;
   for (const char* attribute : {"joint", "jointinparent", "joint1", "joint2"}) {
@@ -104,7 +104,7 @@ bool Couplings::concerns(const XmlValues& values) const {
   return tells_ && !others;
 }
 
-/// Names of joints that are no joints of the robot, or not under their names.
+/// Names of the file's joints that the robot does not have, or has under another name.
 void Couplings::find_names(const MjcfNode& node) {
   const std::string kind = node.name();
   if (kind == "joint" || kind == "freejoint") {
@@ -116,7 +116,7 @@ void Couplings::find_names(const MjcfNode& node) {
   for (const MjcfNode& child : node.children) find_names(child);
 }
 
-/// Why a name of the file is none of the robot's joints; empty: it stands nowhere.
+/// Why the robot lacks a joint of this name; empty if the file has no such joint.
 std::string Couplings::why_not(const std::string& name) const {
   if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
   if (elsewhere_.contains(name)) return "is of another robot";
@@ -125,7 +125,7 @@ std::string Couplings::why_not(const std::string& name) const {
   return composes_ ? "may be of a <composite> or <flexcomp>, which are not read" : "";
 }
 
-/// Empty, with a warning, when the joint is in the file but not in the robot.
+/// Empty, with a warning, if the joint is in the file but not in the robot.
 std::optional<int> Couplings::joint(const XmlValues& values, const char* attribute) {
   const std::string name = values.text(attribute);
   const auto found = numbers_.find(name);
@@ -138,9 +138,9 @@ std::optional<int> Couplings::joint(const XmlValues& values, const char* attribu
   values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, names_in(numbers_)));
 }
 
-/// Null where there is none.
+/// Null if there is no such joint.
 const MjcfTendon* Couplings::find_tendon(const std::string& name) const {
-  // the last of a name counts
+  // the last element of a name counts
   for (auto it = tendons_.rbegin(); it != tendons_.rend(); ++it)
     if (it->name == name && !name.empty()) return &*it;
   return nullptr;
@@ -161,7 +161,7 @@ void Couplings::read_tendons() {
     MjcfTendon tendon = read_mjcf_tendon(document_, node->element);
     if (tendon.spatial) {
       unused_.element(node->element);
-      // its name is known all the same
+      // its name is known in any case
       tendons_.push_back(std::move(tendon));
       continue;
     }
@@ -211,13 +211,13 @@ void Couplings::tie_joints(const XmlElement& element, const XmlValues& values) {
         fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
                     "'{}' moves",
                     element.place(), excerpt(tied.name), excerpt(tree_.joints[leader].name)));
-  // both count from where the model stands at first
+  // both are relative to the initial configuration
   tie_joint(tree_, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero,
             element, cache_);
 }
 
-/// A tendon of two joints whose length stays ties them: c1 q1 + c2 q2 is constant, polycoef's first
-/// number more than where the model stands at first.
+/// A tendon of two joints with constant length couples them: c1 q1 + c2 q2 is polycoef's first number
+/// more than in the initial configuration.
 void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
   document_.unused().attributes(element,
                                 {"name", "class", "tendon1", "tendon2", "polycoef", "active"});
@@ -252,7 +252,7 @@ void Couplings::read_equality(const XmlElement& element) {
 
 // --- actuators ---
 
-/// Warns of what is not simulated between a control and its force, once per kind.
+/// Warns, once per kind, of dynamics between control and force that are not simulated.
 void Couplings::tell_law(const MjcfActuator& actuator) {
   const std::string& kind = actuator.spec.kind;
   const XmlElement& element = actuator.values.element();

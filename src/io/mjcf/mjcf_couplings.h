@@ -1,4 +1,4 @@
-// What ties joints of an MJCF model to each other and to motors: equalities, fixed tendons,
+// Couplings of joints in an MJCF model, to each other and to motors: equalities, fixed tendons and
 // actuators.
 #pragma once
 #include <set>
@@ -9,9 +9,10 @@
 namespace clench {
 
 /// Makes joints that must move together follow one of them, takes the limits and forces of
-/// actuators, and marks joints that none drives as passive, when there are actuators at all. Tells
-/// what it cannot follow.
-/// elsewhere  joints of other robots of the file; tells  of what concerns no joint at all, too?
+/// actuators, and marks joints that no actuator drives as passive if there are actuators. Warns of
+/// couplings that cannot be followed.
+/// elsewhere  joints of other robots of the file
+/// tells      also warns of elements that concern no joint
 void read_mjcf_couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
                          const std::set<std::string>& elsewhere, bool tells);
 

@@ -12,7 +12,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static constexpr int max_files = 100;        // included; far above any robot
+static constexpr int max_files = 100;        // of includes; far above any robot
 static constexpr int deepest_element = 200;  // of elements, over all includes
 
 MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
@@ -78,7 +78,7 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
     element.fail("include: '{}' includes itself", excerpt(name));
   if (files_.size() >= max_files) element.fail("expected at most {} files", max_files);
-  // its outermost element only holds the others
+  // the outermost element only groups the others
   MjcfNode root = load(open(found).root(), depth + 1);
   for (auto& child : root.children) into.push_back(std::move(child));
   open_.pop_back();
@@ -107,7 +107,7 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent, const std::st
   const std::string name = node.element.attribute("class").value_or("");
   int number = parent < 0 ? outermost : parent;
   if (parent < 0 && !name.empty() && name != "main") {
-    // MuJoCo once called the global class so, and refuses it today
+    // older versions of MuJoCo used this name for the global class; current ones refuse it
     if (const auto [at, is_new] = class_numbers_.emplace(prefix + name, outermost);
         !is_new && at->second != outermost)
       node.element.fail("default: there is another class '{}'", excerpt(name));
@@ -146,7 +146,7 @@ std::vector<XmlElement> MjcfDocument::defaults(const XmlElement& element,
   std::vector<XmlElement> out;
   int at = name.empty() ? 0 : class_numbers_.at(name);
   for (; at >= 0; at = classes_[at].parent)
-    // the last of several in a class counts
+    // the last of several elements in a class counts
     for (auto it = classes_[at].elements.rbegin(); it != classes_[at].elements.rend(); ++it)
       if (std::ranges::find(names, it->name()) != names.end()) out.push_back(*it);
   return out;
@@ -167,7 +167,7 @@ static Eigen::Quaterniond about(char axis, double angle) {
 
 Eigen::Quaterniond euler_turn(const MjcfSettings& settings, const std::vector<double>& angles) {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-  // lower-case letters turn about axes that turn along, capital ones about fixed axes
+  // lower-case letters: intrinsic rotations; capital letters: extrinsic rotations
   for (int i = 0; i < 3; ++i) {
     const char axis = settings.euler[i];
     const Eigen::Quaterniond turn = about(axis, angles[i] * settings.angle_unit);

@@ -31,7 +31,7 @@ Eigen::Quaterniond turn_z_to(const Eigen::Vector3d& direction);
 
 class MjcfDocument {
  public:
-  /// The elements as the files have them; expand_mjcf replaces those that generate others.
+  /// Reads the elements unexpanded; expand_mjcf replaces those that generate others.
   /// throws  Error for malformed XML, circular includes, unknown classes, settings that cannot be
   ///         followed
   MjcfDocument(const std::filesystem::path& path, FileCache& cache);
@@ -64,7 +64,7 @@ class MjcfDocument {
 
   UnusedXml& unused() { return unused_; }
   Repairs& repairs() { return repairs_; }
-  /// What the file contains and we do not use, reported once per kind.
+  /// Contents of the file that are not used, reported once per kind.
   Repairs& losses() { return losses_; }
 
  private:

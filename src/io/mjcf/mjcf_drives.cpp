@@ -18,7 +18,7 @@ std::string range_text(double low, double high) {
   return fmt::format("[{:.6g}, {:.6g}]", low, high);
 }
 
-/// Entries of a row of unit length that count as 0.
+/// Entries of a unit row up to this size count as 0.
 constexpr double tiny_pull = 1e-6;
 
 void to_unit_length(std::map<int, double>& row) {
@@ -29,7 +29,7 @@ void to_unit_length(std::map<int, double>& row) {
   std::erase_if(row, [](const auto& entry) { return std::abs(entry.second) <= tiny_pull; });
 }
 
-/// Are two rows of unit length the same, but for their sign?
+/// Are two unit rows equal up to their sign?
 bool in_one_ratio(const std::map<int, double>& a, const std::map<int, double>& b) {
   const double sign = (a.begin()->second < 0) == (b.begin()->second < 0) ? 1 : -1;
   return std::ranges::equal(a, b, [&](const auto& x, const auto& y) {
@@ -74,7 +74,7 @@ class Drives {
   std::vector<std::string> narrowed_;
 };
 
-/// What the actuator, at unit force before its gear, exerts on joints.
+/// Forces on the joints per unit force of the actuator, before its gear.
 std::map<int, double> Drives::pulls(const MjcfDrive& drive) const {
   const double gear = drive.actuator.spec.gear;
   std::map<int, double> out;
@@ -85,13 +85,13 @@ std::map<int, double> Drives::pulls(const MjcfDrive& drive) const {
 
 // --- ranges of controls ---
 
-/// A position servo's target is clamped to the range of its controls.
+/// Clamps the target of a position servo to the range of its controls.
 void Drives::take_control_range(const MjcfDrive& drive) {
   const MjcfActuator& actuator = drive.actuator;
   const auto& range = spec(drive).control_range;
   if (actuator.spec.kind != "position" || !range || actuator.spec.gear == 0) return;
   TreeJoint& joint = tree_.joints[drive.joint];
-  // a joint that stands still has none to take
+  // a joint that does not move has no range to inherit
   if (joint.min == joint.max) return;
   const double a = (*range)[0] / actuator.spec.gear, b = (*range)[1] / actuator.spec.gear;
   double low = std::min(a, b), high = std::max(a, b);
@@ -108,7 +108,7 @@ void Drives::take_control_range(const MjcfDrive& drive) {
   joint.motor.default_value = std::clamp(joint.motor.default_value, low, high);
 }
 
-/// The range of the target about its centre, times inheritrange.
+/// Scales the range of the target by inheritrange about its center.
 void Drives::inherit_range(const MjcfDrive& drive, std::array<double, 2> target) {
   const double centre = 0.5 * (target[0] + target[1]),
                half = 0.5 * (target[1] - target[0]) * drive.actuator.inherit_range;
@@ -144,11 +144,11 @@ void Drives::take_control_ranges() {
 
 // --- joints that share a tendon ---
 
-/// Joints of one tendon move in proportion to their coefficients.
+/// Makes the joints of one tendon move in proportion to their coefficients.
 void Drives::tie(const MjcfDrive& drive) {
   const MjcfTendon& tendon = *drive.tendon;
   const XmlElement& at = drive.actuator.values.element();
-  // joints that others tie may cancel out
+  // joints coupled by other elements may cancel out
   std::map<int, double> arms;
   for (const auto& [number, c] : tendon.joints)
     if (const TiedJoint tied = by_leader(tree_, number); tied.leader >= 0)
@@ -208,7 +208,7 @@ void Drives::tell_independent(const std::vector<int>& group) {
 
 void Drives::tie_joints() {
   const size_t count = tree_.joints.size();
-  // joints by the DOF that they would have without tendons
+  // joints, by the DOF that they would have without tendons
   DisjointSets groups(count);
   std::vector<std::map<int, double>> rows;
   for (const MjcfDrive& drive : drives_) {
@@ -245,8 +245,7 @@ void Drives::tie_joints() {
 
 // --- motors ---
 
-/// Gains of an actuator that pulls a DOF to where its control says, and damps it; those of several
-/// add up.
+/// Gains of actuators that control the position of a DOF and damp it; the sum over all of them.
 void Drives::take_gains(const MjcfDrive& drive) {
   const ActuatorSpec& servo = drive.actuator.spec;
   if (!servo.law_known) return;

@@ -1,5 +1,5 @@
-// What actuators of MJCF do to the DOFs of a robot: which they drive, with which gains and largest
-// efforts; and which joints a tendon that is pulled ties together.
+// Applies the actuators of an MJCF file to a robot: driven DOFs, gains, largest efforts, and joints
+// that are coupled by an actuated tendon.
 #pragma once
 #include <vector>
 

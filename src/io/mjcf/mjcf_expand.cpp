@@ -26,7 +26,7 @@ class MjcfExpander {
     std::vector<MjcfNode> worlds;
     for (const MjcfNode& section : root.children)
       if (section.name() == "worldbody") worlds.push_back(section);
-    // sections are appended meanwhile
+    // the loop may append sections
     for (size_t i = 0, next = 0; i < root.children.size(); ++i) {
       if (root.children[i].name() != "worldbody" || next == worlds.size()) continue;
       MjcfNode world = worlds[next++];
@@ -53,13 +53,13 @@ class MjcfExpander {
   int generated_ = 0;
   StopCheck check_{1000};
   int depth_ = 0;
-  std::map<std::string, MjcfNode> models_;  // of attached files, by place of the asset
+  std::map<std::string, MjcfNode> models_;  // of attached files, by the line of the asset
   std::set<std::pair<const MjcfNode*, std::string>> copied_assets_;  // of models, with prefixes
 };
 
 // --- copies ---
 
-/// Counts an element that is made from another one.
+/// Counts a generated element.
 void MjcfExpander::count(const XmlElement& original) {
   check_();
   if (++generated_ > max_generated_elements)
@@ -112,7 +112,7 @@ static XmlCopies::Attributes pose_attributes(const Pose& X) {
           {"quat", fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z())}};
 }
 
-/// Each replica stands in the frame of the one before. Names end in `sep` and the replica's number,
+/// Places each replica in the frame of the one before. Names end in `sep` and the replica's number,
 /// padded to as many digits as their count has.
 void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
   check_stop();
@@ -131,7 +131,7 @@ void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<M
   const size_t digits = std::to_string(count).size();
   MjcfNames names;
   names.add(node.children);
-  // elements that refer to replicas, kept until all replicas exist
+  // elements that refer to replicas wait until all replicas exist
   MjcfNode referring{node.element, {}};
   for (const char* section : referring_sections)
     for (MjcfNode& part : root.children) {
@@ -258,7 +258,7 @@ void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::
       MjcfNode out{section.element, {}};
       for (const MjcfNode& asset : section.children) {
         if (asset.name() == "model") continue;
-        // a name of a mesh that is not given is its file's
+        // a mesh without a name has that of its file
         const std::string file = asset.element.attribute("file").value_or("");
         const std::string stem = std::filesystem::path(file).stem().string();
         XmlCopies::Attributes more = {{"name", prefix + stem}, {"class", prefix + "main"}};
@@ -312,7 +312,7 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
       if (section.name() == "worldbody")
         content.insert(content.end(), section.children.begin(), section.children.end());
   }
-  // classes and assets of another model are renamed along
+  // classes and assets of another model get the prefix, too
   const auto own_class = [&](const std::string& name) {
     return model ? prefix + (name.empty() ? "main" : name) : name;
   };
@@ -324,7 +324,7 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
                           attribute == "material" || attribute == "mesh" || attribute == "hfield";
     return of_model && model ? prefix + value : value;
   };
-  if (!model)  // its own contents may attach in turn
+  if (!model)  // its contents may attach other models
     for (MjcfNode& part : content) expand_below(part, root);
   MjcfNames names;
   names.add(content);

@@ -38,7 +38,7 @@ void MjcfGeoms::read_assets() {
       if (values.has("rgba"))
         materials_[values.text("name")] = color_of(values, document_.repairs());
       document_.unused().attributes(element, {"name", "class", "rgba"});
-    } else if (node->name() != "model") {  // models are read where they are attached
+    } else if (node->name() != "model") {  // models are read when they are attached
       document_.unused().element(element);
     }
   }
@@ -62,7 +62,7 @@ static MassProperties shell_of(const std::string& type, const std::vector<double
   return capsule_shell(size[0], type == "sphere" ? 0 : size[1]);
 }
 
-/// size  half lengths and radii as MJCF counts them
+/// size  half lengths and radii in the order of MJCF
 void MjcfGeoms::set_solid(const std::string& type, std::vector<double> size,
                           const XmlValues& values, MjcfGeom& geom) {
   if (type == "capsule" || type == "cylinder") size[1] *= 2;
@@ -99,7 +99,7 @@ void MjcfGeoms::set_primitive(const std::string& type, const XmlValues& values, 
   set_solid(type, std::move(size), values, geom);
 }
 
-/// A primitive that takes the place of a mesh.
+/// A primitive that replaces a mesh.
 void MjcfGeoms::set_fitted(const std::string& type, const XmlValues& values, const MjcfMesh& mesh,
                            MjcfGeom& geom, Pose& X) {
   constexpr double no_length = 1e-12;  // [m]
@@ -120,7 +120,7 @@ void MjcfGeoms::set_fitted(const std::string& type, const XmlValues& values, con
                           in_quotes(values.text("mesh"))));
 }
 
-// a plane has no end and no thickness
+// stands for a plane, which is infinite
 static constexpr double plane_half_size = 5;    // [m]
 static constexpr double plane_thickness = 0.1;  // [m]
 
@@ -163,7 +163,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
                                         const Pose& X_frame, bool of_world) {
   if (++count_ > max_pieces) element.fail("expected at most {} geoms", max_pieces);
   const XmlValues values = document_.values(element, child_class);
-  // a robot alone has no table of friction
+  // a robot without a world has no friction table
   UnusedXml& unused = document_.unused();
   if (scene_)
     values.tell_unused(

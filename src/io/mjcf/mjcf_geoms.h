@@ -10,8 +10,8 @@
 
 namespace clench {
 
-/// Friction of a geom. Of two that touch, the one of the higher priority counts; of the
-/// same priority the larger coefficient, and none where both are frictionless.
+/// Friction of a geom. In a contact the geom with the higher priority counts; with equal priorities,
+/// the larger coefficient, or 0 if both are frictionless.
 struct MjcfFriction {
   double mu = 1;
   int priority = 0;
@@ -30,7 +30,7 @@ struct MjcfGeom {
   bool weighed = true;   ///< is it of the compiler's groups?
   MassProperties solid;  ///< for unit density, of a shell per area
   std::string name;      ///< empty: it has none
-  bool paired = false;   ///< does a <pair> name it? then it collides with what that says
+  bool paired = false;   ///< named by a <pair>, which defines what it collides with
 
   MjcfFriction friction;
 
@@ -42,7 +42,7 @@ class MjcfGeoms {
   /// scene  are planes read?
   MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene);
 
-  /// A geom in the frame of its body; empty for what we do not use, which is told.
+  /// A geom in the frame of its body; empty, with a warning, for a type that is not used.
   std::optional<MjcfGeom> read(const XmlElement& element, const std::string& child_class,
                                const Pose& X_frame, bool of_world = false);
   TreeGeometry& geometry() { return geometry_; }

@@ -10,7 +10,7 @@ namespace clench {
 namespace {
 
 constexpr int max_key_numbers = 100'000;
-// followers are off by so much where a simulation had settled [rad or m]
+// deviation of followers that counts as settled in a simulation [rad or m]
 constexpr double settled = 0.01;
 
 Eigen::Quaterniond turn_at(const XmlValues& values, const char* attribute, const double* wxyz) {
@@ -25,7 +25,7 @@ Eigen::Vector3d three_turns(const Eigen::Quaterniond& q) {
   constexpr double aligned = 1e-12;  // cosine of b
   const Eigen::Matrix3d R = q.toRotationMatrix();
   const double a = std::hypot(R(1, 2), R(2, 2)) < aligned ? 0 : std::atan2(-R(1, 2), R(2, 2));
-  // what is left when Rx(a) is undone is Ry(b) Rz(c), and its second row is (sin c, cos c, 0)
+  // Rx(a)^T R = Ry(b) Rz(c), whose second row is (sin c, cos c, 0)
   const double cos_a = std::cos(a), sin_a = std::sin(a);
   return {a, std::atan2(R(0, 2), cos_a * R(2, 2) - sin_a * R(1, 2)),
           std::atan2(cos_a * R(1, 0) + sin_a * R(2, 0), cos_a * R(1, 1) + sin_a * R(2, 1))};
@@ -72,7 +72,7 @@ KeyframeSpec read_key(const XmlValues& values, const std::vector<SceneBody>& bod
     if (body.mocap && moves) X_WB.position = Eigen::Vector3d::Map(&mpos[3 * mocap]);
     if (body.mocap && turns) X_WB.rotation = turn_at(values, "mquat", &mquat[4 * mocap]);
     mocap += body.mocap;
-    // a free body's place stands first
+    // the pose of a free body comes first
     if (body.free && given)
       X_WB = {turn_at(values, "qpos", &qpos[at + 3]), Eigen::Vector3d::Map(&qpos[at])};
     if (body.free) at += 7;
@@ -99,7 +99,7 @@ KeyframeSpec read_key(const XmlValues& values, const std::vector<SceneBody>& bod
   return out;
 }
 
-/// How many numbers a row has.
+/// Count of numbers in a row.
 int qpos_size(const std::vector<SceneBody>& bodies) {
   int count = 0;
   for (const SceneBody& body : bodies) {

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-/// A body directly in the world and what became of it.
+/// A body directly in the world, and the bodies and robot made from it.
 struct SceneBody {
   struct Part {
     int body = 0;  ///< into WorldSpec::bodies
@@ -19,7 +19,7 @@ struct SceneBody {
   std::vector<TreeJoint> joints;             ///< of a robot; leaders are its DOFs, in their order
 };
 
-/// lossy  are there bodies that are not read, whose numbers qpos has, too?
+/// lossy  true if qpos has numbers of bodies that are not read
 /// throws Error  "scene.xml:31: key: qpos: expected 9 numbers, got 8"
 void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& bodies, bool lossy,
                          const FileCache& cache, WorldSpec& world);

@@ -41,8 +41,8 @@ void MjcfTreeReader::read_inertial(const XmlElement& element, int link, const Po
   tree_.pieces[link].has_inertial = true;
 }
 
-/// Gives a body its mass, centre of mass and inertia: as its <inertial> says, else those of its
-/// geoms together, within the compiler's bounds.
+/// Sets mass, center of mass and inertia of a body from its <inertial>, else from its geoms, within
+/// the compiler's bounds.
 void MjcfTreeReader::weigh(const XmlElement& element, int link) {
   using FromGeoms = MjcfSettings::FromGeoms;
   const FromGeoms rule = document_.settings(element).inertia_from_geoms;
@@ -50,14 +50,14 @@ void MjcfTreeReader::weigh(const XmlElement& element, int link) {
   const auto& geoms = tree_.geoms[link];
   const bool any = std::ranges::any_of(geoms, &MjcfGeom::weighed);
   if ((rule == FromGeoms::always && (any || !given)) || (!given && rule == FromGeoms::missing)) {
-    if (!weigh_geoms(link) && !given) return;  // its shape is weighed later
+    if (!weigh_geoms(link) && !given) return;  // its mass follows from its shape later
   } else if (!given) {
     set_massless(link);
   }
   bound_inertia(element, link);
 }
 
-/// No mass is as good as the smallest that a body may have.
+/// A mass of 0 is replaced by the smallest mass of a body.
 void MjcfTreeReader::set_massless(int link) {
   constexpr double point = 1e-6;  // inertia per mass [m^2]
   const auto& geoms = tree_.geoms[link];
@@ -71,8 +71,8 @@ void MjcfTreeReader::set_massless(int link) {
   massless_[link] = true;
 }
 
-/// Mass, centre of mass and inertia of all geoms of a body.
-/// returns  false where they have none that a body can have
+/// Sums mass, center of mass and inertia over the geoms of a body.
+/// returns  false if the sum is not valid for a body
 bool MjcfTreeReader::weigh_geoms(int link) {
   double mass = 0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -135,13 +135,13 @@ void MjcfTreeReader::bound_inertia(const XmlElement& element, int link) {
   massless_[link] = false;
 }
 
-/// A body that moves must have mass, itself or in a body fixed to it.
+/// Checks that each moving body, or a body fixed to it, has mass.
 void MjcfTreeReader::check_moving_masses() {
   constexpr double least = 1e-3;  // [kg]
   auto& links = tree_.model.links;
   const int count = static_cast<int>(links.size());
   const auto moves = [&](int l) { return !links[l].joints.empty() || free_.contains(l); };
-  std::vector<int> carrier(count);  // of each link, the moving one that it is fixed to
+  std::vector<int> carrier(count);  // per link: the moving link that it is fixed to
   std::vector<bool> heavy(count);
   for (int l = 0; l < count; ++l) {
     carrier[l] = moves(l) || links[l].parent < 0 ? l : carrier[links[l].parent];

@@ -44,8 +44,8 @@ Corners moved(const Corners& t, const Eigen::Vector3d& origin) {
   return {t.a - origin, t.b - origin, t.c - origin};
 }
 
-/// All pyramids count positive, first from the centroid of the surface, then from the centre of
-/// mass that this gives.
+/// Counts all pyramids as positive: first about the centroid of the surface, then about the resulting
+/// center of mass.
 MassProperties legacy_mass(const Mesh& mesh) {
   MassProperties out;
   const Eigen::Vector3d apex = surface_centroid(mesh);
@@ -72,8 +72,7 @@ MassProperties legacy_mass(const Mesh& mesh) {
 MassProperties shell_mass(const Mesh& mesh) {
   MassProperties out;
   const Eigen::Vector3d apex = surface_centroid(mesh);
-  // MuJoCo's centre of mass of a shell is that of the pyramids' weights, which is the centroid of
-  // the surface
+  // for a shell, MuJoCo's center of mass is the centroid of the surface
   out.centroid = apex;
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   each_triangle(mesh, [&](const Corners& t) {

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-/// What a mesh's attribute `inertia` says. `legacy`, MuJoCo's default: the pyramids between the
+/// Values of a mesh's attribute `inertia`. `legacy`, MuJoCo's default: the pyramids between the
 /// triangles and the centroid of the surface all count positive, so that parts of a concave mesh
 /// count several times. `exact`: the solid. `convex`: the solid of the convex hull. `shell`: the
 /// surface.

@@ -27,7 +27,7 @@ void MjcfMeshes::add(const XmlElement& element) {
 
 // --- shapes ---
 
-/// Triangles of the convex hull where a mesh has points alone.
+/// Triangles of the convex hull, for a mesh of points without faces.
 static Mesh with_hull(Mesh mesh, const XmlValues& values, const char* attribute) {
   if (!mesh.triangles.empty()) return mesh;
   Eigen::MatrixXd points(3, mesh.vertices.size());
@@ -38,7 +38,7 @@ static Mesh with_hull(Mesh mesh, const XmlValues& values, const char* attribute)
   return mesh;
 }
 
-/// Points and faces that stand in the model itself; points alone mean their convex hull.
+/// A mesh given in the model itself; points without faces mean their convex hull.
 Mesh MjcfMeshes::own_points(const XmlValues& values) const {
   const auto numbers = values.numbers("vertex", 12, max_mesh_numbers);
   if (numbers.size() % 3 != 0)
@@ -88,7 +88,7 @@ static MeshInertia inertia_rule(const XmlValues& values) {
                            : MeshInertia::legacy;
 }
 
-/// The reference frame is taken away first, then the mesh is scaled along its axes.
+/// Removes the reference frame, then scales the mesh along its axes.
 const MjcfMesh& MjcfMeshes::read(Asset& asset) {
   if (asset.mesh) return *asset.mesh;
   const XmlValues& values = asset.values;
@@ -151,7 +151,7 @@ static std::vector<double> size_of_box(const std::string& type, const Eigen::Vec
   return {b.x(), b.y(), b.z()};
 }
 
-/// The smallest whose own bounding box contains that of half edges h.
+/// The smallest primitive whose bounding box contains the box of half edges h.
 static std::vector<double> size_of_bounds(const std::string& type, const Eigen::Vector3d& h) {
   if (type == "sphere") return {h.maxCoeff()};
   const double radius = std::max(h.x(), h.y());

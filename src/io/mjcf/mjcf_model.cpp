@@ -39,7 +39,7 @@ static bool only_switches_actuators(const MjcfNode& option) {
          });
 }
 
-/// A section that is not read; keyframes are states of a world, and a robot alone has none.
+/// Reports a section that is not read. Keyframes are states of a world, which a robot alone lacks.
 void MjcfModel::leave_out(const MjcfNode& section) {
   if (section.name() == "option" && only_switches_actuators(section)) return;
   if (section.name() != "keyframe") return document_.unused().element(section.element);
@@ -67,7 +67,7 @@ MjcfTree MjcfModel::read_tree(const TopBody& body) {
 
 // --- masses ---
 
-/// Of all bodies of a file but the world [kg].
+/// Total mass of the bodies of a file, without the world [kg].
 static double mass_of_all(const std::filesystem::path& path, const ReadOptions& options) {
   ReadOptions quiet = options;
   quiet.warn = quiet.note = quiet.repair = quiet.suspect = {};
@@ -126,7 +126,7 @@ MjcfRobot MjcfModel::scene_robot(const TopBody& body, bool first) {
   return out;
 }
 
-// --- what may meet ---
+// --- collision filters ---
 
 void MjcfModel::read_excludes(MjcfTree& tree) {
   const bool alone = whole_ == std::string_view("robot");
@@ -140,7 +140,7 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
     const XmlValues values(node->element);
     const auto a = tree.links.find(values.text("body1")), b = tree.links.find(values.text("body2"));
     if (a == tree.links.end() || b == tree.links.end()) {
-      // a scene looks at them all, and a robot alone has no world around it
+      // a scene checks them all, and a robot alone has no world around it
       if (alone && values.text("body1") != "world" && values.text("body2") != "world")
         cache_.warn(fmt::format(
             "{}: exclude: '{}' and '{}' are not both bodies of the robot; not used",
@@ -153,7 +153,7 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
 
 // --- robots ---
 
-/// Joints whose reference lies outside of their limits, within which a DOF must start.
+/// Joints whose reference lies outside their limits, although a DOF must start within them.
 void MjcfModel::warn_of_starts(const TreeModel& tree) const {
   constexpr double rounding = 1e-9;
   for (const TreeJoint& joint : tree.joints) {
@@ -209,7 +209,7 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
   out.tree.geoms = std::move(tree.geoms);
   out.tree.slots = std::move(tree.slots);
   out.tree.links = std::move(tree.links);
-  // the tree's links may have changed places
+  // the order of the tree's links may have changed
   std::map<std::string, int> numbers;
   for (size_t l = 0; l < out.robot.links.size(); ++l)
     numbers[out.robot.links[l].body.name] = static_cast<int>(l);

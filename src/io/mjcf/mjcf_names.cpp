@@ -21,7 +21,7 @@ std::string_view referred_kind(std::string_view attribute) {
   return found == kinds.end() ? std::string_view() : found->second;
 }
 
-/// Tendons and actuators are named by their kinds of elements.
+/// Tendons and actuators share a name space over all their kinds of elements.
 static std::string named_kind(const std::string& element) {
   if (element == "freejoint") return "joint";
   if (element == "fixed" || element == "spatial") return "tendon";

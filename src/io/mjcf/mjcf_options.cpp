@@ -6,13 +6,13 @@
 
 namespace clench {
 
-/// Switches of the simulation; those that change what would happen here are warned of by name.
+/// Reads the switches of the simulation, and warns of those that would change its results here.
 /// returns  is gravity on?
 static bool read_flags(const XmlElement& element, const FileCache& cache, WorldSpec& world) {
-  // off unless a file says otherwise
+  // off by default
   const std::set<std::string> enabled = {"override", "energy",    "fwdinv", "invdiscrete",
                                          "sleep",    "diagexact", "ipc",    "sensornoise"};
-  // of a solver that is not ours, or of what is computed beside the motion
+  // options of MuJoCo's solver, or of outputs other than the motion
   const std::set<std::string> harmless = {"warmstart", "refsafe",   "sensor",     "sensornoise",
                                           "midphase",  "eulerdamp", "autoreset",  "nativeccd",
                                           "island",    "multiccd",  "energy",     "fwdinv",
@@ -46,7 +46,7 @@ static bool read_flags(const XmlElement& element, const FileCache& cache, WorldS
 }
 
 void read_mjcf_options(MjcfDocument& document, const FileCache& cache, WorldSpec& world) {
-  world.gravity = Eigen::Vector3d(0, 0, -9.81);  // where a file of MuJoCo says nothing
+  world.gravity = Eigen::Vector3d(0, 0, -9.81);  // default of MuJoCo
   bool gravity_on = true;
   for (const MjcfNode& node : document.root().children) {
     if (node.name() != "option") continue;

@@ -5,8 +5,9 @@
 
 namespace clench {
 
-/// Sets gravity, time_step and collision_on. Warns of what else would change the simulation.
-/// throws  Error for a number or word that is none
+/// Sets gravity, time_step and collision_on. Warns of other options that would change the
+/// simulation.
+/// throws  Error for an invalid number or word
 void read_mjcf_options(MjcfDocument& document, const FileCache& cache, WorldSpec& world);
 
 }  // namespace clench

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A body or a part of a robot, as far as what meets what goes.
+/// A body or a part of a robot, for collision filters.
 struct ScenePart {
   PartRef ref;
   std::string name;
@@ -51,7 +51,7 @@ class SceneReader {
   FileCache& cache_;
   MjcfModel model_;
   WorldSpec world_;
-  TreeModel things_;  // bodies of the world that are no robot's, one per link
+  TreeModel things_;  // bodies of the world without a robot, one per link
   std::vector<LinkPieces> thing_pieces_;
   std::vector<ScenePart> parts_;
   std::map<std::string, PartRef> by_name_;
@@ -59,7 +59,7 @@ class SceneReader {
   std::set<std::string> geom_names_;
   std::vector<SceneBody> scene_;  // one per body directly in the world
   std::map<MjcfFriction, std::string> materials_;
-  std::vector<std::string> mixed_;  // bodies of several coefficients
+  std::vector<std::string> mixed_;  // bodies whose geoms have different coefficients
   int trees_ = 0;
 };
 
@@ -72,14 +72,14 @@ std::string material_name(const MjcfFriction& friction) {
   return out;
 }
 
-/// Of two geoms that touch.
+/// Friction of two geoms in contact.
 double combined(const MjcfFriction& a, const MjcfFriction& b) {
   const auto own = [](const MjcfFriction& f) { return f.frictionless ? 0 : f.mu; };
   if (a.priority != b.priority) return own(a.priority > b.priority ? a : b);
   return a.frictionless && b.frictionless ? 0 : std::max(a.mu, b.mu);
 }
 
-/// A body is of one material here: that of the geom which would win against the others.
+/// A body has one material: that of the geom whose friction prevails over the others'.
 std::string SceneReader::material(const std::vector<MjcfGeom>& geoms, const std::string& name) {
   const MjcfGeom* first = nullptr;
   bool mixed = false;
@@ -132,8 +132,8 @@ const ScenePart& SceneReader::part_of(PartRef ref) const {
   });
 }
 
-/// An object or obstacle, whose shape is made when all are known.   returns  its number in the
-/// world
+/// Adds an object or obstacle; shapes are made when all bodies are known.
+/// returns  its number in the world
 int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
                            const std::vector<MjcfGeom>& geoms, const BodySpec* weighed) {
   const int number = static_cast<int>(world_.bodies.size());
@@ -171,7 +171,7 @@ void SceneReader::add_geom(const WorldGeom& from) {
   pieces.place = from.node->element.place();
   add_piece(pieces, *geom, X.inverse());
   if (pieces.collision.empty() && pieces.visual.empty()) return;
-  // the inverse is rounded
+  // the inverse has rounding errors
   for (auto* list : {&pieces.collision, &pieces.visual})
     for (GeometryPiece& piece : *list) piece.X_LG = Pose{};
   BodySpec weighed;
@@ -189,7 +189,7 @@ std::vector<Pose> tree_poses(const TreeModel& tree) {
   return out;
 }
 
-/// Mass, centre and inertia of all links together; empty when one of them is not known.
+/// Mass, center of mass and inertia of all links together; empty if one of them is unknown.
 std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) {
   double mass = 0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -220,7 +220,7 @@ std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) 
   }
   BodySpec out;
   if (X.size() == 1) {
-    out = tree.model.links[0].body;  // to the bit
+    out = tree.model.links[0].body;  // bit-exactly
   } else {
     out.mass = mass;
     out.com = com;
@@ -230,7 +230,7 @@ std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) 
   return out;
 }
 
-/// Part of the weight of all links together that is left out.
+/// Fraction of the total weight that is compensated.
 double mean_gravity_compensation(const MjcfTree& tree) {
   double mass = 0, carried = 0;
   for (const TreeLink& link : tree.model.links) {
@@ -241,7 +241,7 @@ double mean_gravity_compensation(const MjcfTree& tree) {
                                       : carried / mass;
 }
 
-/// A free body, and what is fixed to it, as one.
+/// Adds a free body and the bodies fixed to it as one object.
 void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
   tree.faults.tell(cache_);
@@ -268,7 +268,7 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   for (const auto& [name, link] : tree.links) by_name_[name] = {WorldEntry::Kind::body, number, -1};
 }
 
-/// A fixed body, and those on it, each as an obstacle, as far as they have geoms.
+/// Adds a fixed body and those on it as obstacles, one per body with geoms.
 void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
   const auto X = tree_poses(tree.model);
@@ -329,7 +329,7 @@ void SceneReader::add_body(const TopBody& body) {
   scene_.push_back(std::move(scene));
 }
 
-/// Shapes and looks of all that is no robot.
+/// Sets shapes and appearance of all bodies that belong to no robot.
 void SceneReader::dress_things() {
   if (things_.links.empty()) return;
   dress_links(things_, thing_pieces_, model_.geoms().geometry(), model_.document().file(), cache_,
@@ -342,9 +342,9 @@ void SceneReader::dress_things() {
   }
 }
 
-// --- what may meet ---
+// --- collision filters ---
 
-/// The parts that a body of an <exclude> is; empty, with a warning, for one that is not read.
+/// Parts made from a body of an <exclude>; empty, with a warning, for a body that is not read.
 std::vector<PartRef> SceneReader::parts_of(const XmlValues& exclude, const char* body) const {
   const std::string name = exclude.text(body);
   if (name == "world") return of_world_;
@@ -373,7 +373,7 @@ void SceneReader::exclude() {
   }
 }
 
-/// Fixed parts never collide with each other, nor do geoms that bits keep apart.
+/// Excludes pairs of fixed parts, and pairs whose bits prevent collisions.
 void SceneReader::never_meet() {
   int apart = 0;
   MjcfContacts& contacts = model_.contacts();

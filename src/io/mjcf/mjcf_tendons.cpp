@@ -40,7 +40,7 @@ MjcfTendon read_mjcf_tendon(MjcfDocument& document, const XmlElement& element) {
 
 namespace {
 
-/// The limits of the length, where it has some.
+/// Limits of the length, if any.
 std::optional<std::array<double, 2>> length_range(const XmlValues& values, MjcfDocument& document) {
   const std::string limited = values.word("limited", {"auto", "true", "false"}, "auto");
   if (limited == "false" || !values.has("range")) return {};
@@ -49,7 +49,7 @@ std::optional<std::array<double, 2>> length_range(const XmlValues& values, MjcfD
   return range;
 }
 
-/// Limits of a joint from those of the length coefficient * q + offset.
+/// Limits of a joint that follow from those of the length, coefficient * q + offset.
 void narrow(const MjcfTendon& tendon, TreeJoint& joint, double coefficient, double offset,
             const std::array<double, 2>& length, const FileCache& cache) {
   const double a = (length[0] - offset) / coefficient, b = (length[1] - offset) / coefficient;
@@ -99,7 +99,7 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
   double offset = 0, rest = 0;
   for (const auto& [number, coefficient] : tendon.joints) {
     const TiedJoint tied = by_leader(tree, number);
-    if (tied.leader < 0) return;  // a circle of leaders is refused elsewhere
+    if (tied.leader < 0) return;  // circular leaders are rejected elsewhere
     arms[tied.leader] += coefficient * tied.ratio;
     offset += coefficient * tied.offset;
     rest += coefficient * tree.joints[number].rest;

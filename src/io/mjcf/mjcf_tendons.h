@@ -14,16 +14,16 @@ struct MjcfTendon {
   bool spatial = false;
   std::optional<std::array<double, 2>> force_range = {};  ///< of all its actuators together
 
-  /// "hand.xml:31: tendon 'split'", for sentences
+  /// "hand.xml:31: tendon 'split'", for messages
   std::string subject() const;
 };
 
 /// Attributes of a fixed tendon, with the defaults of its class.
-/// throws  Error for a number or word that is none
+/// throws  Error for an invalid number or word
 MjcfTendon read_mjcf_tendon(MjcfDocument& document, const XmlElement& element);
 
-/// What the tendon does beside carrying the force of its actuators, in terms of the joints that
-/// lead; ties are final. A range of a single leading joint becomes a range of that joint.
+/// Adds the tendon's limits, springs, damping and friction, in terms of leading joints; call it after
+/// all ties are made. The range of a tendon with a single leading joint becomes that joint's range.
 void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const FileCache& cache,
                          TreeModel& tree);
 

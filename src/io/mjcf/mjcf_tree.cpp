@@ -15,11 +15,11 @@ MjcfTreeReader::MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCac
   names_.add(document.root());
 }
 
-// --- what stands in the world ---
+// --- bodies in the world ---
 
-/// Joints in a body and below.
+/// Counts of joints in a body and its descendants.
 struct JointCount {
-  int all = 0;        // in the body and below, free ones left out
+  int all = 0;        // in the body and its descendants, without free joints
   bool own = false;   // has the body itself a joint that is not free?
   bool free = false;  // has it a free one?
 };
@@ -30,7 +30,7 @@ static bool is_free(const XmlElement& element, const std::string& child_class,
   return document.values(element, child_class).text("type", "hinge") == "free";
 }
 
-/// Joints may stand in frames, and their types in classes.
+/// Joints may be inside frames, and have their types from classes.
 static void count_joints(const MjcfNode& node, const std::string& child_class,
                          const MjcfDocument& document, bool of_body, JointCount& into) {
   for (const MjcfNode& child : node.children) {
@@ -88,7 +88,7 @@ Worldbody read_worldbody(MjcfDocument& document, const char* whole) {
   Worldbody out;
   for (const MjcfNode* node : document.section("worldbody"))
     find_in_world(*node, "", Pose{}, document, whole, out);
-  // a body without a name is called by its number, as far as no other one is
+  // a body without a name gets its number as a name, unless another body has that name
   std::map<std::string, int> names;
   for (const TopBody& body : out.bodies)
     if (body.node->element.attribute("name")) names[body.name] = 0;
@@ -102,7 +102,7 @@ Worldbody read_worldbody(MjcfDocument& document, const char* whole) {
 
 // --- bodies ---
 
-/// The name, or another where an element before has it.
+/// The name, or another one if an earlier element has it.
 std::string MjcfTreeReader::own_name(const XmlElement& element, const std::string& name,
                                      const std::map<std::string, int>& taken) {
   if (!taken.contains(name)) return name;
@@ -148,7 +148,7 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
   document_.check_class(element, inherited);
   const Pose X = X_frame * document_.pose(values);
   const double carried = values.number("gravcomp", 0);
-  // where the base stands is the world's to say
+  // the world places the base
   const int link = add_link(element, name, parent, base ? Pose{} : X);
   tree_.model.links[link].body.gravity_compensation = carried;
   if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
@@ -185,7 +185,7 @@ void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::st
 
 // --- joints ---
 
-/// Is there a range that limits?
+/// Does a range limit the joint?
 static bool given_range(const XmlValues& values) {
   if (!values.has("range")) return false;
   const auto range = values.numbers("range", 2, 2);
@@ -197,7 +197,7 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   const MjcfSettings& settings = document_.settings(values.element());
   const double unit = turns ? settings.angle_unit : 1;
   const std::string limited = values.word("limited", {"auto", "true", "false"}, "auto");
-  // two zeros undo what a class says
+  // two zeros cancel the range of the class
   const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !settings.autolimits)
     document_.repairs().add(
@@ -234,7 +234,7 @@ void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int l
   tree_.model.links[link].joints.push_back(number);
 }
 
-/// A free joint's resistance to motion is its body's.
+/// Adds the resistance of a free joint to its body.
 void MjcfTreeReader::read_free_motion(const XmlValues& values, BodySpec& body) {
   const std::string subject =
       fmt::format("{}: free joint of '{}'", values.element().place(), excerpt(body.name));
@@ -246,7 +246,7 @@ void MjcfTreeReader::read_free_motion(const XmlValues& values, BodySpec& body) {
   if (values.has("springdamper")) cache_.warn(subject + ": springdamper is not used");
 }
 
-/// Stiffness and damping that follow from the inertia are set when that is known.
+/// Stores stiffness and damping that depend on the inertia, until that is known.
 void MjcfTreeReader::set_spring_damper(const XmlValues& values, TreeJoint& joint) {
   if (!values.has("springdamper")) return;
   const auto given = values.numbers("springdamper", 2, 2);
@@ -273,7 +273,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
                      : fmt::format("{}_joint{}", body, tree_.model.links[link].joints.size() + 1);
   if (type == "free") {
     tree_.slots[link].push_back({QposSlot::Kind::free});
-    // the base goes where the world puts it
+    // the world places the base
     if (link == 0) return read_free_motion(values, tree_.model.links[link].body);
     warn(element, fmt::format("joint '{}' is free; body '{}' stays where the file puts it",
                               excerpt(joint.name), excerpt(body)));
@@ -301,8 +301,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
     add_joint(std::move(joint), element, link);
     return;
   }
-  // a ball is three turns, about the body's x, y and z, whatever frame it stands in; its range is
-  // the most that it leans
+  // a ball joint becomes three hinges about the body's x, y and z; its range limits the total angle
   double most = endless_turn / 2;
   if (given_range(values) && values.text("limited", "auto") != "false")
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);

@@ -15,7 +15,7 @@ static bool is_below(const fs::path& path, const fs::path& folder) {
 }
 
 /// Where a path leads, whether anything is there or not; empty when links lead in a circle.
-/// visit(link)  sees where each link on the way lies
+/// visit(link)  called with the place of each link along the path
 template <class Visit>
 static fs::path resolved(const fs::path& path, Visit visit) {
   constexpr int link_limit = 40;  // as many as the system follows

@@ -10,7 +10,7 @@ namespace clench {
 
 namespace {
 
-/// Reads values one after the other; what is open is kept by the tree, not by calls within calls.
+/// Reads values without recursion: the tree stores the open lists and maps.
 class JsonReader {
  public:
   JsonReader(std::string_view text, ValueTree& out) : text_(text), out_(out) {}

@@ -6,8 +6,8 @@
 
 namespace clench {
 
-/// What a reader keeps of a file may take 20 times its size and 64 MB: small files cannot ask for
-/// more memory than their user expects.
+/// Limits the contents that a reader keeps to 20 times the size of their file plus 64 MB, so that a
+/// small file cannot fill the memory.
 class MemoryBudget {
  public:
   static constexpr size_t fixed = size_t{64} << 20, times = 20;

@@ -46,7 +46,7 @@ void ValueTree::check_keys(size_t first) const {
   for (size_t i = 1; i < keys.size(); ++i)
     if (text(keys[i]) == text(keys[i - 1])) twice = std::min(twice, keys[i]);
   if (twice != UINT32_MAX)
-    fail("{}:{}: key {} stands there twice", *file_, pending_[twice].line, in_quotes(text(twice)));
+    fail("{}:{}: key {} appears twice", *file_, pending_[twice].line, in_quotes(text(twice)));
 }
 
 void ValueTree::close() {

@@ -48,7 +48,7 @@ class ValueTree {
   void scalar(std::string_view text, bool quoted, int line);
   /// throws  Error when lists and maps are nested too deeply
   void open(ValueKind kind, int line);
-  /// throws  Error when a key of the map is not a scalar, or stands there twice
+  /// throws  Error when a key of the map is not a scalar, or appears twice
   void close();
   /// Has a complete value been read?
   bool complete() const { return open_.empty() && pending_.size() == 1; }

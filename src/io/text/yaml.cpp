@@ -19,8 +19,7 @@ static constexpr size_t max_silence = size_t{512} << 10;
 
 namespace {
 
-/// The text as a stream, a block at a time. It ends early when the parser reads on and on without
-/// a value.
+/// The text as a stream, in blocks. It ends early if the parser reads too much without a value.
 class TextBuffer : public std::streambuf {
  public:
   explicit TextBuffer(std::string_view text) : text_(text) {}
@@ -46,7 +45,7 @@ class TextBuffer : public std::streambuf {
   bool gave_up_ = false;
 };
 
-/// Values that the parser meets, into a tree.
+/// Adds the values that the parser reports to a tree.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(const std::string& file, ValueTree& out, TextBuffer& buffer)
@@ -136,8 +135,7 @@ ValueTree parse_yaml_text(const std::string& file, std::string_view text) {
 }  // namespace
 
 ValueTree parse_yaml(const std::string& file, std::string_view text) {
-  // yaml-cpp takes a quote that is open where lines end for one that is closed, unless the text
-  // ends there
+  // yaml-cpp treats a quote that is open at the end of a line as closed, unless the text ends there
   text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
   const size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == text.npos || (text[begin] != '{' && text[begin] != '['))

@@ -76,7 +76,7 @@ class UrdfReader {
   std::map<std::string, int> link_numbers_;
   std::vector<FileJoint> joints_;
   std::set<std::string> names_;          // of joints
-  std::map<std::string, double> still_;  // joints that never move, where they stand [rad or m]
+  std::map<std::string, double> still_;  // positions of joints that never move [rad or m]
   size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree

@@ -128,7 +128,7 @@ EnergyPtr penetration_energy(const World& world, Id<Robot> hand, int count) {
     double sum = 0;
     for (const auto& [a, b] : colliding_pairs(now, parts, now.bodies(), &now.context())) {
       double deepest = std::max(depth(a, b), depth(b, a));
-      // no point lies inside where a rod goes right through a plate
+      // e.g. a rod through a plate has no point inside
       if (deepest == 0) deepest = overlap_depth(now, a, b);
       sum += energy_length * deepest + touch;
     }

@@ -40,7 +40,7 @@ std::string hex(const Drawing::Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
-// what XML allows of a text; blanks for what a reader would obey rather than show
+// text as XML allows it; blanks replace control characters
 std::string escaped(const std::string& text) {
   std::u32string letters = letters_of(text);
   std::erase_if(letters, [](char32_t c) { return c == 0xFFFE || c == 0xFFFF; });

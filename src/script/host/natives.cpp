@@ -18,7 +18,7 @@ static int raise(lua_State* L) {
   throw Error(sentence, given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
 }
 
-// call_script(subject, fn, ...): what the script's function returns; its errors name the subject
+// call_script(subject, fn, ...): returns the values of the script's function; its errors name the subject
 static int call_script(lua_State* L) {
   const std::string subject = check_string(L, 1, "subject");
   call_script(L, lua_gettop(L) - 2, LUA_MULTRET, subject);
@@ -54,18 +54,16 @@ static const Class deadline_class{
 template <>
 inline constexpr const Class* script_class<DeadlinePtr> = &deadline_class;
 
-// deadline(seconds): after so much time what runs in the engine fails as by Ctrl-C, once
+// deadline(seconds): when the time is over, the running call of the engine fails as by Ctrl-C, once
 static int deadline(lua_State* L) {
   return push_object(L, std::make_shared<Deadline>(bar_of(L), check_number(L, 1, "seconds")));
 }
 
 void add_natives(lua_State* L) {
-  static constexpr luaL_Reg natives[] = {{"clench.raise", guarded<raise>},
-                                         {"clench.call_script", guarded<call_script>},
-                                         {"clench.script_line", script_line},
-                                         {"clench.suggest", guarded<suggest>},
-                                         {"clench.deadline", guarded<deadline>},
-                                         {nullptr, nullptr}};
+  static constexpr luaL_Reg natives[] = {
+      {"clench.raise", guarded<raise>},       {"clench.call_script", guarded<call_script>},
+      {"clench.script_line", script_line},    {"clench.suggest", guarded<suggest>},
+      {"clench.deadline", guarded<deadline>}, {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);
   lua_pop(L, 1);

@@ -139,7 +139,7 @@ TaskError take_error(lua_State* L) {
   lua_pushcfunction(L, guarded<tell_error>);
   lua_insert(L, -2);
   TaskError out;
-  // nothing interrupts what says why: an item that was stopped has words, too
+  // the message is made without interruption, also for an item that was stopped
   const lua_Hook hook = lua_gethook(L);
   const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
   lua_sethook(L, nullptr, 0, 0);

@@ -198,7 +198,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
   State& state = *static_cast<State*>(data);
   const bool again = state.interrupts_ > 1 || now() > state.patient_until_;
   // the first time another coroutine, or a call of the engine, may have ended for it
-  const bool first = state.bar_->take_stop();
+  const bool first = state.bar_->take_all();
   // with every instruction from then on, so that all that catches it ends
   lua_sethook(L, on_hook, all_events, again ? 1 : 1000);
   if (!again && !first) return;
@@ -209,7 +209,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
 void State::interrupt() {
   if (interrupts_ == 0) patient_until_ = now() + patience;
   ++interrupts_;
-  bar_->stop();
+  bar_->interrupt();
   lua_sethook(L_, on_hook, all_events, 1);
   if (running_ != L_) lua_sethook(running_, on_hook, all_events, 1);
 }
@@ -232,7 +232,7 @@ void State::end() {
 // takes what a call left above base off the stack
 State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);
-  bar_->take_stop();
+  bar_->take_all();
   interrupts_ = 0;
   running_ = L_;
   Result result;

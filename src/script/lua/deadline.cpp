@@ -5,11 +5,11 @@
 
 namespace clench {
 
-Deadline::Deadline(std::shared_ptr<Watcher> watcher, double seconds)
-    : watcher_(std::move(watcher)), thread_([this, seconds] { wait(seconds); }) {}
+Deadline::Deadline(std::shared_ptr<Bar> bar, double seconds)
+    : bar_(std::move(bar)), thread_([this, seconds] { wait(seconds); }) {}
 
 void Deadline::wait(double seconds) {
-  // later than any clock counts is never
+  // beyond the range of clocks
   constexpr double never = 1e9;
   const std::chrono::duration<double> time(std::clamp(seconds, 0.0, never));
   std::unique_lock lock(mutex_);
@@ -17,7 +17,7 @@ void Deadline::wait(double seconds) {
                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(time);
   if (changed_.wait_until(lock, end, [this] { return closed_; })) return;
   passed_ = true;
-  watcher_->stop(StopCause::deadline);
+  bar_->end_time();
 }
 
 bool Deadline::close() {
@@ -28,7 +28,7 @@ bool Deadline::close() {
   }
   changed_.notify_one();
   thread_.join();
-  if (passed_) watcher_->take_stop(StopCause::deadline);
+  if (passed_) bar_->take_end_of_time();
   return passed_;
 }
 

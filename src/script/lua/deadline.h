@@ -5,15 +5,15 @@
 #include <mutex>
 #include <thread>
 
-#include "clench/base/progress.h"
+#include "clench/script/lua/watching.h"
 
 namespace clench {
 
-/// Asks a watcher to stop, once, after a time, unless it is closed before.
+/// Asks the watcher of a script to stop, once, after a time, unless it is closed before.
 class Deadline {
  public:
   /// seconds  from now; at once if not above 0 [s]
-  Deadline(std::shared_ptr<Watcher> watcher, double seconds);
+  Deadline(std::shared_ptr<Bar> bar, double seconds);
   ~Deadline() { close(); }
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
@@ -25,7 +25,7 @@ class Deadline {
  private:
   void wait(double seconds);
 
-  std::shared_ptr<Watcher> watcher_;
+  std::shared_ptr<Bar> bar_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false, passed_ = false;

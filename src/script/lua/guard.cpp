@@ -180,15 +180,18 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
   // the handler is left: nothing but plain memory is alive
   lua_settop(L, 0);
   // if both asked, this error is the deadline's, and the user's request raises the next one
-  const bool out_of_time = failure == Failure::stopped && bar_of(L)->take_stop(StopCause::deadline);
-  if (failure == Failure::stopped && !out_of_time) bar_of(L)->take_stop();
+  const bool out_of_time = failure == Failure::stopped && bar_of(L)->take_end_of_time();
+  if (failure == Failure::stopped && !out_of_time) bar_of(L)->take_all();
   if (failure == Failure::raised) {
     lua_rawgetp(L, LUA_REGISTRYINDEX, &raised_key);
     lua_pushnil(L);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &raised_key);
   } else {
     const bool stopped = failure == Failure::stopped;
-    push_error_value(L, out_of_time ? "out of time" : stopped ? "interrupted" : message.text,
+    push_error_value(L,
+                     out_of_time ? "out of time"
+                     : stopped   ? "interrupted"
+                                 : message.text,
                      stopped ? "stopped" : name_of(kind));
   }
   return -1;

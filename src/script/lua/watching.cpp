@@ -30,6 +30,18 @@ void Bar::end() {
   drawn_ = false;
 }
 
+bool Bar::take_end_of_time() {
+  if (!out_of_time_.exchange(false)) return false;
+  take_stop();
+  if (interrupted_) stop();
+  return true;
+}
+
+bool Bar::take_all() {
+  interrupted_ = false, out_of_time_ = false;
+  return take_stop();
+}
+
 void Bar::show(double fraction, std::string_view text) {
   if (scripts_ == 0) draw(fraction, text);
 }

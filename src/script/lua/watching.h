@@ -1,5 +1,6 @@
-// Who watches the long calls of a script: Ctrl-C stops them, a terminal shows how far they are.
+// Watches the long calls of a script: Ctrl-C and time limits stop them, a terminal shows their progress.
 #pragma once
+#include <atomic>
 #include <lua.hpp>
 
 #include "clench/base/progress.h"
@@ -20,6 +21,15 @@ class Bar : public Watcher {
   void begin_script() { begin(), ++scripts_; }
   void end_script() { --scripts_, end(); }
 
+  /// Asks for a stop as Ctrl-C does. May be called in a signal handler.
+  void interrupt() { interrupted_ = true, stop(); }
+  /// Asks for a stop at the end of a time limit. Any thread may call it.
+  void end_time() { out_of_time_ = true, stop(); }
+  /// Withdraws a request of end_time(), and leaves that of interrupt().   returns  was there one?
+  bool take_end_of_time();
+  /// Withdraws all requests.   returns  was there one?
+  bool take_all();
+
  private:
   void draw(double fraction, std::string_view text);
 
@@ -27,12 +37,13 @@ class Bar : public Watcher {
   int depth_ = 0, scripts_ = 0;
   double began_ = 0, last_ = 0;  // [s]
   bool drawn_ = false;
+  std::atomic<bool> interrupted_ = false, out_of_time_ = false;
 };
 
-/// The state's, made when it is first asked for.
+/// The bar of the state, created on first use.
 const std::shared_ptr<Bar>& bar_of(lua_State* L);
 
-/// What a call that may take long is watched by, as long as this lives.
+/// Watches a long call during its lifetime.
 class Watching {
  public:
   explicit Watching(lua_State* L);

@@ -46,7 +46,7 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
   // what is inferred of a file, once, however often it is read
   if (about && about == std::string_view("inferred") && !first_time(L, &inferred_key, message))
     return;
-  // what is said of a file is one line, whatever names it quotes
+  // a message about a file is one line, whatever names it quotes
   const std::string line =
       fmt::format("clench: {}: {}\n", name, printable(message, about ? "" : "\n\t"));
   std::fwrite(line.data(), 1, line.size(), stderr);
