@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace clench {
 
@@ -110,7 +113,12 @@ struct Pulled {
 class DriveMaker {
  public:
   DriveMaker(const RobotSpec& robot, int dof) : robot_(robot), dof_(dof) {
-    each_joint(robot, [&](const JointSpec& joint) { joints_.push_back(&joint); });
+    const bool named =
+        std::ranges::any_of(robot.actuators, [](auto& a) { return !a.pulls.empty(); });
+    each_joint(robot, [&](const JointSpec& joint) {
+      if (joint.dof == dof) joints_.push_back(&joint);
+      if (named) by_name_.try_emplace(joint.name, &joint);
+    });
   }
   DofDrive make();
 
@@ -123,7 +131,8 @@ class DriveMaker {
 
   const RobotSpec& robot_;
   int dof_;
-  std::vector<const JointSpec*> joints_;
+  std::vector<const JointSpec*> joints_;  // of the DOF
+  std::map<std::string_view, const JointSpec*> by_name_;
   DofDrive out_;
   std::vector<const JointSpec*> joint_of_sum_;  // null: the sum of a tendon
   std::vector<std::string> tendon_of_sum_;
@@ -132,14 +141,12 @@ class DriveMaker {
 // A joint that follows nothing is no joint of the robot: it moves no DOF.
 std::vector<Pulled> DriveMaker::pulled_by(const ActuatorSpec& actuator) const {
   std::vector<Pulled> out;
-  const auto find = [&](const std::string& name, double pull, int dof) {
+  if (!actuator.joint.empty())
     for (const JointSpec* joint : joints_)
-      if (joint->name == name && (dof < 0 || joint->dof == dof))
-        return out.push_back({joint, pull});
-  };
-  if (!actuator.joint.empty()) find(actuator.joint, actuator.gear, actuator.dof);
+      if (joint->name == actuator.joint && joint->dof == dof_) return {{joint, actuator.gear}};
   for (const TendonPull& pull : actuator.pulls)
-    find(pull.joint, actuator.gear * pull.coefficient, -1);
+    if (const auto found = by_name_.find(pull.joint); found != by_name_.end())
+      out.push_back({found->second, actuator.gear * pull.coefficient});
   return out;
 }
 
@@ -170,6 +177,7 @@ int DriveMaker::tendon_sum(const ActuatorSpec& actuator, double reach) {
 }
 
 void DriveMaker::add(const ActuatorSpec& actuator) {
+  if (!actuator.joint.empty() && actuator.dof != dof_) return;
   DriveTerm term = law_of(actuator);
   term.actuator = static_cast<int>(&actuator - robot_.actuators.data());
   std::vector<Pulled> pulled = pulled_by(actuator);

@@ -39,7 +39,7 @@ local function plain(value)
   return number and ("%.17g"):format(number) or value
 end
 
-local joint_fields = {"name", "kind", "dof", "axis", "ratio", "min", "max", "endless", "spring", "rest", "damping", "friction", "armature"}
+local joint_fields = {"name", "kind", "dof", "axis", "ratio", "min", "max", "endless", "spring", "rest", "damping", "friction", "armature", "effort_range"}
 
 -- A table per chain. The axes of the joints enter by the Jacobians of the links.
 local function chains_of(hand)

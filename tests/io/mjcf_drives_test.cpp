@@ -142,8 +142,11 @@ TEST_CASE("actuators that an option switches off drive nothing, which is reporte
   CHECK(one.warned("actuatorgroupdisable switches actuators off; they drive nothing: 'x'"));
   CHECK(one.warnings.size() == 1);
   // what else an option says is not used for a robot alone
-  CHECK(two(motors, "", "<option timestep='0.01'><flag actuation='disable'/></option>")
-            .warned("<option> is not used"));
+  const ToldRobot more = two(
+      motors, "", "<option timestep='0.01'><flag actuation='disable' gravity='disable'/></option>");
+  CHECK(more.warned("of <option>, here and further on, not used: timestep"));
+  CHECK(more.warned("of <flag>, here and further on, not used: gravity"));
+  CHECK(two(motors, "", "<option timestep='0.01'/>").warned("<option> is not used"));
   CHECK(two(motors, "", "<option><flag actuation='enable'/></option>").warnings.empty());
   CHECK_THROWS_WITH(two(motors, "", "<option actuatorgroupdisable='1 x'/>"),
                     doctest::Contains("actuatorgroupdisable: expected a number, got 'x'"));

@@ -27,21 +27,31 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
   worldbody_ = read_worldbody(document_, whole);
 }
 
-/// Does an <option> switch actuators, and nothing else?
-static bool only_switches_actuators(const MjcfNode& option) {
-  const auto among = [](const XmlElement& element, std::string_view known) {
-    return std::ranges::all_of(element.attributes(),
-                               [&](const auto& name) { return name == known; });
+/// Does an <option> switch actuators off or on?
+static bool switches_actuators(const MjcfNode& option) {
+  const auto has = [](const XmlElement& element, const char* name) {
+    return element.attribute(name).has_value();
   };
-  return among(option.element, "actuatorgroupdisable") &&
-         std::ranges::all_of(option.children, [&](const MjcfNode& child) {
-           return child.name() == "flag" && among(child.element, "actuation");
+  return has(option.element, "actuatorgroupdisable") ||
+         std::ranges::any_of(option.children, [&](const MjcfNode& child) {
+           return child.name() == "flag" && has(child.element, "actuation");
          });
+}
+
+/// What an <option> says beside that is not used for a robot alone.
+static void leave_out_rest(const MjcfNode& option, UnusedXml& unused) {
+  unused.attributes(option.element, {"actuatorgroupdisable"});
+  for (const MjcfNode& child : option.children)
+    if (child.name() == "flag")
+      unused.attributes(child.element, {"actuation"});
+    else
+      unused.element(child.element);
 }
 
 /// Reports a section that is not read. Keyframes are states of a world, which a robot alone lacks.
 void MjcfModel::leave_out(const MjcfNode& section) {
-  if (section.name() == "option" && only_switches_actuators(section)) return;
+  if (section.name() == "option" && switches_actuators(section))
+    return leave_out_rest(section, document_.unused());
   if (section.name() != "keyframe") return document_.unused().element(section.element);
   if (section.children.empty()) return;
   cache_.warn(section.element.place() +

@@ -26,7 +26,7 @@ static bool read_flags(const XmlElement& element, const FileCache& cache, WorldS
     if (on == usual) continue;
     if (name == "gravity") gravity = false;
     if (name == "contact" || name == "constraint") world.collision_on = false;
-    // that of actuation is in force already
+    // actuation is read with the actuators
     if (name == "gravity" || name == "contact" || name == "filterparent" || name == "actuation")
       continue;
     if (harmless.contains(name))
