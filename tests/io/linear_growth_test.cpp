@@ -65,14 +65,14 @@ std::string numbered(const std::string& text, size_t i) {
   return out;
 }
 
-Construct mjcf(const std::string& name, const std::string& head, const std::string& item,
-               const std::string& tail) {
+Construct repeated_mjcf(const std::string& name, const std::string& head, const std::string& item,
+                        const std::string& tail) {
   return {name, "a.xml", "<mujoco>" + head, [=](size_t i) { return numbered(item, i); },
           tail + "</mujoco>"};
 }
 
-Construct urdf(const std::string& name, const std::string& head, const std::string& item,
-               const std::string& tail) {
+Construct repeated_urdf(const std::string& name, const std::string& head, const std::string& item,
+                        const std::string& tail) {
   return {name, "a.urdf", "<robot name='r'>" + head, [=](size_t i) { return numbered(item, i); },
           tail + "</robot>"};
 }
@@ -86,36 +86,44 @@ std::vector<Construct> constructs() {
   const std::string world = "<worldbody>" + balls + "</worldbody>";
   const std::string link = "<link name='a'/>";
   return {
-      mjcf("free bodies", "<worldbody>", ball, "</worldbody>"),
-      mjcf("replicates of one body", "<worldbody>",
-           "<replicate count='2' offset='0 1 0'>" + ball + "</replicate>", "</worldbody>"),
-      mjcf("excludes", world + "<contact>", "<exclude body1='b1' body2='b2'/>", "</contact>"),
-      mjcf("pairs",
-           "<worldbody><body><freejoint/><geom name='g' size='1'/></body><body><freejoint/>"
-           "<geom name='h' size='1'/></body></worldbody><contact>",
-           "<pair name='p%' geom1='g' geom2='h'/>", "</contact>"),
-      mjcf("keyframes", world + "<keyframe>", "<key name='k%'/>", "</keyframe>"),
-      mjcf("classes", "<default>", "<default class='c%'><geom size='.1'/></default>",
-           "</default>" + world),
-      mjcf("defaults of many kinds", "<default>", "<x%/>", "</default>" + world),
-      mjcf("materials", "<asset>", "<material name='m%' rgba='1 0 0 1'/>", "</asset>" + world),
-      mjcf("tendons with motors", arm + "<tendon>",
-           "<fixed name='t%'><joint joint='j' coef='1'/></fixed>", "</tendon>"),
-      mjcf("motors", arm + "<actuator>", "<motor name='m%' joint='j'/>", "</actuator>"),
-      mjcf("equalities", arm + "<equality>", "<weld name='w%' body1='a'/>", "</equality>"),
-      mjcf("unknown elements", world, "<y%/>", ""),
-      mjcf("boxes of one body", "<worldbody><body><freejoint/>",
-           "<geom type='box' size='.1 .1 .1' pos='% 0 0'/>", "</body></worldbody>"),
-      mjcf("frames", "<worldbody>", "<frame pos='% 0 0'>" + ball + "</frame>", "</worldbody>"),
-      urdf("elements of other programs", link, "<gazebo reference='x%'><a%/></gazebo>", ""),
-      urdf("materials", link, "<material name='m%'><color rgba='1 0 0 1'/></material>", ""),
-      urdf("boxes of one link", "<link name='a'>",
-           "<collision><origin xyz='% 0 0'/><geometry><box size='1 1 1'/></geometry></collision>",
-           "</link>"),
-      urdf("links", link,
-           "<link name='l%'/><joint name='j%' type='fixed'><parent link='a'/><child link='l%'/>"
-           "</joint>",
-           ""),
+      repeated_mjcf("free bodies", "<worldbody>", ball, "</worldbody>"),
+      repeated_mjcf("replicates of one body", "<worldbody>",
+                    "<replicate count='2' offset='0 1 0'>" + ball + "</replicate>", "</worldbody>"),
+      repeated_mjcf("excludes", world + "<contact>", "<exclude body1='b1' body2='b2'/>",
+                    "</contact>"),
+      repeated_mjcf(
+          "pairs",
+          "<worldbody><body><freejoint/><geom name='g' size='1'/></body><body><freejoint/>"
+          "<geom name='h' size='1'/></body></worldbody><contact>",
+          "<pair name='p%' geom1='g' geom2='h'/>", "</contact>"),
+      repeated_mjcf("keyframes", world + "<keyframe>", "<key name='k%'/>", "</keyframe>"),
+      repeated_mjcf("classes", "<default>", "<default class='c%'><geom size='.1'/></default>",
+                    "</default>" + world),
+      repeated_mjcf("defaults of many kinds", "<default>", "<x%/>", "</default>" + world),
+      repeated_mjcf("materials", "<asset>", "<material name='m%' rgba='1 0 0 1'/>",
+                    "</asset>" + world),
+      repeated_mjcf("tendons with motors", arm + "<tendon>",
+                    "<fixed name='t%'><joint joint='j' coef='1'/></fixed>", "</tendon>"),
+      repeated_mjcf("motors", arm + "<actuator>", "<motor name='m%' joint='j'/>", "</actuator>"),
+      repeated_mjcf("equalities", arm + "<equality>", "<weld name='w%' body1='a'/>", "</equality>"),
+      repeated_mjcf("unknown elements", world, "<y%/>", ""),
+      repeated_mjcf("boxes of one body", "<worldbody><body><freejoint/>",
+                    "<geom type='box' size='.1 .1 .1' pos='% 0 0'/>", "</body></worldbody>"),
+      repeated_mjcf("frames", "<worldbody>", "<frame pos='% 0 0'>" + ball + "</frame>",
+                    "</worldbody>"),
+      repeated_urdf("elements of other programs", link, "<gazebo reference='x%'><a%/></gazebo>",
+                    ""),
+      repeated_urdf("materials", link, "<material name='m%'><color rgba='1 0 0 1'/></material>",
+                    ""),
+      repeated_urdf(
+          "boxes of one link", "<link name='a'>",
+          "<collision><origin xyz='% 0 0'/><geometry><box size='1 1 1'/></geometry></collision>",
+          "</link>"),
+      repeated_urdf(
+          "links", link,
+          "<link name='l%'/><joint name='j%' type='fixed'><parent link='a'/><child link='l%'/>"
+          "</joint>",
+          ""),
       {"cubes", "a.iv", "#Inventor V2.1 ascii\n",
        [](size_t i) {
          return numbered("Separator { Translation { translation % 0 0 } Cube { } }\n", i);

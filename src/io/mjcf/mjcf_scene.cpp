@@ -33,7 +33,7 @@ struct ScenePart {
   bool fixed = false;           // to the world
 };
 
-std::array<int, 3> key_of(const PartRef& ref) {
+std::array<int, 3> part_key(const PartRef& ref) {
   return {static_cast<int>(ref.kind), ref.index, ref.link};
 }
 
@@ -142,7 +142,7 @@ void SceneReader::add_part(PartRef ref, const std::string& name, const std::vect
     if (geom.collides()) part.geoms.push_back(geom);
     geom_names_.insert(geom.name);
   }
-  part_numbers_.emplace(key_of(ref), parts_.size());
+  part_numbers_.emplace(part_key(ref), parts_.size());
   parts_.push_back(std::move(part));
 }
 
@@ -337,7 +337,7 @@ void SceneReader::exclude() {
     for (const PartRef& a : first)
       for (const PartRef& b : second) {
         if (a.kind == b.kind && a.index == b.index) continue;
-        const auto both = std::minmax(part_numbers_.at(key_of(a)), part_numbers_.at(key_of(b)));
+        const auto both = std::minmax(part_numbers_.at(part_key(a)), part_numbers_.at(part_key(b)));
         if (!listed_.contains(both)) keep_apart(a, b);
       }
   }

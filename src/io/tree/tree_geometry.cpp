@@ -9,8 +9,8 @@
 
 namespace clench {
 
-// a round shape takes some 60 bytes of a file, and a triangle some 100 of memory
-static constexpr size_t max_round_triangles = 1'000'000;
+// a round shape takes some 60 bytes of a file, and a triangle some 150 of memory
+static constexpr size_t max_round_triangles = 500'000;
 
 TreeGeometry::TreeGeometry(const ReadOptions& options, BarePoints bare_points)
     : options_(options), bare_points_(bare_points) {
