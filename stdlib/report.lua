@@ -189,13 +189,20 @@ local function of_scene(path, options)
   return parsed
 end
 
--- extends a range by a value
+-- ranges of numbers by name, of the first names; those of further names are counted
+local max_ranges = 100
+local function new_ranges() return {by_name = {}, order = {}, others = {}, more = 0} end
+
 local function widen(ranges, name, value)
-  local range = ranges[name]
-  if not range then
-    ranges[name] = {low = value, high = value, count = 1}
-  else
+  local range = ranges.by_name[name]
+  if range then
     range.low, range.high, range.count = math.min(range.low, value), math.max(range.high, value), range.count + 1
+  elseif #ranges.order < max_ranges then
+    ranges.by_name[name] = {low = value, high = value, count = 1}
+    table.insert(ranges.order, name)
+  elseif not ranges.others[name] then
+    ranges.others[name] = true
+    ranges.more = ranges.more + 1
   end
 end
 
@@ -208,9 +215,10 @@ end
 
 -- ranges of numbers of all grasps, by name
 local function of_grasps(list, format)
-  local pairs_of, labels, dofs, order, measures, notes = {}, {}, {}, {}, {}, {}
+  local pairs_of, labels, dofs, measures, notes = {}, {}, new_ranges(), new_ranges(), new_ranges()
   local counts = {unnamed_dofs = 0, without_pose = 0, with_contacts = 0, with_pregrasp = 0, collision_free = 0, in_collision = 0}
   local function count(key, is) if is then counts[key] = counts[key] + 1 end end
+  local unnamed = 0  -- DOFs beyond those that are listed
   for _, grasp in ipairs(list) do
     local hand, object = grasp.hand_name, grasp.object_name
     if hand ~= "" or object ~= "" then
@@ -218,10 +226,11 @@ local function of_grasps(list, format)
     end
     local names, values = grasp.dof_names, grasp.dofs
     count("unnamed_dofs", #names == 0 and #values > 0)
-    for i, value in ipairs(values) do
-      local name = names[i] or ("DOF %d"):format(i)
-      if not dofs[name] then order[#order + 1] = name end
-      widen(dofs, name, value)
+    if #names == 0 then
+      for i = 1, math.min(#values, max_ranges) do widen(dofs, ("DOF %d"):format(i), values[i]) end
+      unnamed = math.max(unnamed, #values - max_ranges)
+    else
+      for i, value in ipairs(values) do widen(dofs, names[i], value) end
     end
     for name, value in pairs(grasp.measures) do widen(measures, name, value) end
     for name, value in pairs(grasp.info) do widen(notes, name, value) end
@@ -233,9 +242,14 @@ local function of_grasps(list, format)
     count("in_collision", grasp.collision_free == false)
   end
   local listed = {}
-  for i, name in ipairs(order) do listed[i] = {name = name, low = dofs[name].low, high = dofs[name].high, count = dofs[name].count} end
-  return {format = format, count = #list, of = sorted_names(pairs_of), dofs = listed, measures = measures, notes = notes,
-          labels = sorted_names(labels), counts = counts, best_epsilon = measures.epsilon and measures.epsilon.high}
+  for i, name in ipairs(dofs.order) do
+    local range = dofs.by_name[name]
+    listed[i] = {name = name, low = range.low, high = range.high, count = range.count}
+  end
+  local epsilon = measures.by_name.epsilon
+  return {format = format, count = #list, of = sorted_names(pairs_of), dofs = listed, measures = measures.by_name, notes = notes.by_name,
+          more = {dofs = dofs.more + unnamed, measures = measures.more, notes = notes.more}, labels = sorted_names(labels), counts = counts,
+          best_epsilon = epsilon and epsilon.high}
 end
 
 local readers = {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "clench/base/file.h"
+#include "clench/base/printable.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
@@ -77,9 +78,22 @@ static Json json_of(const GraspSpec& g) {
   return out;
 }
 
-// text that is no UTF-8 is no reason to lose the rest
+/// A line of JSON, whose control and bidirectional characters are escapes. Text that is not UTF-8
+/// is no reason to lose the rest.
 static std::string line_of(const Json& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out;
+  for (size_t i = 0, size = 0; i < text.size(); i += size) {
+    const size_t control = control_size(text, i);
+    size = std::max<size_t>(control, 1);
+    // such characters stand in strings alone
+    if (control)
+      out +=
+          fmt::format("\\u{:04x}", static_cast<uint32_t>(letters_of(text.substr(i, size)).front()));
+    else
+      out += text[i];
+  }
+  return out;
 }
 
 std::string grasp_line(const GraspSpec& grasp) { return line_of(json_of(grasp)); }

@@ -41,12 +41,16 @@ void World::add_keyframe(Keyframe keyframe) {
       q = std::clamp(q, low, high);
     }
   }
-  auto& all = edit_settings().keyframes;
-  const auto same = std::ranges::find(all, keyframe.name, &Keyframe::name);
-  if (same != all.end())
-    *same = std::move(keyframe);
-  else
-    all.push_back(std::move(keyframe));
+  WorldSettings& settings = edit_settings();
+  auto& all = settings.keyframes;
+  const auto same = settings.keyframe_numbers.find(keyframe.name);
+  if (same != settings.keyframe_numbers.end()) {
+    all[same->second] = std::move(keyframe);
+    return;
+  }
+  if (all.size() == all.capacity()) all.reserve(2 * all.size() + 1);
+  settings.keyframe_numbers.emplace(keyframe.name, all.size());
+  all.push_back(std::move(keyframe));
 }
 
 Keyframe World::current_keyframe(const std::string& name) const {
@@ -63,13 +67,14 @@ Keyframe World::current_keyframe(const std::string& name) const {
 }
 
 void World::set_keyframe(std::string_view name) {
-  const auto found = std::ranges::find(keyframes(), name, &Keyframe::name);
-  if (found == keyframes().end()) {
+  const auto number = settings_->keyframe_numbers.find(name);
+  if (number == settings_->keyframe_numbers.end()) {
     std::vector<std::string> names;
     for (const Keyframe& keyframe : keyframes()) names.push_back(keyframe.name);
     fail("no keyframe '{}' in this world{}", excerpt(name),
          names.empty() ? ", which has none" : instead_of(name, names));
   }
+  const Keyframe* found = &keyframes()[number->second];
   // one that is carried goes where its parent takes it
   for (const auto& placed : found->robots) {
     if (!alive(placed.robot)) continue;

@@ -67,16 +67,19 @@ bool World::alive(Id<Robot> id) const { return holds(model_->robots, id); }
 
 // --- names ---
 
+template <class T>
+static Id<T> find_name(const std::map<std::string, Id<T>, std::less<>>& names,
+                       std::string_view name) {
+  const auto found = names.find(name);
+  return found == names.end() ? Id<T>{} : found->second;
+}
+
 Id<Body> World::find_body(std::string_view name) const {
-  for (const auto id : bodies())
-    if (body(id).name == name) return id;
-  return {};
+  return find_name(model_->body_names, name);
 }
 
 Id<Robot> World::find_robot(std::string_view name) const {
-  for (const auto id : robots())
-    if (robot(id).name == name) return id;
-  return {};
+  return find_name(model_->robot_names, name);
 }
 
 std::string World::unique_name(const std::string& expected) {
@@ -94,7 +97,14 @@ void World::set_name(Id<Body> id, const std::string& name) {
   const Id<Body> holder = find_body(name);
   if ((holder && holder != id) || find_robot(name))
     fail("the name '{}' is taken in this world", excerpt(name));
-  edit(id).name = name;
+  WorldModel& model = edit_model();
+  std::string& current = model.bodies[id.index].value.name;
+  if (current == name) return;
+  // allocations first: where memory ends, the body keeps its name
+  std::string changed = name;
+  model.body_names[name] = id;
+  model.body_names.erase(current);
+  current.swap(changed);
 }
 
 // --- adding and removing ---
@@ -104,11 +114,13 @@ Id<Body> World::insert(Body body, Pose X_WB, const std::string& name) {
   if (!name.empty() && (find_body(name) || find_robot(name)))
     fail("the name '{}' is taken in this world", excerpt(name));
   body.name = name.empty() ? unique_name(body.name) : name;
-  const auto id = insert_slot(edit_model().bodies, std::move(body), next_serial());
+  Id<Body>& named = edit_model().body_names[body.name];
+  const auto id = insert_slot(model_->bodies, std::move(body), next_serial());
   // by index: where memory ends between the two, the next body still has the place of its own
   state_.X_WB.resize(id.index + 1);
   state_.X_WB[id.index] = X_WB;
   model_->body_order.push_back(id);
+  named = id;
   return id;
 }
 
@@ -182,8 +194,11 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
 
   // the robot first, so that its parts know it
   const size_t count = bodies().size();
-  const auto id = insert_slot(edit_model().robots, std::move(robot), next_serial());
+  const std::string own_name = robot.name;
+  Id<Robot>& named = edit_model().robot_names[own_name];
+  const auto id = insert_slot(model_->robots, std::move(robot), next_serial());
   model_->robot_order.push_back(id);
+  named = id;
   try {
     add_parts(id, spec, X_WB);
     place(id, X_WB);
@@ -191,6 +206,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
     while (bodies().size() > count) erase(bodies().back());
     edit_model().robots[id.index].used = false;
     model_->robot_order.pop_back();
+    model_->robot_names.erase(own_name);
     throw;
   }
   return id;
@@ -292,6 +308,7 @@ void World::unmount(Id<Robot> child) {
 void World::erase(Id<Body> id) {
   WorldModel& model = edit_model();
   model.bodies[id.index].used = false;
+  model.body_names.erase(model.bodies[id.index].value.name);
   model.bodies[id.index].value.shape.reset();
   std::erase(model.body_order, id);
   WorldSettings& settings = edit_settings();
@@ -326,8 +343,10 @@ void World::remove(Id<Robot> id) {
       if (const auto piece = robot(other).mounting->piece) erase(*piece);
       edit(other).mounting.reset();
     }
-  edit_model().robots[id.index].used = false;
-  std::erase(model_->robot_order, id);
+  WorldModel& model = edit_model();
+  model.robots[id.index].used = false;
+  model.robot_names.erase(model.robots[id.index].value.name);
+  std::erase(model.robot_order, id);
   edit_settings().dynamics.robots.erase(id);
 }
 

@@ -30,7 +30,8 @@ size_t WorldModel::bytes() const {
                bytes_of(robot_order) + bytes_of(source);
   for (const auto& slot : bodies) sum += bytes_of(slot.value);
   for (const auto& slot : robots) sum += bytes_of(slot.value);
-  return sum + counts.size() * (node_bytes + sizeof(std::string));
+  const size_t names = counts.size() + body_names.size() + robot_names.size();
+  return sum + names * (node_bytes + sizeof(std::string));
 }
 
 size_t WorldSettings::bytes() const {

@@ -35,6 +35,9 @@ struct WorldModel {
   std::vector<Id<Robot>> robot_order;
   std::string source;
   std::map<std::string, int> counts;  ///< how often a name was numbered
+  /// Ids by name; an empty id: no body or robot has the name.
+  std::map<std::string, Id<Body>, std::less<>> body_names;
+  std::map<std::string, Id<Robot>, std::less<>> robot_names;
 
   uint64_t stamp = 0;  ///< another one after each change, in all worlds of a family
 
@@ -54,6 +57,7 @@ struct WorldSettings {
   std::optional<Camera> camera;
   Eigen::Vector3d gravity{0, 0, -standard_gravity};  ///< in the world frame [m/s^2]
   std::vector<Keyframe> keyframes;                   ///< of different names
+  std::map<std::string, size_t, std::less<>> keyframe_numbers;  ///< in keyframes, by name
   DynamicSettings dynamics;
   uint64_t stamp = 0;  ///< as the model's
 

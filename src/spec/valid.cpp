@@ -67,13 +67,24 @@ void check_name(std::string_view name, std::string_view subject) {
   if (const auto fault = name_fault(name); !fault.empty()) fail("{}: name: {}", subject, fault);
 }
 
+/// Bytes at i that one '?' stands for: a control character, or a sequence that is not UTF-8.
+static size_t bad_length(std::string_view text, size_t i) {
+  if (const size_t control = control_size(text, i)) return control;
+  constexpr auto is_tail = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  const auto first = static_cast<unsigned char>(text[i]);
+  const size_t longest = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC0 ? 2 : 1;
+  size_t length = 1;
+  while (length < longest && i + length < text.size() && is_tail(text[i + length])) ++length;
+  return length;
+}
+
 std::string repaired_name(std::string_view name) {
   std::string out;
   for (size_t i = 0; i < name.size();) {
-    const size_t size = name_character(name, i), length = size ? size : 1;
-    if (out.size() + length > max_name_length) break;
+    const size_t size = name_character(name, i);
+    if (out.size() + std::max<size_t>(size, 1) > max_name_length) break;
     size ? out += name.substr(i, size) : out += '?';
-    i += length;
+    i += size ? size : bad_length(name, i);
   }
   return out;
 }

@@ -166,10 +166,11 @@ local function range_rows(ranges)
   return rows
 end
 
-local function print_ranges(heading, rows)
+local function print_ranges(heading, rows, more)
   if #rows == 0 then return end
   table.insert(rows, 1, {heading, "from", "to", "grasps"})
   columns(rows, "  ")
+  if more > 0 then say(("  and %d more"):format(more)) end
 end
 
 print_kind.grasps = function(list)
@@ -177,9 +178,9 @@ print_kind.grasps = function(list)
                             list.best_epsilon and ("; the largest epsilon %.4g"):format(list.best_epsilon) or ""))
   local rows = {}
   for i, dof in ipairs(list.dofs) do rows[i] = {dof.name, ("%.4g"):format(dof.low), ("%.4g"):format(dof.high), tostring(dof.count)} end
-  print_ranges("DOF [rad or m]", rows)
-  print_ranges("measure", range_rows(list.measures))
-  print_ranges("note", range_rows(list.notes))
+  print_ranges("DOF [rad or m]", rows, list.more.dofs)
+  print_ranges("measure", range_rows(list.measures), list.more.measures)
+  print_ranges("note", range_rows(list.notes), list.more.notes)
   if list.labels[1] then say("  labels " .. name_list(list.labels)) end
   local counts = list.counts
   for _, one in ipairs {{"with_contacts", "with contacts"}, {"with_pregrasp", "with a pregrasp"}, {"collision_free", "free of collisions"},

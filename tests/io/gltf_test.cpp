@@ -157,7 +157,7 @@ TEST_CASE("a small glTF file that places a mesh many times is refused") {
   };
   replace(R"("nodes": [0])", "\"nodes\": [" + numbers + "]");
   replace(R"({"children": [1]}, {"mesh": 0})", nodes);
-  CHECK_THROWS_WITH_AS(
-      read_gltf(text),
-      doctest::Contains("expected at most 1000000 triangles in a file of its size"), Error);
+  CHECK_THROWS_WITH_AS(read_gltf(text),
+                       doctest::Contains("expected at most 400000 triangles in a file of its size"),
+                       Error);
 }

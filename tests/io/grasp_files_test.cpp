@@ -276,6 +276,31 @@ TEST_CASE("lists of grasps in other formats that are none are refused in a sente
   refuse(list, "a.npz", "", "a.npz: grasps[1]: expected a pose, got none");
 }
 
+TEST_CASE("a table that is cut anywhere in its last row keeps the others, with a warning") {
+  const TemporaryFolder folder;
+  const std::string head = "hand,x [m],y [m],z [m],qw,qx,qy,qz,epsilon\n";
+  const std::string row = "\"a hand, cut\",0.5,0,0,1,0,0,0,0.25e-1\n";
+  const std::string first = head + row;
+  for (size_t end = first.size() + 1; end < first.size() + row.size(); ++end) {
+    const std::string text = (first + row).substr(0, end);
+    CAPTURE(text);
+    std::vector<std::string> warnings;
+    ReadOptions options;
+    options.warn = [&](const std::string& s) { warnings.push_back(s); };
+    const auto grasps = read_grasp_file(folder.write("a.csv", text), "", options);
+    // a row with all cells, the last empty or a number, may be complete
+    const size_t last_cell = first.size() + row.rfind(',') + 1;
+    const bool complete = text.size() >= last_cell && text.back() != 'e' && text.back() != '-';
+    CHECK(grasps.size() == (complete ? 2 : 1));
+    CHECK(warnings.size() == (complete ? 0 : 1));
+    if (!warnings.empty())
+      CHECK(warnings[0].starts_with("a.csv:3: the last line is cut short and is skipped, got "));
+  }
+  // of a list without a complete row, and in a row that has an end, it is an error
+  for (const std::string& text : {head + "\"a", head + "a,0.5", first + "a,0.5\n", first + "\"a\n"})
+    CHECK_THROWS_AS(read_grasp_file(folder.write("a.csv", text)), Error);
+}
+
 TEST_CASE("broken archives and texts end in a sentence, never in a crash") {
   Random random(9);
   const std::string npz =

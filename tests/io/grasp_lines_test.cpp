@@ -225,6 +225,21 @@ TEST_CASE("a list of grasps that is none is refused with its line, expected and 
   CHECK(read_grasps(folder.write("g.jsonl", list_head + "\r\n{" + whole + "}")).size() == 1);
 }
 
+TEST_CASE("control and bidirectional characters of names are escapes in a line") {
+  GraspSpec grasp;
+  grasp.hand_name =
+      "a\u202Eb\u0085\x7F\u2066\u2028"
+      "c";
+  grasp.labels["planner"] = "\u00e9\t";
+  const std::string line = grasp_line(grasp);
+  CHECK(line.find("\"hand\":\"a\\u202eb\\u0085\\u007f\\u2066\\u2028c\"") != std::string::npos);
+  CHECK(line.find("{\"planner\":\"\u00e9\\t\"}") != std::string::npos);
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.jsonl";
+  write_grasps({grasp}, path);
+  CHECK(read_grasps(path).front().hand_name == grasp.hand_name);
+}
+
 TEST_CASE(
     "a grasp that is written by hand may leave out joints and names the edges as a script does") {
   const TemporaryFolder folder;

@@ -120,5 +120,5 @@ TEST_CASE("parents collide if their filter is off, independently of later flags"
 
 TEST_CASE("replicas without contents count as elements") {
   CHECK_THROWS_WITH(ContactWorld("<worldbody><replicate count='2000000000'/></worldbody>"),
-                    "m.xml:1: expected at most 200000 elements made by replicate and attach");
+                    "m.xml:1: expected at most 100000 elements made by replicate and attach");
 }

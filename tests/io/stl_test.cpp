@@ -1,5 +1,7 @@
 #include "clench/io/mesh/mesh_readers.h"
 
+#include <algorithm>
+
 #include "clench/base/error.h"
 #include "mesh_writers.h"
 #include "support/meshes.h"
@@ -23,8 +25,19 @@ TEST_CASE("an STL file in capitals, in one line, or of several solids is read") 
   for (size_t i = line.find('\n') + 1; i < line.size(); ++i)
     if (line[i] == '\n') line[i] = ' ';
   CHECK(read_stl_text(line).shape->faults().none());
+  for (const std::string start : {"solid ", "solid a facet ", "solid part #3\n"}) {
+    std::string all = start + line.substr(line.find('\n') + 1);
+    CHECK(read_stl_text(all).shape->faults().none());
+  }
   const Mesh other = moved(mesh, {Eigen::Quaterniond::Identity(), {3, 0, 0}});
   CHECK(read_stl_text(text + "\n" + ascii_stl(other)).shape->mesh().triangles.size() == 24);
+  std::string both = text + " " + ascii_stl(other);
+  std::ranges::replace(both, '\n', ' ');
+  CHECK(read_stl_text(both).shape->mesh().triangles.size() == 24);
+  std::string returns = text;
+  for (size_t i = 0; (i = returns.find('\n', i)) != std::string::npos; i += 2)
+    returns.insert(i, 1, '\r');
+  CHECK(read_stl_text(returns).shape->faults().none());
 }
 
 TEST_CASE("an STL file has no colours") {
@@ -74,6 +87,8 @@ TEST_CASE("text around the facets of an ASCII STL file may be missing or longer 
       {"\n \t\r\n\n" + solid, 1, {}},
       {"\xEF\xBB\xBF" + solid, 1, {}},
       {"# made by hand\n#\n" + solid, 1, {}},
+      {"solid\n// a\n# b\n" + facet + "// c\nendsolid // d", 1, {}},
+      {"solid a\n\n" + facet.substr(0, 19) + "// n\n" + facet.substr(19) + "endsolid", 1, {}},
       {"\xEF\xBB\xBF\n#" + std::string(3000, '-') + "\n" + solid, 1, {}},
       {"// made by\n; a program\n" + solid, 1, {"q.stl:1: the text before 'solid' is not used"}},
   };

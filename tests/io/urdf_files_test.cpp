@@ -20,8 +20,10 @@ TEST_CASE("a mesh is found in any case and with either slash, by every scheme") 
   const TemporaryFolder folder;
   const std::string obj = read_text("tests/data/urdf/finger.obj");
   folder.write("arm_description/meshes/base_link.obj", obj);
-  const char* spellings[] = {"meshes/base_link.obj", "meshes/base_link.OBJ", "Meshes/Base_Link.obj",
-                             "meshes\\base_link.obj", "MESHES\\BASE_LINK.OBJ"};
+  const char* spellings[] = {
+      "meshes/base_link.obj",    "meshes/base_link.OBJ",   "Meshes/Base_Link.obj",
+      "meshes\\base_link.obj",   "MESHES\\BASE_LINK.OBJ",  "meshes//base_link.obj",
+      "meshes\\\\base_link.obj", "meshes/base%5Flink.obj", "./meshes/../meshes/base_link.obj "};
   ReadOptions within, above, named;
   within.packages[""] = folder.path() / "arm_description";
   above.packages[""] = folder.path();
@@ -43,6 +45,34 @@ TEST_CASE("a mesh is found in any case and with either slash, by every scheme") 
           CHECK(ToldRobot(file, options).robot.base.shape);
         fs::remove(file);
       }
+}
+
+TEST_CASE("file:// names an absolute path, with a host or without") {
+  const TemporaryFolder folder;
+  folder.write("a b/part.obj", "");
+  const std::string path = fs::absolute(folder.path() / "a b/part.obj").string();
+  std::string escaped = path;
+  escaped.replace(escaped.find(' '), 1, "%20");
+  for (const std::string scheme : {"file://", "file:", "FILE://", "file://localhost", "file:///"})
+    for (const std::string& name : {path, escaped}) {
+      CAPTURE(scheme + name);
+      CHECK(fs::equivalent(find_robot_file(scheme + name, "r.urdf", {}), path));
+    }
+}
+
+TEST_CASE("a path behind a package stays within the package") {
+  const TemporaryFolder folder;
+  folder.write("arm/part.obj", "");
+  const std::string outside = fs::absolute(folder.write("part.stl", "")).string();
+  const fs::path file = folder.path() / "r.urdf";
+  CHECK_THROWS_WITH_AS(find_robot_file("package://arm/" + outside, file, {}),
+                       doctest::Contains("no such file in package 'arm': "), Error);
+  ReadOptions given;
+  given.packages["Arm"] = folder.path() / "arm";
+  CHECK(fs::equivalent(find_robot_file("package://arm//part.obj", file, given),
+                       folder.path() / "arm/part.obj"));
+  CHECK_THROWS_WITH_AS(find_robot_file("package:///", file, {}),
+                       "expected package://PACKAGE/FILE, got 'package:///'", Error);
 }
 
 TEST_CASE("an exact name goes before one in another case, wherever it lies") {

@@ -209,3 +209,15 @@ test("what a robot has and nothing acts on is kept, and told", function(t)
   t.ok(sensor.link == hand.links[1])
   t.close(sensor.high, {0.001, 0.002, 0.003}, 1e-18)
 end)
+
+test("of many DOFs of a list of grasps the first are listed, and the others counted", function(t)
+  for _, named in ipairs {true, false} do
+    local names, row = {"x [m],y [m],z [m],qw,qx,qy,qz"}, {"0,0,0,1,0,0,0"}
+    for i = 1, 130 do names[#names + 1], row[#row + 1] = (named and "dof d%d [rad]" or "dof_%d [rad]"):format(i), "0." .. i end
+    local r = report.of(test.path(".csv", table.concat(names, ",") .. "\n" .. (table.concat(row, ",") .. "\n"):rep(2)))
+    t.equal(r.error, nil)
+    t.equal(#r.parsed.dofs, 100)
+    t.equal(r.parsed.more, {dofs = 30, measures = 0, notes = 0})
+    t.equal(r.parsed.dofs[100], {name = named and "d100" or "DOF 100", low = 0.1, high = 0.1, count = 2})
+  end
+end)

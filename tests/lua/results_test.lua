@@ -173,3 +173,7 @@ test("bars over names, and charts, are saved as PNG and as SVG", function(t)
   t.fails(function() clench.plot {categories = {}, series = {{y = {1}}}} end, "categories: expected at least one, got none")
   t.fails(function() clench.plot {categories = {1}, series = {{y = {1}}}} end, "categories[1]: expected a string, got 1")
 end)
+
+test("a table whose values take far more memory than its text is refused", function(t)
+  with_file(("1\n"):rep(1000000), function(path) t.fails(function() csv.read(path) end, "its contents take more than 102 MB of memory: 20 times the file and 64 MB") end)
+end)

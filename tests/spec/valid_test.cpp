@@ -249,7 +249,12 @@ TEST_CASE("a name has no control characters, is UTF-8 and not too long") {
 TEST_CASE("a name from a file is repaired, and is a name then") {
   CHECK(repaired_name("a\nb\xFF"
                       "c\xC2\x9B"
-                      "d") == "a?b?c??d");
+                      "d") == "a?b?c?d");
+  // one '?' for a character that is obeyed, a surrogate, and each byte that begins nothing
+  CHECK(repaired_name("a\xE2\x80\xAE"
+                      "b\xED\xA0\x80"
+                      "c\xE2\x80") == "a?b?c?");
+  CHECK(repaired_name("\x80\x80") == "??");
   CHECK(repaired_name("Gr\xC3\xBC\xC3\x9F"
                       "e") ==
         "Gr\xC3\xBC\xC3\x9F"

@@ -5,6 +5,7 @@
 #include "clench/base/file.h"
 #include "clench/base/text.h"
 #include "clench/base/units.h"
+#include "clench/io/text/named_number.h"
 #include "clench/io/text/number_reader.h"
 
 namespace clench {
@@ -111,15 +112,11 @@ void write_planned_grasps(const std::vector<GraspSpec>& grasps, const fs::path& 
 }
 
 std::string planned_grasps_text(const std::vector<GraspSpec>& grasps, const std::string& file) {
-  const auto note = [](const std::map<std::string, double>& named, const char* name, double other) {
-    const auto found = named.find(name);
-    return found == named.end() ? other : found->second;
-  };
   std::string out;
   int run = 0;
   for (const GraspSpec& g : grasps) {
     if (!g.X_OH) fail("{}: expected grasps with a pose, got one without", file);
-    const double number = note(g.info, "run", 1);
+    const double number = number_of(g.info, "run", 1);
     // a run is a line of the file
     if (!(number >= 1 && number <= max_runs))
       fail("{}: info.run: expected a number from 1 to {}, got {}", file, max_runs, number);
@@ -128,9 +125,9 @@ std::string planned_grasps_text(const std::vector<GraspSpec>& grasps, const std:
     for (; run < of; ++run) out += fmt::format("{}\n", run_mark);
     const Vector3d p = g.X_OH->position / units::millimetre;
     const Eigen::Quaterniond& q = g.X_OH->rotation;
-    out +=
-        fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(),
-                    note(g.info, "spread", 0) / units::degree, note(g.measures, "quality", 0));
+    out += fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+                       q.z(), number_of(g.info, "spread", 0) / units::degree,
+                       number_of(g.measures, "quality", 0));
   }
   return out;
 }

@@ -133,7 +133,11 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
                  *seed = of_grasps("seed", false), *free = of_grasps("collision_free", false),
                  *hands = of_grasps("hands", true), *objects = of_grasps("objects", true),
                  *planners = of_grasps("planners", true);
-  GraspCollector list(file, bytes.size(), sink);
+  // a file of float32 counts as the same one of float64: its grasps take as much
+  size_t numbers = 0;
+  for (const NpyArray* a : {poses, dofs}) numbers += a ? a->numbers.size() : 0;
+  const size_t size = std::max(bytes.size(), std::min(2 * bytes.size(), 8 * numbers));
+  GraspCollector list(file, size, sink);
   list.expect(n);
   for (size_t i = 0; i < n; ++i) {
     options.progress.check();
@@ -162,9 +166,12 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
   static const std::vector<std::string> known = {
       "poses", "dofs",           "dof_names", "dof_units", "epsilon", "energy",
       "seed",  "collision_free", "hands",     "objects",   "planners"};
+  std::vector<std::string> unused;
   for (const auto& [name, array] : arrays)
-    if (options.warn && std::find(known.begin(), known.end(), name) == known.end())
-      options.warn(fmt::format("{}: the array {} is not used", file, in_quotes(name)));
+    if (std::ranges::find(known, name) == known.end()) unused.push_back(in_quotes(name));
+  if (!unused.empty() && options.warn)
+    options.warn(fmt::format("{}: the array{} {} {} not used", file, unused.size() > 1 ? "s" : "",
+                             name_list(unused), unused.size() > 1 ? "are" : "is"));
 }
 
 }  // namespace clench

@@ -188,6 +188,13 @@ class TableReader {
       options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
   }
 
+  /// Are there fewer cells than columns, or is the last one the beginning of a number?
+  bool lacks_cells(const CsvRecord& record) const {
+    const std::string& last = record.cells.back().text;
+    return record.cells.size() < columns_.size() ||
+           (!last.empty() && !parse_number(last) && parse_number(last + "1"));
+  }
+
   GraspSpec read(const CsvRecord& record) const {
     if (record.cells.size() != columns_.size())
       fail("{}:{}: expected {} cells, got {}", file_, record.line, columns_.size(),
@@ -289,6 +296,13 @@ class TableReader {
 
 }  // namespace
 
+static void warn_of_cut_row(const std::string& file, const CsvRecord& record,
+                            const ReadOptions& options) {
+  if (!options.warn) return;
+  options.warn(fmt::format("{}:{}: the last line is cut short and is skipped, got {}", file,
+                           record.line, in_quotes(record.cells.front().text)));
+}
+
 void read_grasp_table(const std::string& file, std::string_view text, const GraspSink& sink,
                       const ReadOptions& options) {
   CsvReader reader(file, text);
@@ -304,9 +318,21 @@ void read_grasp_table(const std::string& file, std::string_view text, const Gras
   const TableReader table(file, record, options);
   // a row has at least the commas between the numbers of a pose
   list.expect(text.size() / std::size(pose_columns));
-  while (reader.next(record)) {
+  // a program that was killed, or a full disk, leaves the beginning of a row
+  size_t rows = 0;
+  const auto is_cut = [&] { return rows > 0 && reader.ends_in_open_line(); };
+  for (;; ++rows) {
     options.progress.check();
-    if (!record.is_empty()) list.add(table.read(record));
+    try {
+      while ((more = reader.next(record)) && record.is_empty()) {
+      }
+    } catch (const Error&) {
+      if (!is_cut()) throw;
+      return warn_of_cut_row(file, record, options);
+    }
+    if (!more) return;
+    if (table.lacks_cells(record) && is_cut()) return warn_of_cut_row(file, record, options);
+    list.add(table.read(record));
   }
 }
 

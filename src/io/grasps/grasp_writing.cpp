@@ -32,12 +32,6 @@ std::vector<std::string> dof_names_of(const GraspSpec& grasp) {
   return names;
 }
 
-double number_of(const std::map<std::string, double>& named, const std::string& name,
-                 double other) {
-  const auto found = named.find(name);
-  return found == named.end() ? other : found->second;
-}
-
 void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const std::string& file,
                  const std::string& format, const WriteOptions& options) {
   const auto any = [&](auto has) { return std::ranges::any_of(grasps, has); };

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "clench/io/text/named_number.h"
 #include "clench/io/text/write_options.h"
 #include "clench/spec/grasp_spec.h"
 
@@ -18,9 +19,6 @@ std::vector<double> pose_numbers(const Pose& pose);
 
 /// Names of the DOFs, "dof1" where none is known.
 std::vector<std::string> dof_names_of(const GraspSpec& grasp);
-
-/// A measure or note by its name, else `other`.
-double number_of(const std::map<std::string, double>& named, const std::string& name, double other);
 
 /// What a format can hold beside poses.
 struct Holds {

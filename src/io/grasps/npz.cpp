@@ -11,7 +11,9 @@
 
 namespace clench {
 
-static constexpr size_t max_empty = 100'000;  // of an array that holds nothing, rows or columns
+// of a row of an array that holds no numbers: a caller makes a list of it
+static constexpr size_t empty_row_bytes = 64;
+static constexpr size_t max_indices = 32;  // as NumPy
 static constexpr std::string_view npy_mark = "\x93NUMPY";
 static constexpr uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
 
@@ -126,6 +128,75 @@ static std::string_view head_value(std::string_view head, std::string_view key) 
                                        : rest.substr(0, open == '(' ? end + 1 : end);
 }
 
+static std::vector<size_t> read_shape(const std::string& place, std::string_view shape) {
+  std::vector<size_t> out;
+  if (shape.size() < 2 || shape.front() != '(')
+    fail("{}: expected a shape of whole numbers, got {}", place, in_quotes(shape));
+  for (const auto word : split_words(shape.substr(1, shape.size() - 2), ",")) {
+    const auto n = parse_integer(word);
+    if (!n || *n < 0)
+      fail("{}: expected a shape of whole numbers, got {}", place, in_quotes(shape));
+    if (out.size() == max_indices)
+      fail("{}: expected a shape of at most {} numbers, got {}", place, max_indices,
+           in_quotes(shape));
+    out.push_back(static_cast<size_t>(*n));
+  }
+  return out;
+}
+
+/// Numbers that an array of the shape holds; `bytes` + 1 for more than those.
+static size_t count_of(const std::vector<size_t>& shape, size_t bytes) {
+  if (std::ranges::find(shape, size_t{0}) != shape.end()) return 0;
+  size_t count = 1;
+  for (const size_t n : shape) {
+    if (count > bytes / n) return bytes + 1;
+    count *= n;
+  }
+  return count;
+}
+
+/// Counts the rows of an array without numbers, those before its first index of 0.
+static void take_empty_rows(const std::vector<size_t>& shape, const std::string& place,
+                            MemoryBudget& budget) {
+  size_t rows = 1;
+  for (const size_t n : shape) {
+    if (n == 0) break;
+    if (n > budget.left() / empty_row_bytes / rows)
+      fail(ErrorKind::limit, "{}: expected at most {} rows without numbers, got {} or more", place,
+           budget.left() / empty_row_bytes, n);
+    rows *= n;
+  }
+  budget.take(rows * empty_row_bytes);
+}
+
+/// Reorders an array of Fortran's order, whose first index runs fastest.
+static void make_last_index_fastest(NpyArray& array, MemoryBudget& budget) {
+  const size_t count = array.is_text ? array.texts.size() : array.numbers.size();
+  if (count == 0 || array.shape.size() < 2) return;
+  const size_t indices = array.shape.size();
+  // places in the file between neighbours along each index
+  std::vector<size_t> strides(indices, 1), index(indices, 0);
+  for (size_t k = 1; k < indices; ++k) strides[k] = strides[k - 1] * array.shape[k - 1];
+  budget.take(count * (array.is_text ? sizeof(std::string) : sizeof(double)));
+  NpyArray out{.shape = array.shape, .is_text = array.is_text};
+  out.numbers.reserve(array.numbers.size());
+  out.texts.reserve(array.texts.size());
+  size_t from = 0;
+  for (size_t i = 0; i < count; ++i) {
+    if (array.is_text)
+      out.texts.push_back(std::move(array.texts[from]));
+    else
+      out.numbers.push_back(array.numbers[from]);
+    for (size_t k = indices; k-- > 0;) {
+      from += strides[k];
+      if (++index[k] < array.shape[k]) break;
+      from -= strides[k] * index[k];
+      index[k] = 0;
+    }
+  }
+  array = std::move(out);
+}
+
 static NpyArray read_npy(const std::string& place, std::string_view bytes, MemoryBudget& budget) {
   if (bytes.size() < 12 || !bytes.starts_with(npy_mark))
     fail("{}: expected an array of NumPy, got other bytes", place);
@@ -142,18 +213,11 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes, Memor
   if (type.size() < 5 || type.front() != '\'' || shape.empty())
     fail("{}: expected a head with type and shape, got {}", place, in_quotes(head));
   type = trim(type.substr(1, type.size() - 2));
-  if (order != "False") fail("{}: arrays in Fortran's order are not read", place);
+  if (order != "False" && order != "True")
+    fail("{}: expected a head with 'fortran_order' True or False, got {}", place, in_quotes(order));
   NpyArray out;
-  size_t count = 1;
-  for (const auto word : split_words(shape.substr(1, shape.size() - 2), ",")) {
-    const auto n = parse_integer(word);
-    if (!n || *n < 0)
-      fail("{}: expected a shape of whole numbers, got {}", place, in_quotes(shape));
-    out.shape.push_back(static_cast<size_t>(*n));
-    if (*n > 0 && count > bytes.size() / static_cast<size_t>(*n))
-      fail("{}: the array ends before its shape {} does", place, excerpt(shape));
-    count *= static_cast<size_t>(*n);
-  }
+  out.shape = read_shape(place, shape);
+  const size_t count = count_of(out.shape, bytes.size());
   const char kind = type.size() > 1 ? type[1] : '\0';
   const auto width = parse_integer(type.substr(std::min<size_t>(2, type.size())));
   const bool number = (kind == 'f' && width && (*width == 4 || *width == 8)) ||
@@ -167,9 +231,7 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes, Memor
   if (each > 0 ? reader.left() / each < count : count > 0)
     fail("{}: the array ends before its shape {} does", place, excerpt(shape));
   out.is_text = kind == 'U';
-  // an empty array has no rows that a caller would make
-  if (count == 0 && std::ranges::any_of(out.shape, [](size_t n) { return n > max_empty; }))
-    fail("{}: expected a shape of numbers, got {}", place, excerpt(shape));
+  if (count == 0) take_empty_rows(out.shape, place, budget);
   budget.take(count * (out.is_text ? sizeof(std::string) + each : sizeof(double)));
   if (out.is_text)
     out.texts.reserve(count);
@@ -185,6 +247,7 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes, Memor
       if (const auto code = reader.next<uint32_t>(); code > 0 && code < 0x110000)
         text += text_of(std::u32string(1, code));
   }
+  if (order == "True") make_last_index_fastest(out, budget);
   return out;
 }
 

@@ -83,6 +83,7 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   report.unit_source = options.mesh_scale ? UnitSource::option : UnitSource::format;
 
   const InventorGraph graph = read_inventor_graph(path, text, options);
+  builder.limit_to(graph.bytes);
   bool own_colors = false;
   InventorWalk walk;
   walk.shape = [&](const InventorNode& shape, const InventorState& state) {

@@ -37,6 +37,7 @@ class InventorLoader {
 
 const InventorNode* InventorLoader::load(const fs::path& path, const std::string& text) {
   graph_.files.push_back(path.filename().string());
+  graph_.bytes += text.size();
   open_.push_back(fs::weakly_canonical(path));
   const int file = static_cast<int>(graph_.files.size()) - 1;
   InventorParser parser(text, file, graph_, budget_, [&](const std::string& name, int line) {

@@ -43,6 +43,7 @@ struct InventorGraph {
   std::deque<InventorNode> nodes;
   const InventorNode* root = nullptr;
   std::deque<std::string> files;  ///< names, the first that of the file itself
+  size_t bytes = 0;               ///< of all files, each counted once
   InventorWarnings warnings;      ///< of what is not used
   InventorWarnings repairs;       ///< of what was wrong and is read all the same
 

@@ -191,7 +191,7 @@ int GeometryBuilder::add_vertex(const Vector3d& p, int line) {
 }
 
 void GeometryBuilder::limit_to(size_t file_bytes) {
-  max_triangles_ = std::clamp(file_bytes / 4, size_t{1'000'000}, max_mesh_triangles);
+  max_triangles_ = std::clamp(file_bytes / 4, size_t{400'000}, max_mesh_triangles);
   max_vertices_ = 3 * max_triangles_;
 }
 

@@ -38,7 +38,7 @@ class GeometryBuilder {
   /// throws  Error when it has too many corners, or all faces so far take too long
   std::vector<Triangle> cut(const std::vector<Eigen::Vector3d>& outline, bool convex = false);
 
-  /// Limits triangles to a quarter of the file's bytes, but to no less than a million: parts that a
+  /// Limits triangles to a quarter of the file's bytes, but to no less than 400,000: parts that a
   /// small file places many times could ask for any number. Vertices are limited to three times that.
   void limit_to(size_t file_bytes);
 

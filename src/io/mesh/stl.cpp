@@ -55,9 +55,18 @@ void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& c
   builder.add(corners, Appearance().color, 0, line);
 }
 
-/// A word, wherever the next one stands.
+/// The next word in lower case, behind comments; empty at the end of the file.
+std::string next_word(WordReader& words) {
+  std::string_view word = words.word_anywhere();
+  while (word.starts_with("//")) {
+    words.rest();
+    word = words.word_anywhere();
+  }
+  return lower_case(word);
+}
+
 std::string expect(WordReader& words, std::string_view expected) {
-  std::string word = lower_case(words.word_anywhere());
+  std::string word = next_word(words);
   if (word.empty()) words.fail("expected {}, got the end of the file", expected);
   return word;
 }
@@ -76,7 +85,7 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
     if (word != "vertex") words.fail("expected 'vertex' or 'endloop', got {}", in_quotes(word));
     if (count == 3) words.fail("expected three vertices a facet, got more");
     for (double& x : corners[count]) {
-      const auto text = words.word_anywhere();
+      const std::string text = next_word(words);
       const auto value = parse_number(text);
       if (!value) words.fail("expected three numbers after vertex, got {}", in_quotes(text));
       x = *value;
@@ -85,14 +94,24 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
   add_facet(builder, corners, words.line());
 }
 
+/// From the normal on, which some programs write as no number.
 void read_facet(WordReader& words, GeometryBuilder& builder) {
-  // the normal, which some programs write as no number
-  if (lower_case(words.word_anywhere()) != "normal") words.fail("expected 'normal' after facet");
   for (int i = 0; i < 3; ++i) expect(words, "a normal");
   expect_word(words, "outer");
   expect_word(words, "loop");
   read_loop(words, builder);
   expect_word(words, "endfacet");
+}
+
+/// Steps over the name of a solid to the end of its line, or behind "facet normal" on that line.
+/// returns  does a facet begin there?
+bool skip_name(WordReader& words) {
+  bool is_facet = false;
+  for (std::string word; !(word = lower_case(words.word())).empty();) {
+    if (is_facet && word == "normal") return true;
+    is_facet = word == "facet";
+  }
+  return false;
 }
 
 /// Steps over the lines before the first solid.
@@ -102,7 +121,7 @@ std::string first_solid(const MeshInput& input, WordReader& words) {
   input.warn(fmt::format("{}: the text before 'solid' is not used", words.place()));
   while (!begins_solid(word) && !word.empty()) {
     words.rest();
-    word = lower_case(words.word_anywhere());
+    word = next_word(words);
   }
   return word;
 }
@@ -117,20 +136,23 @@ void read_ascii(const MeshInput& input, WordReader& words, GeometryBuilder& buil
   bool open = false;
   std::string word = first_solid(input, words);
   if (word == "facet") repair("solid", word, "begins"), open = true;
-  for (; !word.empty(); word = lower_case(words.word_anywhere())) {
+  for (; !word.empty(); word = next_word(words)) {
+    bool begins_facet = false;
     if (word == "solid") {
       if (open) repair("endsolid", word, "ends");
       open = true;
-      words.rest();  // its name
+      begins_facet = skip_name(words);
     } else if (word == "endsolid" && open) {
-      open = false;
-      words.rest();
+      // another solid may follow on the same line
+      open = begins_facet = skip_name(words);
     } else if (word == "facet" && open) {
-      read_facet(words, builder);
+      if (next_word(words) != "normal") words.fail("expected 'normal' after facet");
+      begins_facet = true;
     } else {
       words.fail("expected {}, got {}", open ? "'facet' or 'endsolid'" : "'solid'",
                  in_quotes(word));
     }
+    if (begins_facet) read_facet(words, builder);
   }
   if (open) repair("endsolid", "", "ends");
 }

@@ -19,18 +19,25 @@ namespace {
 
 constexpr uint32_t lines_between_checks = 1 << 12;
 
-std::string obj_text(const Mesh& mesh) {
-  std::string out = "# metres\n";
+/// Appends a line per vertex and per triangle, each behind its prefix.
+/// first  number of the first vertex
+void append_lines(std::string& out, const Mesh& mesh, std::string_view vertex,
+                  std::string_view triangle, int first) {
   const auto to = std::back_inserter(out);
   StopCheck check(lines_between_checks);
   for (const auto& p : mesh.vertices) {
     check();
-    fmt::format_to(to, "v {} {} {}\n", p.x(), p.y(), p.z());
+    fmt::format_to(to, "{}{} {} {}\n", vertex, p.x(), p.y(), p.z());
   }
   for (const auto& t : mesh.triangles) {
     check();
-    fmt::format_to(to, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    fmt::format_to(to, "{}{} {} {}\n", triangle, t[0] + first, t[1] + first, t[2] + first);
   }
+}
+
+std::string obj_text(const Mesh& mesh) {
+  std::string out = "# metres\n";
+  append_lines(out, mesh, "v ", "f ", 1);
   return out;
 }
 
@@ -84,16 +91,7 @@ constexpr std::string_view written_endings[] = {".obj", ".off", ".ply", ".stl"};
 
 std::string off_text(const Mesh& mesh) {
   std::string out = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
-  const auto to = std::back_inserter(out);
-  StopCheck check(lines_between_checks);
-  for (const auto& p : mesh.vertices) {
-    check();
-    fmt::format_to(to, "{} {} {}\n", p.x(), p.y(), p.z());
-  }
-  for (const auto& t : mesh.triangles) {
-    check();
-    fmt::format_to(to, "3 {} {} {}\n", t[0], t[1], t[2]);
-  }
+  append_lines(out, mesh, "", "3 ", 0);
   return out;
 }
 

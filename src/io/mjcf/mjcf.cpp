@@ -47,7 +47,7 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache, bool& fixed_base) {
         fmt::format("{}: these bodies are read as one robot: {}; the option 'body' reads "
                     "one of them, and clench.load a world with all of them",
                     model.document().file(), name_list(trees)));
-  MjcfTreeReader reader(model.document(), model.geoms(), cache, "robot");
+  MjcfTreeReader reader(model.document(), model.geoms(), model.names(), cache, "robot");
   fixed_base = true;
   if (bodies.size() == 1 && !bodies.front().own_joints) {
     fixed_base = !bodies.front().free && !bodies.front().mocap;
@@ -68,7 +68,7 @@ RobotSpec read_robot_mjcf(const fs::path& path, FileCache& cache) {
   tell_world_geoms(model.worldbody(), cache);
   bool fixed_base = true;
   MjcfTree tree = read_one_robot(model, cache, fixed_base);
-  RobotSpec robot = model.make(std::move(tree), model.name(), {}, true, fixed_base).robot;
+  RobotSpec robot = model.make(std::move(tree), model.name(), nullptr, true, fixed_base).robot;
   model.tell();
   return robot;
 }

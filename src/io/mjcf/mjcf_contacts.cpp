@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
@@ -29,41 +30,66 @@ MjcfContacts::MjcfContacts(MjcfDocument& document, const FileCache& cache)
   }
 }
 
-bool MjcfContacts::listed(const MjcfGeom& a, const MjcfGeom& b) const {
-  return a.paired && b.paired && listed_.contains(in_order(a.name, b.name));
+// --- bits ---
+
+static bool collide(unsigned type_a, unsigned affinity_a, unsigned type_b, unsigned affinity_b) {
+  return (type_a & affinity_b) || (type_b & affinity_a);
 }
 
-bool MjcfContacts::collide(const MjcfGeom& a, const MjcfGeom& b) const {
-  return (a.type & b.affinity) || (b.type & a.affinity) || listed(a, b);
+MjcfBits::MjcfBits(const std::vector<MjcfGeom>& geoms) {
+  std::map<std::pair<unsigned, unsigned>, size_t> counts;
+  for (const MjcfGeom& geom : geoms) {
+    if (!geom.collides()) continue;
+    ++counts[{geom.type, geom.affinity}];
+    type |= geom.type, affinity |= geom.affinity;
+  }
+  for (const auto& [bits, count] : counts) kinds.push_back({bits.first, bits.second, count});
 }
 
-bool MjcfContacts::listed(const std::vector<MjcfGeom>& a, const std::vector<MjcfGeom>& b) const {
-  return !pairs_.empty() && std::ranges::any_of(a, [&](const MjcfGeom& g) {
-    return g.paired && std::ranges::any_of(b, [&](const MjcfGeom& h) { return listed(g, h); });
-  });
+void MjcfNamedPairs::add(const std::string& a, const std::string& b) {
+  constexpr size_t max_named = 200;  // a message has no room for more
+  if (++count_ <= max_named) first_.push_back(fmt::format("'{}' and '{}'", excerpt(a), excerpt(b)));
 }
 
-bool MjcfContacts::collide(const std::vector<MjcfGeom>& a, const std::vector<MjcfGeom>& b,
+bool MjcfContacts::collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
                            const std::string& name_a, const std::string& name_b) {
-  // geoms with the same bits are equivalent, except those of pairs
-  const auto kinds = [](const std::vector<MjcfGeom>& geoms) {
-    std::vector<const MjcfGeom*> out;
-    const auto alike = [](const MjcfGeom& x, const MjcfGeom& y) {
-      return !x.paired && !y.paired && x.type == y.type && x.affinity == y.affinity;
-    };
-    for (const MjcfGeom& geom : geoms)
-      if (geom.collides() &&
-          std::ranges::none_of(out, [&](const MjcfGeom* g) { return alike(*g, geom); }))
-        out.push_back(&geom);
-    return out;
-  };
-  bool any = false, all = true;
-  const auto kinds_b = kinds(b);
-  for (const MjcfGeom* g : kinds(a))
-    for (const MjcfGeom* h : kinds_b) (collide(*g, *h) ? any : all) = collide(*g, *h);
-  if (any && !all) mixed_.push_back(fmt::format("'{}' and '{}'", excerpt(name_a), excerpt(name_b)));
-  return any;
+  if (!listed && !clench::collide(a.type, a.affinity, b.type, b.affinity)) return false;
+  if (!listed && a.kinds.size() == 1 && b.kinds.size() == 1) return true;
+  size_t apart = 0;
+  for (const MjcfBits::Kind& x : a.kinds)
+    for (const MjcfBits::Kind& y : b.kinds)
+      if (!clench::collide(x.type, x.affinity, y.type, y.affinity)) apart += x.count * y.count;
+  if (apart > (listed ? *listed : 0)) mixed_.add(name_a, name_b);
+  return true;
 }
+
+// --- listed pairs ---
+
+MjcfListedBodies MjcfContacts::listed(
+    const std::vector<const std::vector<MjcfGeom>*>& bodies) const {
+  constexpr size_t max_listed = 1'000'000;
+  MjcfListedBodies out;
+  if (pairs_.empty()) return out;
+  std::map<std::string_view, std::vector<std::pair<size_t, const MjcfGeom*>>> named;
+  for (size_t i = 0; i < bodies.size(); ++i)
+    for (const MjcfGeom& geom : *bodies[i])
+      if (geom.paired) named[geom.name].emplace_back(i, &geom);
+  size_t count = 0;
+  StopCheck check(1 << 10);
+  for (const auto& [first, second] : listed_)
+    for (const auto& [i, g] : named[first])
+      for (const auto& [j, h] : named[second]) {
+        check();
+        if (++count > max_listed)
+          fail("{}: pair: expected at most {} pairs of geoms, those of one name counted each",
+               document_.file(), max_listed);
+        if (i == j) continue;
+        out[std::minmax(i, j)] += !clench::collide(g->type, g->affinity, h->type, h->affinity);
+      }
+  return out;
+}
+
+// --- links of one robot ---
 
 void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
   TreeModel& model = tree.model;
@@ -85,11 +111,20 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
     return out;
   }();
   model.never_meet.clear();
+  std::vector<MjcfBits> bits;
+  std::vector<const std::vector<MjcfGeom>*> geoms;
+  for (const auto& of_link : tree.geoms) {
+    bits.emplace_back(of_link);
+    geoms.push_back(&of_link);
+  }
+  const MjcfListedBodies listed_links = listed(geoms);
   int apart = 0;
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j) {
+      check_stop();
       const bool is_excluded = excluded.contains({i, j});
-      const bool are_listed = listed(tree.geoms[i], tree.geoms[j]);
+      const auto found = listed_links.find({i, j});
+      const bool are_listed = found != listed_links.end();
       if (!model.links[i].body.shape || !model.links[j].body.shape) {
         if (is_excluded) model.never_meet.emplace_back(i, j);
         continue;
@@ -97,14 +132,14 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
       const bool ground = fixed_base && (piece[i] == 0 || piece[j] == 0);
       const bool carries = carrier[i] == piece[j] || carrier[j] == piece[i];
       const bool one = piece[i] == piece[j];
-      const bool bits =
-          collide(tree.geoms[i], tree.geoms[j], model.links[i].body.name, model.links[j].body.name);
+      const bool may_collide = collide(bits[i], bits[j], are_listed ? &found->second : nullptr,
+                                       model.links[i].body.name, model.links[j].body.name);
       const bool filtered = is_excluded || (filter_parents_ && carries && !ground);
-      const bool off = !bits || (filtered && !are_listed);
-      apart += !bits;
+      const bool off = !may_collide || (filtered && !are_listed);
+      apart += !may_collide;
       const bool neighbours = neighbour[j] == i;
       // links fixed to each other never move relative to each other
-      if (!bits || (off && is_excluded) || (off && !neighbours && !one))
+      if (!may_collide || (off && is_excluded) || (off && !neighbours && !one))
         model.never_meet.emplace_back(i, j);
       else if (!off && neighbours && !one)
         model.always_meet.emplace_back(i, j);
@@ -116,12 +151,12 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
 }
 
 void MjcfContacts::tell(const std::function<bool(const std::string&)>& is_read) {
-  if (!mixed_.empty())
+  if (mixed_.size() > 0)
     cache_.warn(
         fmt::format("{}: contype, conaffinity or <pair> let only some geoms of these "
                     "bodies collide; here all of them do: {}",
                     document_.file(), name_list(mixed_)));
-  mixed_.clear();
+  mixed_ = {};
   std::vector<std::string> lost, rough;
   for (const MjcfPair& pair : pairs_) {
     const std::string names =

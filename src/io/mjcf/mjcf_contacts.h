@@ -1,7 +1,10 @@
 // Collision filters of an MJCF model: bits, <pair>, <exclude>, and the filter of parents.
 #pragma once
 #include <functional>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "clench/io/mjcf/mjcf_tree.h"
 
@@ -13,19 +16,47 @@ struct MjcfPair {
   std::array<std::string, 2> geoms;
 };
 
+/// Collision bits of the geoms of a body, of those that collide.
+struct MjcfBits {
+  struct Kind {
+    unsigned type = 0, affinity = 0;
+    size_t count = 0;
+  };
+  std::vector<Kind> kinds;          ///< of different bits
+  unsigned type = 0, affinity = 0;  ///< bits of any of them
+  explicit MjcfBits(const std::vector<MjcfGeom>& geoms);
+};
+
+/// Pairs of bodies, by their numbers in a list, the smaller first, of which a <pair> lists geoms;
+/// and how many such pairs of geoms their bits would keep apart.
+using MjcfListedBodies = std::map<std::pair<size_t, size_t>, size_t>;
+
+/// The first names of a list that may be long, and how many there are.
+class MjcfNamedPairs {
+ public:
+  void add(const std::string& a, const std::string& b);
+  size_t size() const { return count_; }
+  auto begin() const { return first_.begin(); }
+  auto end() const { return first_.end(); }
+
+ private:
+  std::vector<std::string> first_;
+  size_t count_ = 0;
+};
+
 class MjcfContacts {
  public:
   MjcfContacts(MjcfDocument& document, const FileCache& cache);
 
   const std::vector<MjcfPair>& pairs() const { return pairs_; }
-  bool listed(const MjcfGeom& a, const MjcfGeom& b) const;  ///< in a <pair>?
-  bool collide(const MjcfGeom& a, const MjcfGeom& b) const;
+  /// bodies  the geoms of each
+  MjcfListedBodies listed(const std::vector<const std::vector<MjcfGeom>*>& bodies) const;
   /// Do any of two bodies' geoms collide? Geoms of one body are one surface here: bodies of which
   /// only some pairs of geoms collide are remembered.
-  bool collide(const std::vector<MjcfGeom>& a, const std::vector<MjcfGeom>& b,
+  /// listed  number of pairs of their geoms that a <pair> lists against their bits; null: none is
+  ///         listed
+  bool collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
                const std::string& name_a, const std::string& name_b);
-  /// Is a pair of their geoms listed?
-  bool listed(const std::vector<MjcfGeom>& a, const std::vector<MjcfGeom>& b) const;
   /// Sets tree.model.never_meet and always_meet, whose excludes are there already: as MuJoCo, a
   /// link does not collide with what carries it, unless that is fixed to the world. `fixed_base`:
   /// is the first link? Shapes of links are known.
@@ -40,7 +71,7 @@ class MjcfContacts {
   std::vector<MjcfPair> pairs_;
   std::set<std::array<std::string, 2>> listed_;  // each in order
   bool filter_parents_ = true;
-  std::vector<std::string> mixed_;
+  MjcfNamedPairs mixed_;
 };
 
 }  // namespace clench

@@ -8,6 +8,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/io/mjcf/mjcf_drives.h"
 #include "clench/io/mjcf/mjcf_ties.h"
 #include "clench/spec/plausibility.h"
@@ -16,20 +17,24 @@ namespace clench {
 
 namespace {
 
+// an actuator keeps a row of numbers, one per joint of its tendon
+constexpr size_t max_pulled_joints = 200'000;
+
 class Couplings {
  public:
-  Couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
-            const std::set<std::string>& elsewhere, bool tells)
+  Couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree, const MjcfFileJoints& joints,
+            const MjcfNode* trunk, bool tells)
       : document_(document),
         cache_(cache),
         tree_(tree),
-        elsewhere_(elsewhere),
+        file_joints_(joints),
+        is_one_of_several_(trunk),
         tells_(tells),
         unused_(tells ? document.unused() : told_already_),
         switches_(read_actuator_switches(document)) {
     for (size_t j = 0; j < tree.joints.size(); ++j)
       numbers_[tree.joints[j].name] = static_cast<int>(j);
-    for (const MjcfNode* node : document.section("worldbody")) find_names(*node);
+    if (trunk) count_joint_names(*trunk, own_joints_);
   }
   void read() {
     read_tendons();
@@ -45,11 +50,12 @@ class Couplings {
   void warn(const XmlElement& at, const std::string& what) const {
     cache_.warn(at.place() + ": " + what);
   }
-  void find_names(const MjcfNode& node);
+  bool is_elsewhere(const std::string& name) const;
   bool concerns(const XmlValues& values) const;
   std::string why_not(const std::string& name) const;
   std::optional<int> joint(const XmlValues& values, const char* attribute);
   const MjcfTendon* find_tendon(const std::string& name) const;
+  void keep(MjcfTendon tendon);
   const MjcfTendon& tendon(const XmlValues& values, const char* attribute) const;
   void read_tendons();
   void read_equality(const XmlElement& element);
@@ -66,14 +72,15 @@ class Couplings {
   FileCache& cache_;
   TreeModel& tree_;
   std::map<std::string, int> numbers_;
-  std::map<std::string, bool>
-      others_;             // joints of the file with another name or none: are they free?
-  bool composes_ = false;  // are there elements that generate joints?
   std::deque<MjcfTendon> tendons_;
+  std::map<std::string, size_t> tendon_numbers_;
+  size_t pulled_joints_ = 0;  // of all actuators
   std::vector<MjcfDrive> drives_;
   bool has_actuators_ = false;
-  const std::set<std::string>& elsewhere_;  // joints of other robots
-  const bool tells_;                        // reports elements that concern no joint
+  const MjcfFileJoints& file_joints_;
+  const bool is_one_of_several_;
+  std::map<std::string, int> own_joints_;  // as MjcfFileJoints::in_trees
+  const bool tells_;                       // of what concerns no joint at all
   UnusedXml told_already_;
   UnusedXml& unused_;
   const MjcfActuatorSwitches switches_;
@@ -93,7 +100,7 @@ bool Couplings::concerns(const XmlValues& values) const {
   for (const char* attribute : {"joint", "jointinparent", "joint1", "joint2"}) {
     const std::string name = values.text(attribute, "");
     if (numbers_.contains(name) || numbers_.contains(name + "_x")) return true;
-    others = others || elsewhere_.contains(name);
+    others = others || is_elsewhere(name);
   }
   for (const char* attribute : {"tendon", "tendon1", "tendon2"}) {
     const MjcfTendon* found = find_tendon(values.text(attribute, ""));
@@ -104,25 +111,22 @@ bool Couplings::concerns(const XmlValues& values) const {
   return tells_ && !others;
 }
 
-/// Names of the file's joints that the robot does not have, or has under another name.
-void Couplings::find_names(const MjcfNode& node) {
-  const std::string kind = node.name();
-  if (kind == "joint" || kind == "freejoint") {
-    const std::string name = node.element.attribute("name").value_or("");
-    const bool free = kind == "freejoint" || node.element.attribute("type").value_or("") == "free";
-    if (!name.empty() && !numbers_.contains(name)) others_[name] = free;
-  }
-  composes_ = composes_ || kind == "composite" || kind == "flexcomp";
-  for (const MjcfNode& child : node.children) find_names(child);
+/// Has another robot of the file a joint of the name?
+bool Couplings::is_elsewhere(const std::string& name) const {
+  if (!is_one_of_several_) return false;
+  const auto all = file_joints_.in_trees.find(name);
+  if (all == file_joints_.in_trees.end()) return false;
+  const auto own = own_joints_.find(name);
+  return own == own_joints_.end() || all->second > own->second;
 }
 
 /// Why the robot lacks a joint of this name; empty if the file has no such joint.
 std::string Couplings::why_not(const std::string& name) const {
   if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
-  if (elsewhere_.contains(name)) return "is of another robot";
-  if (const auto found = others_.find(name); found != others_.end())
+  if (is_elsewhere(name)) return "is of another robot";
+  if (const auto found = file_joints_.is_free.find(name); found != file_joints_.is_free.end())
     return found->second ? "is free, and no joint of the robot" : "is of a body that is not read";
-  return composes_ ? "may be of a <composite> or <flexcomp>, which are not read" : "";
+  return file_joints_.composes ? "may be of a <composite> or <flexcomp>, which are not read" : "";
 }
 
 /// Empty, with a warning, if the joint is in the file but not in the robot.
@@ -140,10 +144,14 @@ std::optional<int> Couplings::joint(const XmlValues& values, const char* attribu
 
 /// Null if there is no such joint.
 const MjcfTendon* Couplings::find_tendon(const std::string& name) const {
-  // the last element of a name counts
-  for (auto it = tendons_.rbegin(); it != tendons_.rend(); ++it)
-    if (it->name == name && !name.empty()) return &*it;
-  return nullptr;
+  const auto found = tendon_numbers_.find(name);
+  return found == tendon_numbers_.end() ? nullptr : &tendons_[found->second];
+}
+
+void Couplings::keep(MjcfTendon tendon) {
+  // the last of a name counts
+  if (!tendon.name.empty()) tendon_numbers_[tendon.name] = tendons_.size();
+  tendons_.push_back(std::move(tendon));
 }
 
 const MjcfTendon& Couplings::tendon(const XmlValues& values, const char* attribute) const {
@@ -158,26 +166,28 @@ const MjcfTendon& Couplings::tendon(const XmlValues& values, const char* attribu
 
 void Couplings::read_tendons() {
   for (const MjcfNode* node : document_.section("tendon")) {
+    check_stop();
     MjcfTendon tendon = read_mjcf_tendon(document_, node->element);
     if (tendon.spatial) {
       unused_.element(node->element);
-      // its name is known in any case
-      tendons_.push_back(std::move(tendon));
+      // its name is known all the same
+      keep(std::move(tendon));
       continue;
     }
     for (const auto& child : node->children) {
+      check_stop();
       const XmlValues values(child.element);
       const double coefficient = values.number("coef");
       if (child.name() != "joint")
         unused_.element(child.element);
-      else if (elsewhere_.contains(values.text("joint")))
+      else if (is_elsewhere(values.text("joint")))
         tendon.complete = false, tendon.elsewhere = true;
       else if (const auto number = joint(values, "joint"); !number)
         tendon.complete = false;
       else if (coefficient != 0)
         tendon.joints.emplace_back(*number, coefficient);
     }
-    tendons_.push_back(std::move(tendon));
+    keep(std::move(tendon));
   }
 }
 
@@ -236,6 +246,7 @@ void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
 }
 
 void Couplings::read_equality(const XmlElement& element) {
+  check_stop();
   const XmlValues values = document_.values(element, "", "equality");
   if (!concerns(values)) return;
   if (!values.boolean("active", true)) {
@@ -279,6 +290,7 @@ void Couplings::tell_law(const MjcfActuator& actuator) {
 }
 
 void Couplings::read_actuator(const XmlElement& element) {
+  check_stop();
   MjcfActuator actuator = read_mjcf_actuator(document_, element);
   const XmlValues& values = actuator.values;
   const bool on_joint = values.has("joint") || values.has("jointinparent");
@@ -312,6 +324,11 @@ void Couplings::read_actuator(const XmlElement& element) {
     document_.unused().element(element);
     return;
   }
+  pulled_joints_ += drive.tendon ? drive.tendon->joints.size() : 1;
+  if (pulled_joints_ > max_pulled_joints)
+    element.fail(
+        "{}: expected actuators that pull at most {} joints, each counted once per actuator",
+        excerpt(element.name()), max_pulled_joints);
   tell_law(actuator);
   actuator.spec.enabled = !switches_.off(actuator.group);
   drive.actuator = std::move(actuator);
@@ -335,9 +352,29 @@ void Couplings::tell_unused() const {
 
 }  // namespace
 
+void MjcfFileJoints::add(const MjcfNode& node) {
+  check_stop();
+  const std::string kind = node.name();
+  if (kind == "joint" || kind == "freejoint") {
+    const std::string name = node.element.attribute("name").value_or("");
+    const bool free = kind == "freejoint" || node.element.attribute("type").value_or("") == "free";
+    if (!name.empty()) is_free[name] = free;
+  }
+  composes = composes || kind == "composite" || kind == "flexcomp";
+  for (const MjcfNode& child : node.children) add(child);
+}
+
+void count_joint_names(const MjcfNode& node, std::map<std::string, int>& into) {
+  for (const MjcfNode& child : node.children) {
+    if (child.name() == "joint")
+      if (const auto name = child.element.attribute("name")) ++into[*name];
+    count_joint_names(child, into);
+  }
+}
+
 void read_mjcf_couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
-                         const std::set<std::string>& elsewhere, bool tells) {
-  Couplings(document, cache, tree, elsewhere, tells).read();
+                         const MjcfFileJoints& joints, const MjcfNode* trunk, bool tells) {
+  Couplings(document, cache, tree, joints, trunk, tells).read();
 }
 
 }  // namespace clench

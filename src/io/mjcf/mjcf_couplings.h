@@ -1,19 +1,33 @@
 // Couplings of joints in an MJCF model, to each other and to motors: equalities, fixed tendons and
 // actuators.
 #pragma once
-#include <set>
+#include <map>
+#include <string>
 
 #include "clench/io/mjcf/mjcf_document.h"
 #include "clench/io/tree/tree_model.h"
 
 namespace clench {
 
+/// Joints of a file, by name.
+struct MjcfFileJoints {
+  std::map<std::string, bool> is_free;
+  bool composes = false;                ///< are there elements that would make joints?
+  std::map<std::string, int> in_trees;  ///< how often a tree of joints has the name
+
+  /// Adds an element of the world and what is below it to `is_free` and `composes`.
+  void add(const MjcfNode& node);
+};
+
+/// Counts the named joints below an element that are not <freejoint>.
+void count_joint_names(const MjcfNode& node, std::map<std::string, int>& into);
+
 /// Makes joints that must move together follow one of them, takes the limits and forces of
 /// actuators, and marks joints that no actuator drives as passive if there are actuators. Warns of
 /// couplings that cannot be followed.
-/// elsewhere  joints of other robots of the file
-/// tells      also warns of elements that concern no joint
+/// trunk  the body that the robot begins with, one of several; null: the robot is the only one
+/// tells  also warns of elements that concern no joint
 void read_mjcf_couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
-                         const std::set<std::string>& elsewhere, bool tells);
+                         const MjcfFileJoints& joints, const MjcfNode* trunk, bool tells);
 
 }  // namespace clench

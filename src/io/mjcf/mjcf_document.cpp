@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "clench/base/suggest.h"
+#include "clench/base/watched.h"
 #include "clench/io/text/find_file.h"
 #include "clench/math/decompositions.h"
 
@@ -14,6 +16,8 @@ namespace fs = std::filesystem;
 
 static constexpr int max_files = 100;        // of includes; far above any robot
 static constexpr int deepest_element = 200;  // of elements, over all includes
+// of one name in one class: each element of that class looks into all of them
+static constexpr size_t max_alike_defaults = 10;
 
 MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
     : path_(path),
@@ -53,6 +57,7 @@ MjcfNode MjcfDocument::load(const XmlElement& element, int depth) {
     element.fail("expected at most {} elements in each other", deepest_element);
   MjcfNode node{element, {}};
   for (const auto& child : element.children()) {
+    check_stop();
     if (child.name() == "include")
       include(child, node.children, depth);
     else
@@ -124,10 +129,16 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent, const std::st
                                         node.element.place(), in_quotes(name)));
   }
   for (const auto& child : node.children) {
-    if (child.name() == "default")
+    check_stop();
+    if (child.name() == "default") {
       read_defaults(child, number, prefix, outermost);
-    else
-      classes_[number].elements.push_back(child.element);
+      continue;
+    }
+    auto& alike = classes_[number].elements[child.name()];
+    if (alike.size() == max_alike_defaults)
+      child.element.fail("default: expected at most {} elements <{}> in one class",
+                         max_alike_defaults, excerpt(child.name()));
+    alike.emplace_back(default_elements_++, child.element);
   }
 }
 
@@ -144,11 +155,20 @@ std::vector<XmlElement> MjcfDocument::defaults(const XmlElement& element,
   const std::string& name = own.empty() ? child_class : own;
   check_class(element, name);
   std::vector<XmlElement> out;
+  std::vector<std::pair<int, XmlElement>> of_class;
   int at = name.empty() ? 0 : class_numbers_.at(name);
-  for (; at >= 0; at = classes_[at].parent)
+  for (; at >= 0; at = classes_[at].parent) {
+    of_class.clear();
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (std::ranges::find(names.first(i), names[i]) != names.first(i).end()) continue;
+      const auto found = classes_[at].elements.find(names[i]);
+      if (found != classes_[at].elements.end())
+        of_class.insert(of_class.end(), found->second.begin(), found->second.end());
+    }
     // the last of several elements in a class counts
-    for (auto it = classes_[at].elements.rbegin(); it != classes_[at].elements.rend(); ++it)
-      if (std::ranges::find(names, it->name()) != names.end()) out.push_back(*it);
+    std::ranges::sort(of_class, std::greater{}, [](const auto& entry) { return entry.first; });
+    for (const auto& entry : of_class) out.push_back(entry.second);
+  }
   return out;
 }
 

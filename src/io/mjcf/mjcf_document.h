@@ -71,7 +71,8 @@ class MjcfDocument {
   friend class MjcfExpander;
   struct DefaultClass {
     int parent = -1;
-    std::vector<XmlElement> elements;
+    /// By name, each with its number in the file.
+    std::map<std::string, std::vector<std::pair<int, XmlElement>>, std::less<>> elements;
   };
   /// The outermost element of a file with all that it includes.
   MjcfNode load_file(const std::filesystem::path& path);
@@ -93,6 +94,7 @@ class MjcfDocument {
   MjcfNode root_;
   std::vector<DefaultClass> classes_;  // [0] is "main"
   std::map<std::string, int> class_numbers_;
+  int default_elements_ = 0;
   UnusedXml unused_;
   Repairs repairs_, losses_;
 };

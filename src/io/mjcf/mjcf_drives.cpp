@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "clench/base/disjoint_sets.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/io/mjcf/mjcf_ties.h"
 #include "clench/spec/dof_drive.h"
 #include "clench/spec/plausibility.h"
@@ -187,15 +189,16 @@ void Drives::tie(const MjcfDrive& drive) {
 
 void Drives::tell_independent(const std::vector<int>& group) {
   std::vector<std::string> tendons, joints;
+  std::set<std::string> known;
   const MjcfDrive* first = nullptr;
   const auto in_group = [&](const auto& part) {
     return std::ranges::binary_search(group, leader_of(tree_, part.first));
   };
   for (const MjcfDrive& drive : drives_) {
+    check_stop();
     if (!drive.tendon || std::ranges::none_of(drive.tendon->joints, in_group)) continue;
     if (!first) first = &drive;
-    if (std::ranges::find(tendons, drive.tendon->name) == tendons.end())
-      tendons.push_back(drive.tendon->name);
+    if (known.insert(drive.tendon->name).second) tendons.push_back(drive.tendon->name);
   }
   for (const int joint : group) joints.push_back(tree_.joints[joint].name);
   cache_.warn(fmt::format(
@@ -212,6 +215,7 @@ void Drives::tie_joints() {
   DisjointSets groups(count);
   std::vector<std::map<int, double>> rows;
   for (const MjcfDrive& drive : drives_) {
+    check_stop();
     std::map<int, double> row;
     for (const auto& [joint, pull] : pulls(drive)) {
       const TiedJoint tied = by_leader(tree_, joint);

@@ -19,7 +19,11 @@ class MjcfExpander {
  public:
   MjcfExpander(MjcfDocument& document, FileCache& cache) : document_(document), cache_(cache) {}
 
-  void expand() { expand(document_.root_); }
+  void expand() {
+    document_.open_.push_back(std::filesystem::weakly_canonical(document_.path()));
+    expand(document_.root_);
+    document_.open_.pop_back();
+  }
 
  private:
   void expand(MjcfNode& root) {
@@ -47,13 +51,21 @@ class MjcfExpander {
   MjcfNode copy(const MjcfNode& node, const Rename& rename, XmlCopies::Attributes more = {});
   MjcfNode frame(const XmlElement& original, XmlCopies::Attributes attributes);
   void count(const XmlElement& original);
+  void count_below(const MjcfNode& node);
+  void search(const XmlElement& at, size_t elements);
+  MjcfNames& referred(const MjcfNode& root);
 
   MjcfDocument& document_;
   FileCache& cache_;
   int generated_ = 0;
   StopCheck check_{1000};
   int depth_ = 0;
-  std::map<std::string, MjcfNode> models_;  // of attached files, by the line of the asset
+  int64_t searched_ = 0;
+  std::map<std::string, std::filesystem::path> model_files_;  // by place of the asset
+  std::map<std::string, MjcfNode> models_;                    // of attached files, likewise
+  std::vector<const MjcfNode*> attaching_;                    // targets, outermost first
+  // names that the referring sections of a model refer to, and perhaps some that they did
+  std::map<const MjcfNode*, MjcfNames> referred_;
   std::set<std::pair<const MjcfNode*, std::string>> copied_assets_;  // of models, with prefixes
 };
 
@@ -65,6 +77,31 @@ void MjcfExpander::count(const XmlElement& original) {
   if (++generated_ > max_generated_elements)
     original.fail("expected at most {} elements made by replicate and attach",
                   max_generated_elements);
+}
+
+void MjcfExpander::count_below(const MjcfNode& node) {
+  for (const MjcfNode& child : node.children) {
+    count(child.element);
+    count_below(child);
+  }
+}
+
+/// Counts elements that are searched for names.
+void MjcfExpander::search(const XmlElement& at, size_t elements) {
+  check_();
+  searched_ += static_cast<int64_t>(elements);
+  if (searched_ > max_searched_elements)
+    at.fail("expected replicate and attach to search at most {} elements for names",
+            max_searched_elements);
+}
+
+MjcfNames& MjcfExpander::referred(const MjcfNode& root) {
+  const auto [found, is_new] = referred_.try_emplace(&root);
+  if (!is_new) return found->second;
+  for (const MjcfNode& section : root.children)
+    if (std::ranges::find(referring_sections, section.name()) != std::end(referring_sections))
+      found->second.add_referred(section);
+  return found->second;
 }
 
 MjcfNode MjcfExpander::copy(const MjcfNode& node, const Rename& rename,
@@ -133,11 +170,13 @@ void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<M
   names.add(node.children);
   // elements that refer to replicas wait until all replicas exist
   MjcfNode referring{node.element, {}};
+  const bool refers_any = names.overlaps(referred(root));
   for (const char* section : referring_sections)
     for (MjcfNode& part : root.children) {
-      if (names.empty()) break;  // nothing can refer to replicas
-      check_();
+      if (!refers_any) break;
+      search(node.element, 1);
       if (part.name() != section) continue;
+      search(node.element, part.children.size());
       MjcfNode found{part.element, {}};
       std::erase_if(part.children, [&](MjcfNode& element) {
         check_();
@@ -177,6 +216,7 @@ void MjcfExpander::copy_sections(const MjcfNode& from, MjcfNode& root, const Ren
   for (const MjcfNode& section : from.children) {
     MjcfNode out{section.element, {}};
     for (const MjcfNode& element : section.children) out.children.push_back(copy(element, rename));
+    referred(root).add_referred(out);
     root.children.push_back(std::move(out));
   }
 }
@@ -190,19 +230,33 @@ struct Target {
   std::string child_class;  // that it inherits
 };
 
+bool holds_targets(const MjcfNode& node) {
+  const std::string name = node.name();
+  return name == "body" || name == "frame" || name == "replicate";
+}
+
+/// searched  how many elements were compared
 void find_target(const MjcfNode& at, const std::string& kind, const std::string& name,
-                 const std::string& child_class, Target& found, std::vector<std::string>& others) {
+                 const std::string& child_class, Target& found, size_t& searched) {
   for (const MjcfNode& child : at.children) {
     if (found.node) return;
-    const std::string own = child.element.attribute("name").value_or("");
-    if (child.name() == kind && own == name) {
+    ++searched;
+    if (child.name() == kind && child.element.attribute("name").value_or("") == name) {
       found = {&child, child_class};
       return;
     }
-    if (child.name() == kind && !own.empty()) others.push_back(own);
-    if (child.name() == "body" || child.name() == "frame" || child.name() == "replicate")
+    if (holds_targets(child))
       find_target(child, kind, name, child.element.attribute("childclass").value_or(child_class),
-                  found, others);
+                  found, searched);
+  }
+}
+
+void add_target_names(const MjcfNode& at, const std::string& kind,
+                      std::vector<std::string>& names) {
+  for (const MjcfNode& child : at.children) {
+    const std::string own = child.element.attribute("name").value_or("");
+    if (child.name() == kind && !own.empty()) names.push_back(own);
+    if (holds_targets(child)) add_target_names(child, kind, names);
   }
 }
 
@@ -218,11 +272,13 @@ MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) 
     for (const MjcfNode& asset : section.children) {
       if (asset.name() != "model") continue;
       const XmlValues of_asset(asset.element);
+      search(asset.element, 1);
       const std::string key = asset.element.place() + ' ' + of_asset.text("file");
       const std::string given = of_asset.text("name", "");
       names.push_back(given);
       if (!given.empty() && given != name) continue;
       auto found = models_.find(key);
+      auto& open = document_.open_;
       if (found == models_.end()) {
         document_.unused_.attributes(asset.element, {"name", "file", "content_type"});
         const MjcfSettings& own = document_.settings(asset.element);
@@ -233,14 +289,16 @@ MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) 
           asset.element.fail("model: {}", error.what());
         }
         const auto canonical = std::filesystem::weakly_canonical(path);
-        auto& open = document_.open_;
         if (std::ranges::find(open, canonical) != open.end())
           asset.element.fail("model: '{}' attaches itself", excerpt(of_asset.text("file")));
         MjcfNode model = document_.load_file(path);
+        model_files_[key] = canonical;
         open.push_back(canonical);
         found = models_.emplace(key, std::move(model)).first;
         expand(found->second);
         open.pop_back();
+      } else if (std::ranges::find(open, model_files_[key]) != open.end()) {
+        asset.element.fail("model: '{}' attaches itself", excerpt(of_asset.text("file")));
       }
       names.back() = found->second.element.attribute("model").value_or("");
       if (given == name || names.back() == name) return &found->second;
@@ -251,6 +309,8 @@ MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) 
 
 void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::string& prefix) {
   if (!copied_assets_.emplace(&from, prefix).second) return;
+  for (const MjcfNode& section : from.children)
+    if (section.name() == "default") count_below(section);
   document_.add_classes(from, prefix);
   for (const MjcfNode& section : from.children) {
     const std::string name = section.name();
@@ -295,14 +355,20 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
   if (kind.empty() && !model)
     node.element.fail("attach: expected an attribute 'model', 'body' or 'frame', got none");
   Target target;
-  std::vector<std::string> others;
   if (!kind.empty()) {
+    const std::string name = values.text(kind.c_str());
+    size_t searched = 0;
     for (const MjcfNode& section : source.children)
-      if (section.name() == "worldbody")
-        find_target(section, kind, values.text(kind.c_str()), "", target, others);
-    if (!target.node)
-      values.fail(kind.c_str(), "no {} {}{}", kind, in_quotes(values.text(kind.c_str())),
-                  did_you_mean(values.text(kind.c_str()), others));
+      if (section.name() == "worldbody") find_target(section, kind, name, "", target, searched);
+    search(node.element, searched);
+    if (!target.node) {
+      std::vector<std::string> others;
+      for (const MjcfNode& section : source.children)
+        if (section.name() == "worldbody") add_target_names(section, kind, others);
+      values.fail(kind.c_str(), "no {} {}{}", kind, in_quotes(name), did_you_mean(name, others));
+    }
+    if (std::ranges::find(attaching_, target.node) != attaching_.end())
+      node.element.fail("attach: {} '{}' attaches itself", kind, excerpt(name));
   }
   std::vector<MjcfNode> content;
   if (target.node) {
@@ -324,8 +390,11 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
                           attribute == "material" || attribute == "mesh" || attribute == "hfield";
     return of_model && model ? prefix + value : value;
   };
-  if (!model)  // its contents may attach other models
+  if (!model) {  // its contents may attach other models
+    attaching_.push_back(target.node);
     for (MjcfNode& part : content) expand_below(part, root);
+    attaching_.pop_back();
+  }
   MjcfNames names;
   names.add(content);
   XmlCopies::Attributes inherited;
@@ -340,11 +409,13 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
   }
   if (model) copy_assets(*model, root, prefix);
   std::vector<MjcfNode> sections;
+  const bool refers_any = names.overlaps(referred(source));
   for (const char* section : referring_sections)
     for (const MjcfNode& part : source.children) {
-      if (names.empty()) break;
-      check_();
+      if (!refers_any) break;
+      search(node.element, 1);
       if (part.name() != section) continue;
+      search(node.element, part.children.size());
       MjcfNode out{part.element, {}};
       for (const MjcfNode& element : part.children) {
         check_();
@@ -363,7 +434,10 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
       }
       if (!out.children.empty()) sections.push_back(std::move(out));
     }
-  for (MjcfNode& section : sections) root.children.push_back(std::move(section));
+  for (MjcfNode& section : sections) {
+    referred(root).add_referred(section);
+    root.children.push_back(std::move(section));
+  }
   --depth_;
 }
 

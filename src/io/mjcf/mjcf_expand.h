@@ -1,11 +1,15 @@
 // Elements of MJCF that generate others: <replicate> and <attach>.
 #pragma once
+#include <cstdint>
+
 #include "clench/io/mjcf/mjcf_document.h"
 
 namespace clench {
 
-/// Largest number of elements that <replicate> and <attach> generate in a file.
-inline constexpr int max_generated_elements = 200'000;
+/// Largest numbers of elements that <replicate> and <attach> generate in a file, and that they
+/// search for names, each counted once per search.
+inline constexpr int max_generated_elements = 100'000;
+inline constexpr int64_t max_searched_elements = 20'000'000;
 
 /// Replaces each <replicate> and <attach> below <worldbody> by what it generates: frames with
 /// renamed copies of bodies and geoms. Tendons, actuators, equalities and contact filters that name

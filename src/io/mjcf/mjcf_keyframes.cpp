@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 
 namespace clench {
 
 namespace {
 
-constexpr int max_key_numbers = 100'000;
+constexpr int max_key_numbers = 100'000;            // of one row
+constexpr size_t max_keyframe_numbers = 4'000'000;  // of all keyframes, poses of bodies included
 // deviation of followers that counts as settled in a simulation [rad or m]
 constexpr double settled = 0.01;
 
@@ -56,18 +59,20 @@ std::vector<double> dofs_of(const SceneBody& body, const RobotSpec& robot,
   return dofs;
 }
 
-KeyframeSpec read_key(const XmlValues& values, const std::vector<SceneBody>& bodies,
+KeyframeSpec read_key(const XmlValues& values, const std::vector<const SceneBody*>& moving,
                       const std::string& name, const FileCache& cache, const WorldSpec& world) {
   KeyframeSpec out;
   out.name = name;
   const bool given = values.has("qpos"), moves = values.has("mpos"), turns = values.has("mquat");
   const auto qpos = given ? values.numbers("qpos", 1, max_key_numbers) : std::vector<double>();
-  const int mocaps = static_cast<int>(std::ranges::count_if(bodies, &SceneBody::mocap));
+  const int mocaps = static_cast<int>(std::ranges::count_if(moving, &SceneBody::mocap));
   const auto mpos = moves ? values.numbers("mpos", 3 * mocaps, 3 * mocaps) : std::vector<double>();
   const auto mquat =
       turns ? values.numbers("mquat", 4 * mocaps, 4 * mocaps) : std::vector<double>();
   size_t at = 0, mocap = 0;
-  for (const SceneBody& body : bodies) {
+  for (const SceneBody* moved : moving) {
+    check_stop();
+    const SceneBody& body = *moved;
     Pose X_WB = body.X_WB;
     if (body.mocap && moves) X_WB.position = Eigen::Vector3d::Map(&mpos[3 * mocap]);
     if (body.mocap && turns) X_WB.rotation = turn_at(values, "mquat", &mquat[4 * mocap]);
@@ -100,13 +105,23 @@ KeyframeSpec read_key(const XmlValues& values, const std::vector<SceneBody>& bod
 }
 
 /// Count of numbers in a row.
-int qpos_size(const std::vector<SceneBody>& bodies) {
+int qpos_size(const std::vector<const SceneBody*>& moving) {
   int count = 0;
-  for (const SceneBody& body : bodies) {
-    count += body.free ? 7 : 0;
-    for (const auto& slots : body.slots)
+  for (const SceneBody* body : moving) {
+    count += body->free ? 7 : 0;
+    for (const auto& slots : body->slots)
       for (const QposSlot& slot : slots)
         count += slot.kind == QposSlot::Kind::free ? 0 : slot.size();
+  }
+  return count;
+}
+
+/// How many numbers a keyframe keeps, those of rows that the file leaves out included.
+size_t kept_numbers(const std::vector<const SceneBody*>& moving) {
+  size_t count = 0;
+  for (const SceneBody* body : moving) {
+    if (body->free || body->mocap) count += 7 * body->bodies.size();
+    if (body->robot >= 0) count += 7 + body->joints.size();
   }
   return count;
 }
@@ -115,7 +130,12 @@ int qpos_size(const std::vector<SceneBody>& bodies) {
 
 void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& bodies, bool lossy,
                          const FileCache& cache, WorldSpec& world) {
-  const int expected = qpos_size(bodies);
+  std::vector<const SceneBody*> moving;
+  for (const SceneBody& body : bodies)
+    if (body.free || body.mocap || body.robot >= 0) moving.push_back(&body);
+  const int expected = qpos_size(moving);
+  const size_t kept = kept_numbers(moving);
+  std::set<std::string> names;
   int number = 0;
   for (const MjcfNode* node : document.section("keyframe")) {
     if (node->name() != "key") {
@@ -123,6 +143,7 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
       continue;
     }
     ++number;
+    check_stop();
     document.unused().attributes(node->element, {"name", "class", "qpos", "mpos", "mquat"});
     const XmlValues values(node->element);
     std::string name = values.text("name", fmt::format("{}", number));
@@ -142,14 +163,17 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
       continue;
     }
     if (got != expected) values.fail("qpos", "expected {} numbers, got {}", expected, got);
-    if (std::ranges::find(world.keyframes, name, &KeyframeSpec::name) != world.keyframes.end()) {
+    if (!names.insert(name).second) {
       document.repairs().add("key",
                              fmt::format("{}: key: there is another one of the name '{}'; the "
                                          "first one counts",
                                          node->element.place(), excerpt(name)));
       continue;
     }
-    world.keyframes.push_back(read_key(values, bodies, name, cache, world));
+    if (kept * names.size() > max_keyframe_numbers)
+      node->element.fail("key: expected at most {} numbers in all keyframes, of {} each",
+                         max_keyframe_numbers, kept);
+    world.keyframes.push_back(read_key(values, moving, name, cache, world));
   }
 }
 

@@ -61,6 +61,9 @@ Mesh MjcfMeshes::own_points(const XmlValues& values) const {
   return mesh;
 }
 
+// a built-in mesh takes some 60 bytes of a file, and a triangle some 200 of memory
+static constexpr size_t max_builtin_triangles = 500'000;
+
 std::shared_ptr<const Geometry> MjcfMeshes::shape(const Asset& asset) {
   const XmlValues& values = asset.values;
   const std::string kind = values.text("builtin", "none");
@@ -70,12 +73,17 @@ std::shared_ptr<const Geometry> MjcfMeshes::shape(const Asset& asset) {
   if (kind == "none") {
     geometry.mesh = own_points(values);
   } else {
+    const auto params = values.numbers("params", 0, 10);
     try {
-      geometry.mesh = builtin_mesh(kind, values.numbers("params", 0, 10));
+      geometry.mesh = builtin_mesh(kind, params);
     } catch (const Error& error) {
       values.fail("builtin", "{}", error.what());
     }
     geometry.mesh = with_hull(std::move(geometry.mesh), values, "builtin");
+    builtin_triangles_ += geometry.mesh.triangles.size();
+    if (builtin_triangles_ > max_builtin_triangles)
+      values.fail("builtin", "expected at most {} triangles in all built-in meshes",
+                  max_builtin_triangles);
   }
   return std::make_shared<const Geometry>(std::move(geometry));
 }

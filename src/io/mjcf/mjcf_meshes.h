@@ -51,6 +51,7 @@ class MjcfMeshes {
   FileCache& cache_;
   TreeGeometry& geometry_;
   std::map<std::string, Asset> assets_;
+  size_t builtin_triangles_ = 0;
 };
 
 }  // namespace clench

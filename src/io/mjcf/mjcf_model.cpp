@@ -25,6 +25,9 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
   for (const auto& node : document_.root().children)
     if (std::find(known.begin(), known.end(), node.name()) == known.end()) leave_out(node);
   worldbody_ = read_worldbody(document_, whole);
+  names_.add(document_.root());
+  for (const MjcfNode* node : document_.section("worldbody")) file_joints_.add(*node);
+  for (const TopBody* tree : joint_trees()) count_joint_names(*tree->node, file_joints_.in_trees);
 }
 
 /// Does an <option> switch actuators off or on?
@@ -67,7 +70,7 @@ std::vector<const TopBody*> MjcfModel::joint_trees() const {
 }
 
 MjcfTree MjcfModel::read_tree(const TopBody& body) {
-  MjcfTreeReader reader(document_, geoms_, cache_, whole_);
+  MjcfTreeReader reader(document_, geoms_, names_, cache_, whole_);
   if (body.own_joints) reader.add_world();
   reader.read_body(body, !body.own_joints);
   MjcfTree tree = reader.take();
@@ -85,9 +88,11 @@ static double mass_of_all(const std::filesystem::path& path, const ReadOptions& 
   FileCache cache(quiet, none);
   MjcfDocument document(path, cache);
   MjcfGeoms geoms(expand_mjcf(document, cache), cache, true);
+  MjcfNames names;
+  names.add(document.root());
   double mass = 0;
   for (const TopBody& body : read_worldbody(document, "world").bodies) {
-    MjcfTreeReader reader(document, geoms, cache, "world");
+    MjcfTreeReader reader(document, geoms, names, cache, "world");
     reader.read_body(body, true);
     const MjcfTree tree = reader.take();
     for (size_t l = 0; l < tree.pieces.size(); ++l)
@@ -117,21 +122,10 @@ void MjcfModel::scale_masses(MjcfTree& tree) {
 
 // --- robots of a scene ---
 
-static void find_joints(const MjcfNode& node, std::set<std::string>& into) {
-  for (const MjcfNode& child : node.children) {
-    if (child.name() == "joint")
-      if (const auto name = child.element.attribute("name")) into.insert(*name);
-    find_joints(child, into);
-  }
-}
-
 MjcfRobot MjcfModel::scene_robot(const TopBody& body, bool first) {
-  const auto trees = joint_trees();
-  std::set<std::string> elsewhere;
-  for (const TopBody* other : trees)
-    if (other->node != body.node) find_joints(*other->node, elsewhere);
-  MjcfRobot out = make(read_tree(body), trees.size() == 1 ? name_ : body.name, elsewhere, first,
-                       !body.free && !body.mocap);
+  const bool alone = joint_trees().size() == 1;
+  MjcfRobot out =
+      make(read_tree(body), alone ? name_ : body.name, &body, first, !body.free && !body.mocap);
   out.robot.files.body = body.name;
   return out;
 }
@@ -179,13 +173,13 @@ void MjcfModel::warn_of_starts(const TreeModel& tree) const {
   }
 }
 
-MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name,
-                          const std::set<std::string>& elsewhere, bool tells, bool fixed_base) {
+MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk,
+                          bool tells, bool fixed_base) {
   TreeModel& model = tree.model;
   model.name = robot_name;
   model.class_name = document_.root().element.attribute("model").value_or("");
   read_excludes(tree);
-  read_mjcf_couplings(document_, cache_, model, elsewhere, tells);
+  read_mjcf_couplings(document_, cache_, model, file_joints_, trunk ? trunk->node : nullptr, tells);
   warn_of_starts(model);
   for (size_t i = 0; i < tree.geoms.size(); ++i)
     for (const MjcfGeom& geom : tree.geoms[i]) {

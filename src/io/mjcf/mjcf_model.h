@@ -1,9 +1,12 @@
 // An MJCF model in memory, and the robots that its trees of joints are.
 #pragma once
+#include <map>
 #include <optional>
-#include <set>
+#include <string>
+#include <vector>
 
 #include "clench/io/mjcf/mjcf_contacts.h"
+#include "clench/io/mjcf/mjcf_couplings.h"
 #include "clench/io/mjcf/mjcf_tree.h"
 
 namespace clench {
@@ -25,6 +28,7 @@ class MjcfModel {
   MjcfGeoms& geoms() { return geoms_; }
   MjcfContacts& contacts() { return contacts_; }
   const std::string& name() const { return name_; }  ///< its own, else the file's stem
+  const MjcfNames& names() const { return names_; }  ///< of all elements
   /// Bodies directly in the world that joints hang on.
   std::vector<const TopBody*> joint_trees() const;
   /// A tree alone: as a base of its own where it has no joint itself, else below a frame.
@@ -33,10 +37,11 @@ class MjcfModel {
   void scale_masses(MjcfTree& tree);
   /// The tree that begins with a body, as one of the robots of a scene.
   MjcfRobot scene_robot(const TopBody& body, bool first);
-  /// elsewhere  joints of other robots; tells  of what concerns no joint at all?; fixed_base  is its
+  /// trunk  the body that the robot begins with, one of several; null: the robot is the only one;
+  ///        tells  of what concerns no joint at all?; fixed_base  is its
   ///            first body fixed to the world?
-  MjcfRobot make(MjcfTree tree, const std::string& robot_name,
-                 const std::set<std::string>& elsewhere, bool tells, bool fixed_base);
+  MjcfRobot make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk, bool tells,
+                 bool fixed_base);
   /// Tells what is left to tell of the whole file.
   void tell();
 
@@ -52,6 +57,8 @@ class MjcfModel {
   MjcfContacts contacts_;
   Worldbody worldbody_;
   std::string name_;
+  MjcfNames names_;
+  MjcfFileJoints file_joints_;
   std::optional<double> mass_scale_;  // computed when first needed
 };
 

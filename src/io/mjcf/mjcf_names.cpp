@@ -43,6 +43,20 @@ bool MjcfNames::has(std::string_view kind, const std::string& name) const {
   return found != names_.end() && found->second.contains(name);
 }
 
+void MjcfNames::add_referred(const MjcfNode& node) {
+  for (const std::string& attribute : node.element.attributes())
+    if (const std::string_view kind = referred_kind(attribute); !kind.empty())
+      names_[std::string(kind)].insert(node.element.attribute(attribute).value_or(""));
+  for (const MjcfNode& child : node.children) add_referred(child);
+}
+
+bool MjcfNames::overlaps(const MjcfNames& other) const {
+  return std::ranges::any_of(names_, [&](const auto& entry) {
+    return std::ranges::any_of(
+        entry.second, [&](const std::string& name) { return other.has(entry.first, name); });
+  });
+}
+
 MjcfNames::References MjcfNames::references(const MjcfNode& node) const {
   References out;
   for (const std::string& attribute : node.element.attributes()) {

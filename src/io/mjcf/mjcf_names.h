@@ -27,6 +27,9 @@ class MjcfNames {
     int inside = 0, outside = 0;
   };
   References references(const MjcfNode& node) const;
+  /// Adds the names that an element and those below it refer to.
+  void add_referred(const MjcfNode& node);
+  bool overlaps(const MjcfNames& other) const;  ///< is a name in both?
 
  private:
   std::map<std::string, std::set<std::string>, std::less<>> names_;  // by kind

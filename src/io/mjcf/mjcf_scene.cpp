@@ -1,11 +1,15 @@
 // A scene of MJCF as a world.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/mjcf/mjcf_keyframes.h"
 #include "clench/io/mjcf/mjcf_options.h"
+#include "clench/io/mjcf/mjcf_tree_weight.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/spec/plausibility.h"
 
@@ -15,13 +19,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A body or a part of a robot, for collision filters.
+// each takes some 100 bytes of memory in the world
+constexpr size_t max_pairs_apart = 500'000;
+// the friction of each pair of them is kept
+constexpr size_t max_frictions = 500;
+constexpr size_t max_robots = 1000;
+
+/// A body or a part of a robot, as far as what meets what goes.
 struct ScenePart {
   PartRef ref;
   std::string name;
   std::vector<MjcfGeom> geoms;  // those that collide
   bool fixed = false;           // to the world
 };
+
+std::array<int, 3> part_key(const PartRef& ref) {
+  return {static_cast<int>(ref.kind), ref.index, ref.link};
+}
 
 class SceneReader {
  public:
@@ -45,8 +59,8 @@ class SceneReader {
   void never_meet();
   void add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
                 bool fixed);
-  std::vector<PartRef> parts_of(const XmlValues& exclude, const char* body) const;
-  const ScenePart& part_of(PartRef ref) const;
+  void keep_apart(PartRef a, PartRef b);
+  const std::vector<PartRef>& parts_of(const XmlValues& exclude, const char* body);
 
   FileCache& cache_;
   MjcfModel model_;
@@ -54,7 +68,9 @@ class SceneReader {
   TreeModel things_;  // bodies of the world without a robot, one per link
   std::vector<LinkPieces> thing_pieces_;
   std::vector<ScenePart> parts_;
-  std::map<std::string, PartRef> by_name_;
+  std::map<std::array<int, 3>, size_t> part_numbers_;  // by kind, index and link
+  MjcfListedBodies listed_;                            // of parts_
+  std::map<std::string, std::vector<PartRef>> by_name_;
   std::vector<PartRef> of_world_;  // geoms of the world itself
   std::set<std::string> geom_names_;
   std::vector<SceneBody> scene_;  // one per body directly in the world
@@ -93,6 +109,9 @@ std::string SceneReader::material(const std::vector<MjcfGeom>& geoms, const std:
   }
   if (mixed) mixed_.push_back(name);
   const MjcfFriction friction = first ? first->friction : MjcfFriction{};
+  if (materials_.size() == max_frictions && !materials_.contains(friction))
+    fail("{}: geom: expected at most {} different frictions of bodies, got more",
+         model_.document().file(), max_frictions);
   return materials_.try_emplace(friction, material_name(friction)).first->second;
 }
 
@@ -123,17 +142,12 @@ void SceneReader::add_part(PartRef ref, const std::string& name, const std::vect
     if (geom.collides()) part.geoms.push_back(geom);
     geom_names_.insert(geom.name);
   }
+  part_numbers_.emplace(part_key(ref), parts_.size());
   parts_.push_back(std::move(part));
 }
 
-const ScenePart& SceneReader::part_of(PartRef ref) const {
-  return *std::ranges::find_if(parts_, [&](const ScenePart& part) {
-    return part.ref.kind == ref.kind && part.ref.index == ref.index && part.ref.link == ref.link;
-  });
-}
-
-/// Adds an object or obstacle; shapes are made when all bodies are known.
-/// returns  its number in the world
+/// An object or obstacle, whose shape is made when all are known.   returns  its number in the
+/// world
 int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
                            const std::vector<MjcfGeom>& geoms, const BodySpec* weighed) {
   const int number = static_cast<int>(world_.bodies.size());
@@ -182,66 +196,7 @@ void SceneReader::add_geom(const WorldGeom& from) {
   of_world_.push_back({WorldEntry::Kind::body, number, -1});
 }
 
-std::vector<Pose> tree_poses(const TreeModel& tree) {
-  std::vector<Pose> out;
-  for (const TreeLink& link : tree.links)
-    out.push_back(link.parent < 0 ? link.X_PL : out[link.parent] * link.X_PL);
-  return out;
-}
-
-/// Mass, center of mass and inertia of all links together; empty if one of them is unknown.
-std::optional<BodySpec> weigh(const MjcfTree& tree, const std::vector<Pose>& X) {
-  double mass = 0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  const auto known = [&](size_t i) {
-    const BodySpec& body = tree.model.links[i].body;
-    return tree.pieces[i].has_inertial && body.com && body.inertia_per_mass;
-  };
-  for (size_t i = 0; i < X.size(); ++i) {
-    if (!known(i)) {
-      if (!tree.geoms[i].empty()) return {};
-      continue;
-    }
-    const BodySpec& body = tree.model.links[i].body;
-    mass += body.mass;
-    moment += body.mass * (X[i] * *body.com);
-  }
-  if (!mass_rule.allows(mass)) return {};
-  const Eigen::Vector3d com = moment / mass;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (size_t i = 0; i < X.size(); ++i) {
-    if (!known(i)) continue;
-    const BodySpec& body = tree.model.links[i].body;
-    const Eigen::Matrix3d R = X[i].matrix();
-    const Eigen::Vector3d off = X[i] * *body.com - com;
-    inertia +=
-        body.mass * (R * *body.inertia_per_mass * R.transpose() +
-                     off.squaredNorm() * Eigen::Matrix3d::Identity() - off * off.transpose());
-  }
-  BodySpec out;
-  if (X.size() == 1) {
-    out = tree.model.links[0].body;  // bit-exactly
-  } else {
-    out.mass = mass;
-    out.com = com;
-    out.inertia_per_mass = inertia / mass;
-  }
-  out.mass_given = true;
-  return out;
-}
-
-/// Fraction of the total weight that is compensated.
-double mean_gravity_compensation(const MjcfTree& tree) {
-  double mass = 0, carried = 0;
-  for (const TreeLink& link : tree.model.links) {
-    mass += link.body.mass;
-    carried += link.body.mass * link.body.gravity_compensation;
-  }
-  return tree.model.links.size() == 1 ? tree.model.links[0].body.gravity_compensation
-                                      : carried / mass;
-}
-
-/// Adds a free body and the bodies fixed to it as one object.
+/// A free body, and what is fixed to it, as one.
 void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
   tree.faults.tell(cache_);
@@ -254,7 +209,7 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
       add_piece(pieces, geom, X[i]);
       geoms.push_back(geom);
     }
-  const auto weighed = weigh(tree, X);
+  const auto weighed = weigh_tree(tree, X);
   const int number = add_thing(body.name, Role::object, scene.X_WB, std::move(pieces), geoms,
                                weighed ? &*weighed : nullptr);
   const BodySpec& first = tree.model.links[0].body;
@@ -265,7 +220,8 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   made.gravity_compensation = mean_gravity_compensation(tree);
   scene.bodies.push_back({number, Pose{}});
   scene.free = true;
-  for (const auto& [name, link] : tree.links) by_name_[name] = {WorldEntry::Kind::body, number, -1};
+  for (const auto& [name, link] : tree.links)
+    by_name_[name] = {{WorldEntry::Kind::body, number, -1}};
 }
 
 /// Adds a fixed body and those on it as obstacles, one per body with geoms.
@@ -282,12 +238,15 @@ void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
         add_thing(name, Role::obstacle, scene.X_WB * X[i], std::move(pieces), tree.geoms[i],
                   tree.pieces[i].has_inertial ? &tree.model.links[i].body : nullptr);
     scene.bodies.push_back({number, X[i]});
-    by_name_[name] = {WorldEntry::Kind::body, number, -1};
+    by_name_[name] = {{WorldEntry::Kind::body, number, -1}};
   }
 }
 
 void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
   const int number = static_cast<int>(world_.robots.size());
+  if (world_.robots.size() == max_robots)
+    body.node->element.fail("expected at most {} bodies in the world that joints hang on",
+                            max_robots);
   MjcfRobot made = model_.scene_robot(body, trees_++ == 0);
   PlacedRobot placed;
   placed.X_WB = body.own_joints ? Pose{} : scene.X_WB;
@@ -304,7 +263,7 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
     part.material = material(geoms, part.name);
     const PartRef ref{WorldEntry::Kind::robot, number, link};
     add_part(ref, part.name, geoms, stands && (link < 0 || fixed[link]));
-    by_name_[name] = ref;
+    by_name_[name] = {ref};
   }
   for (const DofSpec& dof : robot.dofs) placed.dofs.push_back(dof.default_value);
   scene.robot = number;
@@ -344,18 +303,29 @@ void SceneReader::dress_things() {
 
 // --- collision filters ---
 
-/// Parts made from a body of an <exclude>; empty, with a warning, for a body that is not read.
-std::vector<PartRef> SceneReader::parts_of(const XmlValues& exclude, const char* body) const {
+void SceneReader::keep_apart(PartRef a, PartRef b) {
+  if (world_.never_meet.size() == max_pairs_apart)
+    fail(
+        "{}: expected at most {} pairs of bodies that never collide, those fixed to the world "
+        "included, got more",
+        model_.document().file(), max_pairs_apart);
+  world_.never_meet.push_back({a, b});
+}
+
+/// The parts that a body of an <exclude> is; empty, with a warning, for one that is not read.
+const std::vector<PartRef>& SceneReader::parts_of(const XmlValues& exclude, const char* body) {
+  static const std::vector<PartRef> none;
   const std::string name = exclude.text(body);
   if (name == "world") return of_world_;
-  if (const auto found = by_name_.find(name); found != by_name_.end()) return {found->second};
+  if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
   cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
                           exclude.element().place(), in_quotes(name)));
-  return {};
+  return none;
 }
 
 void SceneReader::exclude() {
   for (const MjcfNode* node : model_.document().section("contact")) {
+    check_stop();
     if (node->name() == "pair") continue;
     if (node->name() != "exclude") {
       model_.document().unused().element(node->element);
@@ -363,32 +333,43 @@ void SceneReader::exclude() {
     }
     model_.document().unused().attributes(node->element, {"name", "class", "body1", "body2"});
     const XmlValues values(node->element);
-    const auto first = parts_of(values, "body1"), second = parts_of(values, "body2");
+    const auto &first = parts_of(values, "body1"), &second = parts_of(values, "body2");
     for (const PartRef& a : first)
       for (const PartRef& b : second) {
-        const bool one = a.kind == b.kind && a.index == b.index;
-        if (!one && !model_.contacts().listed(part_of(a).geoms, part_of(b).geoms))
-          world_.never_meet.push_back({a, b});
+        if (a.kind == b.kind && a.index == b.index) continue;
+        const auto both = std::minmax(part_numbers_.at(part_key(a)), part_numbers_.at(part_key(b)));
+        if (!listed_.contains(both)) keep_apart(a, b);
       }
   }
 }
 
 /// Excludes pairs of fixed parts, and pairs whose bits prevent collisions.
 void SceneReader::never_meet() {
-  int apart = 0;
+  size_t apart = 0;
   MjcfContacts& contacts = model_.contacts();
-  for (size_t i = 0; i < parts_.size(); ++i)
+  std::vector<MjcfBits> bits, first_bits;
+  for (const ScenePart& part : parts_) {
+    bits.emplace_back(part.geoms);
+    first_bits.emplace_back(part.geoms.empty() ? part.geoms : std::vector{part.geoms.front()});
+  }
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    check_stop();
     for (size_t j = i + 1; j < parts_.size(); ++j) {
       const ScenePart &a = parts_[i], &b = parts_[j];
       if (a.ref.kind == b.ref.kind && a.ref.index == b.ref.index) continue;  // of one robot
       if (a.geoms.empty() || b.geoms.empty()) continue;
       const bool fixed = a.fixed && b.fixed;
-      const bool meet = fixed ? contacts.collide(a.geoms.front(), b.geoms.front())
-                              : contacts.collide(a.geoms, b.geoms, a.name, b.name);
+      const auto found = listed_.empty() ? listed_.end() : listed_.find({i, j});
+      const size_t* listed = found == listed_.end() ? nullptr : &found->second;
+      const bool meet =
+          contacts.collide(fixed ? first_bits[i] : bits[i], fixed ? first_bits[j] : bits[j],
+                           fixed ? nullptr : listed, a.name, b.name) ||
+          listed;
       if (meet && !fixed) continue;
       apart += !meet;
-      world_.never_meet.push_back({a.ref, b.ref});
+      keep_apart(a.ref, b.ref);
     }
+  }
   if (apart > 0)
     cache_.note(
         fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
@@ -428,6 +409,9 @@ WorldSpec SceneReader::read() {
   dress_things();
   set_friction();
   read_mjcf_options(model_.document(), cache_, world_);
+  std::vector<const std::vector<MjcfGeom>*> geoms;
+  for (const ScenePart& part : parts_) geoms.push_back(&part.geoms);
+  listed_ = model_.contacts().listed(geoms);
   exclude();
   never_meet();
   read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, cache_, world_);

@@ -9,11 +9,9 @@
 
 namespace clench {
 
-MjcfTreeReader::MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCache& cache,
-                               const char* whole)
-    : document_(document), geoms_(geoms), cache_(cache), whole_(whole) {
-  names_.add(document.root());
-}
+MjcfTreeReader::MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, const MjcfNames& names,
+                               FileCache& cache, const char* whole)
+    : document_(document), geoms_(geoms), cache_(cache), whole_(whole), names_(names) {}
 
 // --- bodies in the world ---
 

@@ -59,7 +59,9 @@ bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const char* whol
 
 class MjcfTreeReader {
  public:
-  MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, FileCache& cache, const char* whole);
+  /// names  of the file's elements; outlives this
+  MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, const MjcfNames& names, FileCache& cache,
+                 const char* whole);
 
   /// A frame that bodies stand on.
   void add_world() { add_link(document_.root().element, "world", -1, {}); }
@@ -97,7 +99,7 @@ class MjcfTreeReader {
   FileCache& cache_;
   const char* whole_;
   MjcfTree tree_;
-  MjcfNames names_;                  // of the whole file
+  const MjcfNames& names_;           // of the file
   std::vector<bool> massless_;       // one per link
   std::set<int> free_;               // links that free joints move
   std::vector<std::string> raised_;  // bodies whose mass or inertia the compiler's bounds raise

@@ -13,6 +13,7 @@ CsvReader::CsvReader(const std::string& file, std::string_view text, char separa
 bool CsvReader::next(CsvRecord& out) {
   if (at_ >= text_.size()) return false;
   out.line = line_;
+  begin_ = at_;
   size_t count = 0;
   for (;; ++at_) {
     if (count == max_cells)

@@ -32,6 +32,11 @@ class CsvReader {
   /// throws   Error where a quote is not closed, something follows one, or one stands within a cell
   ///          that does not begin with it, and when a record has more than `max_cells` cells
   bool next(CsvRecord& out);
+  /// Does the text end within the last record, read or refused, and within the line in which that
+  /// begins? Then it may be cut short.
+  bool ends_in_open_line() const {
+    return at_ >= text_.size() && text_.find_first_of("\r\n", begin_) == std::string_view::npos;
+  }
 
   static constexpr size_t max_cells = 1'000'000;
 
@@ -41,8 +46,8 @@ class CsvReader {
 
   const std::string& file_;
   std::string_view text_;
-  std::string ends_;  // of a cell: the separator first
-  size_t at_ = 0;
+  std::string ends_;           // of a cell: the separator first
+  size_t at_ = 0, begin_ = 0;  // of the last record
   int line_ = 1;
   StopCheck check_{1 << 10};  // of cells
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "clench/base/hex_digit.h"
 #include "clench/base/text.h"
 
 namespace clench {
@@ -110,11 +111,7 @@ class JsonReader {
   unsigned hex4() {
     unsigned code = 0;
     for (int i = 0; i < 4; ++i) {
-      const char c = peek();
-      const int digit = c >= '0' && c <= '9'   ? c - '0'
-                        : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                        : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                               : -1;
+      const int digit = hex_digit(peek());
       if (digit < 0) refuse("a hexadecimal digit");
       code = code * 16 + static_cast<unsigned>(digit);
       ++at_;

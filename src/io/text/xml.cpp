@@ -72,8 +72,9 @@ void check_entities(const std::string& file, std::string_view text, size_t from,
   const auto is_letter = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
   };
-  for (size_t at = from; (at = text.find('&', at)) < end; ++at) {
-    const auto rest = text.substr(at + 1, end - at - 1);
+  text = text.substr(0, end);
+  for (size_t at = from; (at = text.find('&', at)) != text.npos; ++at) {
+    const auto rest = text.substr(at + 1);
     if (rest.starts_with('#')) continue;
     const auto name = rest.substr(0, std::ranges::find_if_not(rest, is_letter) - rest.begin());
     if (name.empty() || !rest.substr(name.size()).starts_with(';'))

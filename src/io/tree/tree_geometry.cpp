@@ -1,12 +1,16 @@
 #include "clench/io/tree/tree_geometry.h"
 
 #include "clench/base/error.h"
+#include "clench/base/watched.h"
 #include "clench/io/inventor/read_geometry.h"
 #include "clench/io/mesh/mesh_files.h"
 #include "clench/io/text/file_cache.h"
 #include "clench/io/tree/tree_shapes.h"
 
 namespace clench {
+
+// a round shape takes some 60 bytes of a file, and a triangle some 150 of memory
+static constexpr size_t max_round_triangles = 500'000;
 
 TreeGeometry::TreeGeometry(const ReadOptions& options, BarePoints bare_points)
     : options_(options), bare_points_(bare_points) {
@@ -123,12 +127,29 @@ TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
   const std::string key = key_of(pieces);
   if (const auto found = bodies_.find(key); found != bodies_.end()) return found->second;
 
-  Mesh mesh;
-  std::vector<Eigen::Vector3f> colors;
+  size_t vertices = 0, triangles = 0;
   for (const GeometryPiece& piece : pieces) {
-    triangles_ += piece.geometry->mesh.triangles.size();
+    check_stop();
+    const Mesh& part = piece.geometry->mesh;
+    vertices += part.vertices.size();
+    triangles += part.triangles.size();
+    triangles_ += part.triangles.size();
+    if (piece.solid) round_triangles_ += part.triangles.size();
     if (triangles_ > max_mesh_triangles)
       fail("{}: expected at most {} triangles in all links", subject, max_mesh_triangles);
+    if (round_triangles_ > max_round_triangles)
+      fail(
+          "{}: expected at most {} triangles in the spheres, capsules, cylinders and ellipsoids of "
+          "all links, a thousand in each sphere",
+          subject, max_round_triangles);
+  }
+  Mesh mesh;
+  std::vector<Eigen::Vector3f> colors;
+  mesh.vertices.reserve(vertices);
+  mesh.triangles.reserve(triangles);
+  colors.reserve(triangles);
+  for (const GeometryPiece& piece : pieces) {
+    check_stop();
     append(mesh, colors, piece);
   }
   Body body;

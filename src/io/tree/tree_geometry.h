@@ -57,7 +57,7 @@ class TreeGeometry {
   BarePoints bare_points_;
   std::map<std::string, std::shared_ptr<const Geometry>> geometries_;  // by path or name
   std::map<std::string, Body> bodies_;                                 // by pieces
-  size_t triangles_ = 0;                                               // of all shapes
+  size_t triangles_ = 0, round_triangles_ = 0;                         // of all shapes
 };
 
 }  // namespace clench

@@ -1,9 +1,13 @@
 #include "clench/io/urdf/urdf_files.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <set>
 
+#include "clench/base/hex_digit.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/text/any_case.h"
@@ -38,10 +42,18 @@ std::optional<fs::path> find_folder(const fs::path& in, const std::string& name,
   return *alike.begin();
 }
 
+/// Without the slashes that it begins with.
+std::string without_slashes(const std::string& name) {
+  const size_t first = name.find_first_not_of('/');
+  return first == std::string::npos ? "" : name.substr(first);
+}
+
 /// The folder of a package as the options name it; empty when they do not.
 fs::path given_package(const std::string& package, const ReadOptions& options) {
   if (const auto found = options.packages.find(package); found != options.packages.end())
     return found->second;
+  for (const auto& [name, folder] : options.packages)
+    if (!name.empty() && lower_case(name) == lower_case(package)) return folder;
   // the name "" stands for every package: its folder, or the one that holds all of them
   const auto all = options.packages.find("");
   if (all == options.packages.end()) return {};
@@ -61,8 +73,10 @@ std::vector<fs::path> folders_above(const fs::path& referrer) {
   return out;
 }
 
-fs::path find_in_package(const std::string& package, const std::string& rest,
+/// given  what stands behind the package and a slash, with more slashes perhaps
+fs::path find_in_package(const std::string& package, const std::string& given,
                          const fs::path& referrer, const ReadOptions& options) {
+  const std::string rest = without_slashes(given);
   if (const fs::path folder = given_package(package, options); !folder.empty())
     return find_file(rest, folder / "x", options.beside_only());
   auto folders = folders_above(referrer);
@@ -80,7 +94,8 @@ fs::path find_in_package(const std::string& package, const std::string& rest,
     }
   for (const Look& look : looks)
     for (const fs::path& folder : folders)
-      if (const fs::path found = look(folder / rest); !found.empty()) {
+      if (const fs::path found = look(folder / rest);
+          !found.empty() && folder != folder.root_path()) {
         if (options.note)
           options.note(fmt::format("{}: package {} is taken to be {}", referrer.filename().string(),
                                    in_quotes(package), folder.generic_string()));
@@ -88,29 +103,80 @@ fs::path find_in_package(const std::string& package, const std::string& rest,
       }
   // nobody lies inside whose nearest place does not
   if (!lies_within(folders.front() / package / rest, options.confine))
-    fail_outside(excerpt(rest), options);
+    fail_outside(excerpt(given), options);
   if (is_folder(folders.front() / package, options) || is_called(folders.front(), package))
-    fail("no such file in package {}: {}", in_quotes(package), excerpt(rest));
+    fail("no such file in package {}: {}", in_quotes(package), excerpt(given));
   fail("no package {} with {} beside or above the file; the option 'package' names its folder",
-       in_quotes(package), in_quotes(rest));
+       in_quotes(package), in_quotes(given));
+}
+
+/// Length of the scheme that a name with slashes begins with: letters, then ':' and a slash. A
+/// single letter is a drive. 0: none.
+size_t scheme_length(const std::string& name) {
+  const size_t colon = name.find(':');
+  if (colon == std::string::npos || colon < 2 || name.substr(colon + 1, 1) != "/") return 0;
+  const bool letters = std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(colon),
+                                   [](unsigned char c) { return std::isalpha(c); });
+  return letters ? colon : 0;
+}
+
+/// Bytes that a URI writes as "%20" as they are; empty where the name has none.
+std::string unescaped(const std::string& name) {
+  std::string out;
+  bool any = false;
+  for (size_t i = 0; i < name.size(); ++i) {
+    const int high = name[i] == '%' && i + 2 < name.size() ? hex_digit(name[i + 1]) : -1;
+    const int low = high < 0 ? -1 : hex_digit(name[i + 2]);
+    const int code = 16 * high + low;
+    if (low < 0 || code == 0) {
+      out += name[i];
+      continue;
+    }
+    out += static_cast<char>(code);
+    i += 2, any = true;
+  }
+  return any ? out : "";
+}
+
+/// `name` has slashes and no blanks around it.
+fs::path find_by_scheme(const std::string& name, const fs::path& referrer,
+                        const ReadOptions& options) {
+  const size_t colon = scheme_length(name);
+  if (colon == 0) return find_file(name, referrer, options);
+  const std::string scheme = lower_case(name.substr(0, colon)), rest = name.substr(colon + 1);
+  if (scheme == "file") {
+    // of file:///tmp/a.stl and file://localhost/tmp/a.stl the path is /tmp/a.stl
+    std::string path = rest.starts_with("//") ? rest.substr(2) : rest;
+    if (lower_case(path).starts_with("localhost/")) path = path.substr(std::strlen("localhost"));
+    return find_file(path, referrer, options);
+  }
+  if (scheme != "package" && scheme != "model")
+    fail("expected a file name, package:// or file://, got {}", in_quotes(name));
+  const std::string in_package = without_slashes(rest);
+  const size_t slash = in_package.find('/');
+  const std::string file = slash == std::string::npos ? "" : in_package.substr(slash + 1);
+  if (without_slashes(file).empty())
+    fail("expected {}://PACKAGE/FILE, got {}", scheme, in_quotes(name));
+  return find_in_package(in_package.substr(0, slash), file, referrer, options);
 }
 
 }  // namespace
 
 fs::path find_robot_file(const std::string& given, const fs::path& referrer,
                          const ReadOptions& options) {
-  const std::string name = with_slashes(given);
-  const size_t colon = name.find("://");
-  if (colon == std::string::npos) return find_file(name, referrer, options);
-  const std::string scheme = lower_case(name.substr(0, colon)), rest = name.substr(colon + 3);
+  const std::string name = with_slashes(std::string(trim(given)));
   if (name.size() > 4096) fail("no such file: {}", in_quotes(name));
-  if (scheme == "file") return find_file(rest, referrer, options);
-  if (scheme != "package" && scheme != "model")
-    fail("expected a file name, package:// or file://, got {}", in_quotes(name));
-  const size_t slash = rest.find('/');
-  if (slash == std::string::npos || slash == 0 || slash + 1 == rest.size())
-    fail("expected {}://PACKAGE/FILE, got {}", scheme, in_quotes(name));
-  return find_in_package(rest.substr(0, slash), rest.substr(slash + 1), referrer, options);
+  const std::string plain = unescaped(name);
+  if (plain.empty()) return find_by_scheme(name, referrer, options);
+  try {
+    return find_by_scheme(name, referrer, options);
+  } catch (const Error&) {
+    try {
+      return find_by_scheme(plain, referrer, options);
+    } catch (const Error&) {
+    }
+    throw;
+  }
 }
 
 }  // namespace clench

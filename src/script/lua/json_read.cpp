@@ -2,9 +2,10 @@
 #include <cmath>
 
 #include "clench/base/error.h"
+#include "clench/base/hex_digit.h"
 #include "clench/base/text.h"
-#include "clench/base/watched.h"
 #include "clench/script/lua/json.h"
+#include "clench/script/lua/lua_budget.h"
 
 namespace clench {
 
@@ -12,7 +13,8 @@ namespace {
 
 class Reader {
  public:
-  Reader(lua_State* L, std::string_view text) : L_(L), text_(text) {}
+  Reader(lua_State* L, std::string_view text)
+      : L_(L), text_(text), budget_(L, "clench.json.decode", text.size()) {}
 
   void read() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
@@ -54,7 +56,7 @@ class Reader {
   }
 
   void value(int depth) {
-    check_();
+    budget_.check();
     if (depth > json_depth) complain(at_, fmt::format("nested deeper than {} levels", json_depth));
     if (!lua_checkstack(L_, 8)) complain(at_, "too many values on Lua's stack");
     blanks();
@@ -154,11 +156,7 @@ class Reader {
   unsigned hex4() {
     unsigned code = 0;
     for (int i = 0; i < 4; ++i, ++at_) {
-      const char c = peek();
-      const int digit = c >= '0' && c <= '9'   ? c - '0'
-                        : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                        : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                               : -1;
+      const int digit = hex_digit(peek());
       if (digit < 0) refuse("a hexadecimal digit");
       code = code * 16 + static_cast<unsigned>(digit);
     }
@@ -210,7 +208,7 @@ class Reader {
   std::string_view text_;
   size_t at_ = 0;
   std::string scratch_;
-  StopCheck check_{1 << 10};  // of values
+  LuaBudget budget_;
 };
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST_CASE("elements that refer to replicas are replicated") {
   CHECK(scene("<replicate count='0'/>").error ==
         "scene.xml:1: replicate: count: expected a count >= 1, got 0");
   CHECK(scene("<replicate count='1000'><replicate count='1000'>" + box + "</replicate></replicate>")
-            .error == "scene.xml:1: expected at most 200000 elements made by replicate and attach");
+            .error == "scene.xml:1: expected at most 100000 elements made by replicate and attach");
   const Scene mixed = scene("<body name='one'><joint name='k'/>" + box +
                                 "</body><replicate count='2'><body name='f'>"
                                 "<joint name='j'/>" +

@@ -15,6 +15,7 @@
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/lua_budget.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
@@ -67,13 +68,18 @@ static char check_separator(lua_State* L, int i) {
 static int csv_records(lua_State* L) {
   const std::string file = check_string(L, 1, "name");
   if (lua_type(L, 2) != LUA_TSTRING) fail_expected({L, {}, "text"}, "a text", 2);
-  CsvReader reader(file, string_at(L, 2), check_separator(L, 3));
+  const std::string_view text = string_at(L, 2);
+  CsvReader reader(file, text, check_separator(L, 3));
   CsvRecord record;
+  LuaBudget budget(L, file, text.size());
   push_list(L);
   const int none_quoted = lua_gettop(L);
   push_list(L);
   for (lua_Integer i = 1; reader.next(record); ++i) {
-    push_list_of(L, record.cells, [L](const CsvCell& cell) { push(L, cell.text); });
+    push_list_of(L, record.cells, [L, &budget](const CsvCell& cell) {
+      budget.check();
+      push(L, cell.text);
+    });
     set_field(L, "line", record.line);
     // most records have no quotes, and share a table
     if (std::ranges::none_of(record.cells, &CsvCell::quoted)) {

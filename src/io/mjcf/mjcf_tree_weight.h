@@ -1,0 +1,20 @@
+// Links of an MJCF tree that move as one body: their poses and their weight together.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "clench/io/mjcf/mjcf_tree.h"
+
+namespace clench {
+
+/// One per link, in the frame of the first, all joints at zero.
+std::vector<Pose> tree_poses(const TreeModel& tree);
+
+/// Mass, centre and inertia of all links together; empty when one of them is not known.
+/// X  poses of the links
+std::optional<BodySpec> weigh_tree(const MjcfTree& tree, const std::vector<Pose>& X);
+
+/// Part of the weight of all links together that is left out.
+double mean_gravity_compensation(const MjcfTree& tree);
+
+}  // namespace clench
