@@ -55,8 +55,8 @@ struct WorldSettings {
   std::set<Id<Body>> switched_off;  ///< bodies that collide with nothing
   std::set<BodyPair> pairs_off;     ///< as ordered gives them
   std::optional<Camera> camera;
-  Eigen::Vector3d gravity{0, 0, -standard_gravity};  ///< in the world frame [m/s^2]
-  std::vector<Keyframe> keyframes;                   ///< of different names
+  Eigen::Vector3d gravity{0, 0, -standard_gravity};             ///< in the world frame [m/s^2]
+  std::vector<Keyframe> keyframes;                              ///< of different names
   std::map<std::string, size_t, std::less<>> keyframe_numbers;  ///< in keyframes, by name
   DynamicSettings dynamics;
   uint64_t stamp = 0;  ///< as the model's
