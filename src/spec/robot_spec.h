@@ -50,6 +50,7 @@ struct JointSpec {
   double armature = 0;   ///< inertia of its motor's rotor, as the joint feels it [kg m^2 or kg]
   double spring = 0;     ///< stiffness [N m/rad or N/m]
   double rest = 0;       ///< q at which the spring is slack [rad or m]
+  double offset = 0;     ///< its file's value of the joint is q + offset [rad or m]
 };
 
 /// What the joint does at q, in its frame.
@@ -121,7 +122,7 @@ Pose approach_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& directi
 std::array<double, 2> dof_range(const RobotSpec& robot, int dof);
 /// Does none of its joints have a stop?
 bool dof_is_endless(const RobotSpec& robot, int dof);
-/// The end of a sentence about a range that is none.
+/// The end of a message about an empty range.
 std::string no_range(const std::array<double, 2>& range);
 
 /// Visits all joints, link by link.
