@@ -8,14 +8,13 @@
 
 namespace clench {
 
-/// Somebody asked for the end of what runs. No Error: nothing was wrong, and whoever handles errors
-/// lets it pass.
+/// Thrown by long work that is asked to stop. Not an Error: handlers of errors do not catch it.
 class Stopped : public std::exception {
  public:
   const char* what() const noexcept override { return "stopped"; }
 };
 
-/// Who watches: the bar of a terminal, a button, a client.
+/// Displays the progress of long work, and stops it: the bar of a terminal, a button, a client.
 class Watcher {
  public:
   virtual ~Watcher() = default;

@@ -7,9 +7,9 @@
 
 namespace clench {
 
-/// While it lives, check_stop() on this thread asks its Progress; the innermost one counts. One
-/// with an empty Progress protects what must not be left half done.
-/// It changes no result: work either ends as it would without, or throws Stopped.
+/// During its lifetime check_stop() on this thread asks its Progress; the innermost one counts. An
+/// empty Progress protects work that must not be left half done.
+/// Results do not change: work either ends as it would without it, or throws Stopped.
 class Watched {
  public:
   explicit Watched(Progress progress) : progress_(std::move(progress)), outer_(innermost_) {
@@ -19,13 +19,10 @@ class Watched {
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
 
-  /// Calls of check_stop() that it has answered.
+  /// Number of calls of check_stop() so far.
   uint64_t checks() const { return checks_; }
-  /// That call of check_stop(), counted from 1, throws Stopped.
+  /// Makes the call of check_stop() with this number, counted from 1, throw Stopped.
   void stop_at(uint64_t check) { stop_at_ = check; }
-
-  /// The Progress of the innermost one on this thread; an empty one when there is none.
-  static Progress current() { return innermost_ ? innermost_->progress_ : Progress(); }
 
  private:
   friend void check_stop();

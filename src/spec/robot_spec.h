@@ -52,6 +52,7 @@ struct JointSpec {
   double rest = 0;       ///< q at which the spring is slack [rad or m]
   /// of the sum of the efforts of all actuators on the joint; absent: not limited [N m or N]
   std::optional<std::array<double, 2>> effort_range = {};
+  double offset = 0;     ///< its file's value of the joint is q + offset [rad or m]
 };
 
 /// What the joint does at q, in its frame.
@@ -123,7 +124,7 @@ Pose approach_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& directi
 std::array<double, 2> dof_range(const RobotSpec& robot, int dof);
 /// Does none of its joints have a stop?
 bool dof_is_endless(const RobotSpec& robot, int dof);
-/// The end of a sentence about a range that is none.
+/// The end of a message about an empty range.
 std::string no_range(const std::array<double, 2>& range);
 
 /// Visits all joints, link by link.

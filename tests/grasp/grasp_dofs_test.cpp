@@ -33,14 +33,13 @@ struct Hand {
   Id<Body> object;
   std::vector<std::string> said;
 
-  explicit Hand(bool follows = true, const char* kind = "revolute") {
+  explicit Hand(bool follows = true, const char* kind = "revolute", const char* offset = "") {
     const TemporaryFolder folder;
-    const std::string urdf =
-        "<robot name='twin'><link name='palm'>" + std::string(shape) + "</link>" +
-        joint("a1", "palm", "la1", "", kind) + joint("a2", "la1", "la2") +
-        joint("b1", "palm", "lb1") +
-        joint("b2", "lb1", "lb2", follows ? "<mimic joint='a2' multiplier='0.5'/>" : "") +
-        "</robot>";
+    const std::string mimic = "<mimic joint='a2' multiplier='0.5'" + std::string(offset) + "/>";
+    const std::string urdf = "<robot name='twin'><link name='palm'>" + std::string(shape) +
+                             "</link>" + joint("a1", "palm", "la1", "", kind) +
+                             joint("a2", "la1", "la2") + joint("b1", "palm", "lb1") +
+                             joint("b2", "lb1", "lb2", follows ? mimic.c_str() : "") + "</robot>";
     hand = world.add_robot(read_robot(folder.write("twin.urdf", urdf), {}), {});
     object = world.add_body(body_spec("cube", box(0.05, 0.05, 0.05)), BodyKind::object, {});
   }
@@ -124,6 +123,22 @@ TEST_CASE("joints that follow may be listed beside their leaders, and alone") {
         "0.15; the DOF counts");
   CHECK_THROWS_WITH_AS(h.apply(h.grasp({"c"}, {0})), doctest::Contains("the hand has no DOF 'c'"),
                        Error);
+}
+
+TEST_CASE("the value of a joint that follows includes the offset of its mimic") {
+  Hand h(true, "revolute", " offset='0.1'");
+  CHECK(h.apply(h.grasp({"a1", "a2", "b1", "b2"}, {0.3, 0.2, 0.4, 0.2})) == Numbers{0.3, 0.2, 0.4});
+  CHECK(h.said.empty());
+  CHECK(h.apply(h.grasp({"b2"}, {0.25}))[1] == doctest::Approx(0.3));
+  CHECK(h.said.empty());
+  h.apply(h.grasp({"a2", "b2"}, {0.2, 0.1}));
+  REQUIRE(h.said.size() == 1);
+  CHECK(h.said[0] ==
+        "grasp of cube by twin: joint 'b2' moves with DOF 'a2', which puts it at 0.2, not at "
+        "0.1; the DOF counts");
+  // of a1, b1, a2, b2
+  CHECK(h.apply(h.grasp({}, {0.1, 0.3, 0.2, 0.2}), DofOrder::isaac) == Numbers{0.1, 0.2, 0.3});
+  CHECK(h.said.empty());
 }
 
 TEST_CASE(

@@ -155,7 +155,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
 }
 
 // Does every contact that presses stick?
-static bool sticks(const FrictionProblem& problem, const FrictionSolution& solution,
+static bool all_stick(const FrictionProblem& problem, const FrictionSolution& solution,
                    double tolerance) {
   for (const auto& block : problem.blocks) {
     if (block.tangents <= 0 || solution.r[block.row] <= 0) continue;
@@ -170,7 +170,7 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   FrictionProblem inner = problem;
   for (auto& block : inner.blocks) block.mu *= inscribed_cone(block.tangents, edges_per_contact);
   FrictionSolution solution = solve(inner, warm_start, {.tolerance = tolerance}, progress);
-  if (solution.solved && sticks(inner, solution, tolerance)) return solution;
+  if (solution.solved && all_stick(inner, solution, tolerance)) return solution;
   // where no pyramid is solved, the solution of the cones inside remains
   solution.solved = false;
   double least = infinity;

@@ -18,7 +18,7 @@ constexpr double apart = 1e-6;
 
 bool differ(double a, double b) { return !(std::abs(a - b) <= apart * std::max(1.0, std::abs(b))); }
 
-// links that joints move, where those without joints are parts of their parents
+// links moved by joints; links without joints are parts of their parents
 void add_moved(const Robot& robot, const std::vector<std::vector<int>>& children, int link,
                std::vector<int>& out) {
   for (const int child : children[static_cast<size_t>(link + 1)]) {
@@ -92,9 +92,13 @@ class PostureReader {
     for (const bool own : {true, false})
       for (const Listed& one : list) {
         if ((one.joint < 0 || is_leading(one.joint)) != own || known[one.dof]) continue;
-        const double ratio = one.joint < 0 ? 1 : robot_.joints[one.joint].ratio;
-        if (ratio == 0) continue;
-        q[one.dof] = one.value / ratio;
+        if (one.joint < 0) {
+          q[one.dof] = one.value;
+        } else {
+          const Joint& joint = robot_.joints[one.joint];
+          if (joint.ratio == 0) continue;
+          q[one.dof] = (one.value - joint.offset) / joint.ratio;
+        }
         known[one.dof] = true;
       }
     compare_followers(list, q);
@@ -138,7 +142,7 @@ class PostureReader {
     return out;
   }
 
-  // as many values as DOFs, or as joints: followers are joints of their own elsewhere
+  // one value per DOF, or one per joint: other programs list followers, too
   std::vector<Listed> in_order(const std::vector<double>& values) const {
     std::vector<Listed> out;
     if (values.empty()) return out;
@@ -182,7 +186,8 @@ class PostureReader {
   void compare_followers(const std::vector<Listed>& list, const Eigen::VectorXd& q) const {
     for (const Listed& one : list) {
       if (one.joint < 0) continue;
-      const double by_dof = robot_.joints[one.joint].ratio * q[one.dof];
+      const Joint& joint = robot_.joints[one.joint];
+      const double by_dof = joint.ratio * q[one.dof] + joint.offset;
       if (differ(one.value, by_dof))
         warn(fmt::format(
             "{}: joint {} moves with DOF {}, which puts it at {:.6g}, not at {:.6g}; the "
@@ -197,7 +202,7 @@ class PostureReader {
   const GraspDofOptions& options_;
 };
 
-// joints of rigid DOFs have no positions of their own
+// joints of rigid DOFs must be at the positions given by their DOFs
 void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q,
                         const std::vector<double>& joints, const std::string& place) {
   for (size_t j = 0; j < joints.size(); ++j) {
@@ -217,7 +222,7 @@ std::vector<int> breadth_first_joints(const Robot& robot) {
   std::vector<std::vector<int>> children(robot.links.size() + 1);
   for (size_t l = 0; l < robot.links.size(); ++l)
     children[static_cast<size_t>(robot.links[l].parent + 1)].push_back(static_cast<int>(l));
-  // the joints of a link in a row are levels of their own
+  // each joint of a link with several joints is a separate level
   std::vector<int> out;
   struct Place {
     int link, joint;
@@ -260,7 +265,7 @@ std::vector<std::string> listed_dof_names(const Robot& robot, size_t count, DofO
 GraspPosture grasp_posture(const World& world, Id<Robot> hand, const GraspSpec& grasp,
                            const std::string& place, const GraspDofOptions& options) {
   const Robot& robot = world.robot(hand);
-  // joints of its own tell that the list is of such a hand
+  // joint positions are listed for a hand with the same joints
   const bool own_joints = !grasp.joints.empty();
   if (own_joints &&
       (grasp.dofs.size() != robot.dofs.size() || grasp.joints.size() != robot.joints.size()))
@@ -278,7 +283,7 @@ GraspPosture grasp_posture(const World& world, Id<Robot> hand, const GraspSpec& 
   for (size_t j = 0; j < out.own.size(); ++j) {
     const Joint& joint = robot.joints[j];
     const bool rigid = robot.dofs[joint.dof].kind == DofKind::rigid;
-    // a rigid joint goes with its DOF to the limit
+    // a rigid joint follows its DOF to the limit
     if (rigid && differ(grasp.joints[j], joint.ratio * out.dofs[joint.dof])) continue;
     out.own[j] = rigid ? grasp.joints[j]
                        : joint_near_limits(robot, static_cast<int>(j), grasp.joints[j],

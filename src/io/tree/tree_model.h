@@ -15,14 +15,13 @@ namespace clench {
 /// A joint as its file gives it: q = ratio * leader + offset when it follows another. Its axis
 /// stands in the frame before it.
 struct TreeJoint : JointSpec {
-  std::string place;                                 ///< "hand.urdf:31", for sentences
+  std::string place;                                 ///< "hand.urdf:31", for messages
   DofSpec motor;                                     ///< what a leader's DOF becomes
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
   double zero = 0;                                   ///< q at which it changes no pose [rad or m]
   /// time constant [s] and damping ratio from which spring and damping are to follow
   std::optional<std::array<double, 2>> spring_damper = {};
   int leader = -1;  ///< index into joints; -1: a DOF of its own
-  double offset = 0;
 };
 
 /// frame = parent's frame * X_PL * joints, in their order
