@@ -174,7 +174,7 @@ Id<Body> Builder::named(const std::string& name) const {
 }
 
 void Builder::switch_collision() {
-  const auto neighbours = world_.settings().pairs_off;
+  const auto neighbours = world_.pairs_off();
   for (const auto& [a, b] : neighbours) world_.set_collision(true, a, b);
   for (const auto& [a, b] : spec_.collision->pairs_off)
     world_.set_collision(false, named(a), named(b));
@@ -230,6 +230,7 @@ World Builder::build() {
     if (!connected_[i]) add_connection(static_cast<int>(i));
   if (spec_.collision) switch_collision();
   for (const auto& [a, b] : spec_.never_meet) world_.set_collision(false, part(a), part(b));
+  for (const auto& [ref, bits] : spec_.collision_bits) world_.set_collision_bits(part(ref), bits);
   if (!spec_.collision_on) world_.set_collision(false);
   if (spec_.gravity) world_.set_gravity(*spec_.gravity);
   if (spec_.time_step) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace clench {
@@ -173,12 +174,11 @@ void Comparer::frictions() {
 
 std::vector<std::pair<size_t, size_t>> Comparer::pairs_off(const World& world,
                                                            const std::vector<Id<Body>>& all) const {
-  const auto number = [&](Id<Body> id) {
-    return static_cast<size_t>(std::ranges::find(all, id) - all.begin());
-  };
+  std::map<Id<Body>, size_t> numbers;
+  for (size_t i = 0; i < all.size(); ++i) numbers[all[i]] = i;
   std::vector<std::pair<size_t, size_t>> out;
-  for (const auto& [a, b] : world.settings().pairs_off)
-    out.push_back(std::minmax(number(a), number(b)));
+  for (const auto& [a, b] : world.pairs_off())
+    out.push_back(std::minmax(numbers.at(a), numbers.at(b)));
   std::ranges::sort(out);
   return out;
 }

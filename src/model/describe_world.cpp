@@ -163,7 +163,7 @@ void Describer::add_collision() {
   CollisionSpec spec;
   spec.on = set.collision_on;
   for (const auto id : set.switched_off) spec.bodies_off.push_back(world_.body(id).name);
-  for (const auto& [a, b] : set.pairs_off)
+  for (const auto& [a, b] : world_.pairs_off())
     spec.pairs_off.push_back({world_.body(a).name, world_.body(b).name});
   out_.collision = std::move(spec);
 }

@@ -313,6 +313,7 @@ void World::erase(Id<Body> id) {
   std::erase(model.body_order, id);
   WorldSettings& settings = edit_settings();
   settings.switched_off.erase(id);
+  settings.collision_bits.erase(id);
   std::erase_if(settings.pairs_off,
                 [&](const auto& pair) { return pair.first == id || pair.second == id; });
   settings.dynamics.surface_velocities.erase(id);
@@ -472,30 +473,6 @@ void World::set_contact_threshold(double threshold) {
 void World::set_camera(const std::optional<Camera>& camera) {
   if (camera) check_camera(*camera);
   edit_settings().camera = camera;
-}
-
-// --- what may collide ---
-
-void World::set_collision(bool on) { edit_settings().collision_on = on; }
-
-void World::set_collision(bool on, Id<Body> id) {
-  body(id);
-  if (on)
-    edit_settings().switched_off.erase(id);
-  else
-    edit_settings().switched_off.insert(id);
-}
-
-void World::set_collision(bool on, Id<Body> a, Id<Body> b) {
-  body(a), body(b);
-  if (on)
-    edit_settings().pairs_off.erase(ordered(a, b));
-  else
-    edit_settings().pairs_off.insert(ordered(a, b));
-}
-
-bool World::may_collide(Id<Body> a, Id<Body> b) const {
-  return a != b && body(a).shape && body(b).shape && settings_->may_collide(a, b);
 }
 
 // --- time machine ---

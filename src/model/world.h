@@ -152,6 +152,12 @@ class World {
   void set_collision(bool on, Id<Body> body);           ///< one body against everything
   void set_collision(bool on, Id<Body> a, Id<Body> b);  ///< a pair
   bool may_collide(Id<Body> a, Id<Body> b) const;
+  /// For many bodies, where a list of their pairs would be long.
+  void set_collision_bits(Id<Body> body, const CollisionBits& bits);
+  /// All pairs that are switched off, those that bits keep apart included, in their order.
+  /// throws Error when there are more than max_pairs_off
+  std::vector<BodyPair> pairs_off() const;
+  static constexpr size_t max_pairs_off = 2'000'000;
 
   // --- named states ---
   const std::vector<Keyframe>& keyframes() const { return settings_->keyframes; }
@@ -182,6 +188,8 @@ class World {
   QueryContext& context() { return scratch_.context; }
 
  private:
+  /// Lists the pairs of a body that bits keep apart, in place of its bits.
+  void list_pairs_of(Id<Body> body);
   static std::string the_body(const std::string& name);  ///< "body 'flask'", for sentences
   WorldModel& edit_model();
   WorldSettings& edit_settings();

@@ -12,6 +12,7 @@
 #include "clench/model/dynamic_settings.h"
 #include "clench/model/dynamic_state.h"
 #include "clench/model/robot.h"
+#include "clench/spec/world_spec.h"
 
 namespace clench {
 
@@ -54,6 +55,8 @@ struct WorldSettings {
   bool collision_on = true;
   std::set<Id<Body>> switched_off;  ///< bodies that collide with nothing
   std::set<BodyPair> pairs_off;     ///< as ordered gives them
+  /// Bodies whose bits may keep them apart, and their robots.
+  std::map<Id<Body>, std::pair<CollisionBits, Id<Robot>>> collision_bits;
   std::optional<Camera> camera;
   Eigen::Vector3d gravity{0, 0, -standard_gravity};             ///< in the world frame [m/s^2]
   std::vector<Keyframe> keyframes;                              ///< of different names
@@ -64,7 +67,15 @@ struct WorldSettings {
   /// as far as the settings go
   bool may_collide(Id<Body> a, Id<Body> b) const {
     return collision_on && !switched_off.contains(a) && !switched_off.contains(b) &&
-           !pairs_off.contains(ordered(a, b));
+           !pairs_off.contains(ordered(a, b)) && !bits_keep_apart(a, b);
+  }
+  bool bits_keep_apart(Id<Body> a, Id<Body> b) const {
+    if (collision_bits.empty()) return false;
+    const auto x = collision_bits.find(a), y = collision_bits.find(b);
+    if (x == collision_bits.end() || y == collision_bits.end()) return false;
+    const auto& [bits_a, robot_a] = x->second;
+    const auto& [bits_b, robot_b] = y->second;
+    return !(robot_a && robot_a == robot_b) && bits_a.keeps_apart(bits_b);
   }
   size_t bytes() const;
 };

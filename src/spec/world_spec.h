@@ -75,6 +75,19 @@ struct PartRef {
   int link = -1;                                   ///< of the robot; -1: its base
 };
 
+/// Bits of a body or a part of a robot: of two that have some, in different robots, the type of one
+/// and the affinity of the other must share a bit where they are to collide. Those that stand never
+/// collide with each other.
+struct CollisionBits {
+  unsigned type = 1, affinity = 1;
+  bool stands = false;  ///< fixed to the world
+
+  bool keeps_apart(const CollisionBits& other) const {
+    return (stands && other.stands) || !((type & other.affinity) || (other.type & affinity));
+  }
+  bool operator==(const CollisionBits&) const = default;
+};
+
 /// A state of a world by its name: what stands where then. What it does not name stays as it is.
 template <class BodyRef, class RobotRef>
 struct KeyframeOf {
@@ -110,7 +123,9 @@ struct WorldSpec {
   std::vector<std::string> larger_friction;
   std::optional<CollisionSpec> collision;          ///< absent: what the robots bring along
   std::vector<std::array<PartRef, 2>> never_meet;  ///< beside what the robots bring along
-  bool collision_on = true;                        ///< false: nothing collides
+  /// of many bodies, in place of their pairs; a pair of which one has none may collide
+  std::vector<std::pair<PartRef, CollisionBits>> collision_bits;
+  bool collision_on = true;  ///< false: nothing collides
   /// in the world frame [m/s^2]; absent: standard_gravity along -z
   std::optional<Eigen::Vector3d> gravity;
   std::vector<KeyframeSpec> keyframes;

@@ -42,15 +42,19 @@ TEST_CASE("thousands of free bodies are read, and bits keep all pairs of some ap
   CHECK(apart.never_meet.size() == 30 * 29 / 2);
 }
 
-TEST_CASE("bodies that never collide are listed pair by pair, and their number is limited") {
-  CHECK(limited_scene(many_bodies(50, "<geom size='.1'/>")).never_meet.size() == 50 * 49 / 2);
+TEST_CASE("few bodies that never collide are listed pair by pair, of many their bits") {
+  const WorldSpec few = limited_scene(many_bodies(50, "<geom size='.1'/>"));
+  CHECK(few.never_meet.size() == 50 * 49 / 2);
+  CHECK(few.collision_bits.empty());
+  const WorldSpec many = limited_scene(
+      "<worldbody><replicate count='1100' offset='1 0 0'><body><geom type='box' size='.1 .1 "
+      ".1'/></body></replicate></worldbody>");
+  CHECK(many.never_meet.empty());
+  CHECK(many.collision_bits.size() == 1100);
+  const std::string pair = "<contact><pair geom1='g0' geom2='g1'/></contact>";
   CHECK_THROWS_WITH_AS(
-      limited_scene(
-          "<worldbody><replicate count='1100' offset='1 0 0'><body><geom type='box' size='.1 .1 "
-          ".1'/></body></replicate></worldbody>"),
-      "m.xml: expected at most 500000 pairs of bodies that never collide, those fixed to the world "
-      "included, got more",
-      Error);
+      limited_scene(many_bodies(1100, "<geom name='g%' type='box' size='.1 .1 .1'/>") + pair),
+      "m.xml: expected at most 500000 pairs of bodies that never collide, got more", Error);
 }
 
 TEST_CASE("frictions, robots and keyframes of a scene are limited") {

@@ -19,8 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// each takes some 100 bytes of memory in the world
-constexpr size_t max_pairs_apart = 500'000;
+// each takes some 100 bytes of memory in the world; where bits and fixed bodies keep more apart,
+// the world is given their bits
+constexpr size_t max_pairs_apart = 500'000, max_listed_apart = 100'000;
 // the friction of each pair of them is kept
 constexpr size_t max_frictions = 500;
 constexpr size_t max_robots = 1000;
@@ -305,10 +306,8 @@ void SceneReader::dress_things() {
 
 void SceneReader::keep_apart(PartRef a, PartRef b) {
   if (world_.never_meet.size() == max_pairs_apart)
-    fail(
-        "{}: expected at most {} pairs of bodies that never collide, those fixed to the world "
-        "included, got more",
-        model_.document().file(), max_pairs_apart);
+    fail("{}: expected at most {} pairs of bodies that never collide, got more",
+         model_.document().file(), max_pairs_apart);
   world_.never_meet.push_back({a, b});
 }
 
@@ -347,6 +346,8 @@ void SceneReader::exclude() {
 void SceneReader::never_meet() {
   size_t apart = 0;
   MjcfContacts& contacts = model_.contacts();
+  const size_t excluded = world_.never_meet.size();
+  bool is_long = false;
   std::vector<MjcfBits> bits, first_bits;
   for (const ScenePart& part : parts_) {
     bits.emplace_back(part.geoms);
@@ -367,8 +368,18 @@ void SceneReader::never_meet() {
           listed;
       if (meet && !fixed) continue;
       apart += !meet;
-      keep_apart(a.ref, b.ref);
+      // bits know of no <pair>
+      is_long =
+          is_long || (world_.never_meet.size() == excluded + max_listed_apart && listed_.empty());
+      if (!is_long) keep_apart(a.ref, b.ref);
     }
+  }
+  if (is_long) {
+    world_.never_meet.resize(excluded);
+    for (size_t i = 0; i < parts_.size(); ++i)
+      if (!parts_[i].geoms.empty())
+        world_.collision_bits.emplace_back(
+            parts_[i].ref, CollisionBits{bits[i].type, bits[i].affinity, parts_[i].fixed});
   }
   if (apart > 0)
     cache_.note(
