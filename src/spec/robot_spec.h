@@ -52,7 +52,7 @@ struct JointSpec {
   double rest = 0;       ///< q at which the spring is slack [rad or m]
   /// of the sum of the efforts of all actuators on the joint; absent: not limited [N m or N]
   std::optional<std::array<double, 2>> effort_range = {};
-  double offset = 0;     ///< its file's value of the joint is q + offset [rad or m]
+  double offset = 0;  ///< its file's value of the joint is q + offset [rad or m]
 };
 
 /// What the joint does at q, in its frame.

@@ -156,7 +156,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
 
 // Does every contact that presses stick?
 static bool all_stick(const FrictionProblem& problem, const FrictionSolution& solution,
-                   double tolerance) {
+                      double tolerance) {
   for (const auto& block : problem.blocks) {
     if (block.tangents <= 0 || solution.r[block.row] <= 0) continue;
     if (solution.u.segment(block.row + 1, block.tangents).norm() > 10 * tolerance) return false;
