@@ -6,7 +6,7 @@
 
 namespace clench {
 
-static constexpr double unbounded = std::numeric_limits<double>::infinity();
+static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 namespace {
 
@@ -23,16 +23,16 @@ class TendonRows {
     if (tendon.range) {
       const auto [low, high] = *tendon.range;
       if (limit_is_near(length - low, velocity, step))
-        push(RowKind::tendon_low, index, limit_target(low - length, step), 0, unbounded);
+        push(RowKind::tendon_low, index, limit_target(low - length, step), 0, no_limit);
       if (limit_is_near(high - length, velocity, step))
-        push(RowKind::tendon_high, index, -limit_target(length - high, step), -unbounded, 0);
+        push(RowKind::tendon_high, index, -limit_target(length - high, step), -no_limit, 0);
     }
     const double rest = std::clamp(length, tendon.slack[0], tendon.slack[1]);
     const double stiffness = length == rest ? 0 : tendon.stiffness;
     const double gain = h_ * (tendon.damping + h_ * stiffness);
     if (gain > 0)
-      push(RowKind::tendon_spring, index, h_ * stiffness * (rest - length) / gain, -unbounded,
-           unbounded, 1 / gain);
+      push(RowKind::tendon_spring, index, h_ * stiffness * (rest - length) / gain, -no_limit,
+           no_limit, 1 / gain);
     if (tendon.friction > 0)
       push(RowKind::tendon_friction, index, 0, -tendon.friction * h_, tendon.friction * h_);
   }

@@ -76,7 +76,7 @@ void Mover::find_floating(const System& system) {
 // What turns otherwise than its carrier, by this part of that, rolls on it.
 static constexpr double turns_along = 0.01;
 // What slips by less than this sticks, and slips that differ by less than that are the same [m/s].
-static constexpr double sticks = 1e-3, same_slip = 1e-6;
+static constexpr double stick_speed = 1e-3, same_slip = 1e-6;
 
 // Who presses on whom, and which of these go along with each other.
 class Mover::Carriers {
@@ -176,7 +176,7 @@ bool Mover::Carriers::find(Part& part, const std::vector<Part>& waiting) {
   if (!press) return false;
   const Id<Body> to = press->a == part.body ? press->b : press->a;
   const bool comes =
-      before && slip < sticks && (jumped(to) || std::ranges::find(along_, to) != along_.end());
+      before && slip < stick_speed && (jumped(to) || std::ranges::find(along_, to) != along_.end());
   const Eigen::Vector3d turning = (before ? state_.solved : state_.twists)[to.index].angular,
                         apart = part.twist.angular - turning;
   if (!comes && !(apart.norm() < turns_along * turning.norm())) return true;
