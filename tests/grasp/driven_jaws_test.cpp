@@ -9,7 +9,7 @@ using test::Jaws, test::jaws, test::wrench;
 
 namespace {
 
-constexpr double q = 0.07;  // of both jaws [m]
+constexpr double jaw_q = 0.07;  // of both jaws [m]
 
 Jaws driven(const ActuatorSpec& law, double mu) {
   std::vector<ActuatorSpec> both(2, law);
@@ -92,7 +92,7 @@ TEST_CASE("random jaws hold twice the friction force of their weaker motor") {
     double least = 1e300, press = -1e300;
     const std::array<double, 2> controls = law.control_range.value_or(std::array{-1e9, 1e9});
     for (const double control : controls) {
-      double force = law.gain * control + law.bias[0] + law.bias[1] * law.gear * q;
+      double force = law.gain * control + law.bias[0] + law.bias[1] * law.gear * jaw_q;
       if (law.force_range) force = std::clamp(force, (*law.force_range)[0], (*law.force_range)[1]);
       press = std::max(press, force * law.gear);
       least = std::min(least, force * law.gear);

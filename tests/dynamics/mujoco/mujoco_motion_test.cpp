@@ -12,21 +12,17 @@
 #include "clench/model/build.h"
 #include "support/cases.h"
 #include "support/folder.h"
+#include "support/mujoco.h"
 
 using namespace clench;
 using clench::test::cases;
 
 namespace {
 
-struct MotionDeleter {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-
 // A scene in both engines, from one file.
 struct Both {
-  std::unique_ptr<mjModel, MotionDeleter> model;
-  std::unique_ptr<mjData, MotionDeleter> data;
+  test::MujocoModel model;
+  test::MujocoData data;
   World world;
 
   Both(const std::string& mjcf, double step) {

@@ -11,6 +11,7 @@
 #include "clench/base/random.h"
 #include "clench/io/read.h"
 #include "clench/model/world.h"
+#include "support/mujoco.h"
 
 using namespace clench;
 using clench::test::TemporaryFolder;
@@ -18,11 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Deleter {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-using Model = std::unique_ptr<mjModel, Deleter>;
+using Model = test::MujocoModel;
 
 Model load(const fs::path& file) {
   std::array<char, 1000> error = {};
@@ -159,7 +156,7 @@ std::pair<std::string, std::string> in_order(std::string a, std::string b) {
 /// Pairs of bodies that MuJoCo finds in contact; all bodies overlap. A geom of the world stands for
 /// itself.
 Names pairs_of_mujoco(const mjModel& m) {
-  const std::unique_ptr<mjData, Deleter> data(mj_makeData(&m));
+  const test::MujocoData data(mj_makeData(&m));
   mj_kinematics(&m, data.get());
   mj_comPos(&m, data.get());
   mj_collision(&m, data.get());

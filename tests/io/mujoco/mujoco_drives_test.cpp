@@ -11,6 +11,7 @@
 #include "clench/io/read.h"
 #include "clench/model/effort_range.h"
 #include "clench/model/world.h"
+#include "support/mujoco.h"
 
 using namespace clench;
 using clench::test::TemporaryFolder;
@@ -19,11 +20,6 @@ namespace {
 
 using Range = std::array<double, 2>;
 constexpr double far = 1e8;  // a control that stands for any
-
-struct Deleter {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
 
 std::string attribute(const char* name, const std::optional<Range>& range) {
   return range ? fmt::format(" {}='{:.6g} {:.6g}'", name, (*range)[0], (*range)[1]) : "";
@@ -228,12 +224,11 @@ TEST_CASE("the efforts of a drive at rest are those that some control exerts in 
     const std::string text = gripper.text(false);
     CAPTURE(text);
     std::array<char, 1000> error = {};
-    const std::unique_ptr<mjModel, Deleter> m(
-        mj_loadXML(folder.write("old.xml", gripper.text(true)).c_str(), nullptr, error.data(),
-                   static_cast<int>(error.size())));
+    const test::MujocoModel m(mj_loadXML(folder.write("old.xml", gripper.text(true)).c_str(),
+                                         nullptr, error.data(), static_cast<int>(error.size())));
     INFO(std::string(error.data()));
     REQUIRE(m);
-    const std::unique_ptr<mjData, Deleter> d(mj_makeData(m.get()));
+    const test::MujocoData d(mj_makeData(m.get()));
     ReadOptions options;
     options.warn = options.note = [](const std::string&) {};
     const RobotSpec spec = read_robot(folder.write("new.xml", text), options);

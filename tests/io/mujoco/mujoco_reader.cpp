@@ -1,4 +1,5 @@
 #include "mujoco_reader.h"
+#include "support/mujoco.h"
 
 #include <mujoco/mujoco.h>
 
@@ -17,11 +18,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using RowMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-struct Deleter {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
 
 std::string name_of(const mjModel& m, int type, int id) {
   const char* name = mj_id2name(&m, type, id);
@@ -87,8 +83,7 @@ BodyFacts body_facts(const mjModel& m, const mjData& d, int b) {
 
 /// Loads a file with the defaults of MuJoCo 3 for `autolimits` and, where `exact`, the volumes of
 /// meshes.   returns  null, with the error, when MuJoCo refuses it
-std::unique_ptr<mjModel, Deleter> load(const std::filesystem::path& path, bool exact,
-                                       std::string& error) {
+MujocoModel load(const std::filesystem::path& path, bool exact, std::string& error) {
   std::ifstream file(path);
   std::stringstream stream;
   stream << file.rdbuf();
@@ -108,8 +103,7 @@ std::unique_ptr<mjModel, Deleter> load(const std::filesystem::path& path, bool e
   const int slot = mj_findFileVFS(vfs.get(), name.c_str());
   std::memcpy(vfs->filedata[slot], text.data(), text.size());
   char sentence[1000] = "";
-  std::unique_ptr<mjModel, Deleter> out(
-      mj_loadXML(path.c_str(), vfs.get(), sentence, sizeof sentence));
+  MujocoModel out(mj_loadXML(path.c_str(), vfs.get(), sentence, sizeof sentence));
   mj_deleteVFS(vfs.get());
   if (!out) error = *sentence ? sentence : "unknown error";
   return out;
@@ -125,7 +119,7 @@ ModelFacts read_by_mujoco(const std::filesystem::path& path) {
   if (!m) m = load(path, exact = false, out.error);
   if (!m) return out;
   out.error.clear();
-  const std::unique_ptr<mjData, Deleter> d(mj_makeData(m.get()));
+  const MujocoData d(mj_makeData(m.get()));
   mj_resetData(m.get(), d.get());
   apply_equalities(*m, *d);
   mj_kinematics(m.get(), d.get());
