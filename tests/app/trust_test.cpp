@@ -37,10 +37,11 @@ TEST_CASE("a checked or converted file cannot end the program, however it asks f
     CHECK(check.code == 1);
     CHECK(has(check.out, "flask.iv: a body"));  // the others are checked
     const std::string text = code;
-    CHECK(has(check.out, text == "return os.exit" ? "expected a script that returns a world"
-                         : text.find("__tostring") != std::string::npos
-                             ? "error object is a table whose __tostring fails"
-                             : "os.exit: a file that is read cannot end the program"));
+    CHECK(
+        has(check.out, text == "return os.exit" ? "expected a script that returns a world"
+                       : text.find("__tostring") != std::string::npos
+                           ? "expected an error with a message, got a table whose __tostring fails"
+                           : "os.exit: a file that is read cannot end the program"));
     CHECK(check.out.find("traceback") == std::string::npos);
     CHECK(run("convert " + file + " " + (folder / "w.wld")).code == 1);
   }
