@@ -8,8 +8,8 @@
 
 namespace clench {
 
-// six digits of a metre and of a radian
-static constexpr double digits = 1e-5;
+// six file_digits of a metre and of a radian
+static constexpr double file_digits = 1e-5;
 
 // inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its
 // breakaway DOF has gone on beyond it; any other follows its DOF
@@ -27,7 +27,7 @@ static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
     const bool sprung = robot.dofs[joint.dof].kind == DofKind::compliant;
     const bool beyond = sprung || (joint.ratio * q[joint.dof] - *out[j]) * joint.ratio > 0;
     const bool inside =
-        joint.endless || (*out[j] >= joint.min - digits && *out[j] <= joint.max + digits);
+        joint.endless || (*out[j] >= joint.min - file_digits && *out[j] <= joint.max + file_digits);
     if (beyond && inside) continue;
     if (listeners.warn && beyond)
       listeners.warn(fmt::format(
@@ -51,7 +51,7 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
   for (int i = 0; i < q.size(); ++i) {
     const auto [low, high] = range_around(robot, i, placed.dofs[i]);
     q[i] = std::clamp(placed.dofs[i], low, high);
-    if (std::abs(q[i] - placed.dofs[i]) > digits)
+    if (std::abs(q[i] - placed.dofs[i]) > file_digits)
       tell(listeners.repair, listeners.warn,
            fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
                        excerpt(robot.name), i + 1, placed.dofs[i], low, high));
@@ -71,7 +71,7 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
     const Pose& X_WB = world.pose(world.robot(child).base);
     const Pose as_written = X_WL.inverse() * X_WB;
     const Pose off = X_LB.inverse() * as_written;
-    if (off.position.norm() < digits && off.angle() < digits)
+    if (off.position.norm() < file_digits && off.angle() < file_digits)
       // both as they are when they agree to the bit
       X_LB = X_WL * X_LB == X_WB ? X_LB : as_written;
     else if (listeners.warn)

@@ -17,9 +17,9 @@ namespace clench {
 namespace {
 
 // When one pair that meets is enough, so many are judged as soon as a leaf is done.
-constexpr int patience = 3;
+constexpr int reach_patience = 3;
 
-constexpr uint32_t tasks_between_checks = 4096;
+constexpr uint32_t reach_tasks_between_checks = 4096;
 
 // ordered: what overlaps most first
 template <class F, bool ordered>
@@ -44,7 +44,7 @@ class ReachWalk {
     if (!(limit_ >= 0)) return false;
     int height = 0;
     stack_[height++] = {0, 0, 0, root(a_), root(b_), size_of(a_, 0, 0), size_of(b_, 0, 0)};
-    StopCheck check(tasks_between_checks);
+    StopCheck check(reach_tasks_between_checks);
     while (height > 0) {
       check();
       const Task task = stack_[--height];
@@ -222,7 +222,7 @@ class ReachWalk {
       }
     }
     if constexpr (ordered)
-      if (waiting_.count() >= patience) return judge(visit);
+      if (waiting_.count() >= reach_patience) return judge(visit);
     return false;
   }
 

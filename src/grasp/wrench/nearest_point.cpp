@@ -45,7 +45,7 @@ bool nearest_shares(const Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
 }
 
 // points of the set, a column each, and their shares in the nearest point so far
-struct Simplex {
+struct NearSimplex {
   Eigen::MatrixXd corners;
   Eigen::VectorXd shares;
 
@@ -103,7 +103,7 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
     set.support(direction.data(), point.data());
     return Eigen::VectorXd(point - place);
   };
-  Simplex simplex{reach(Eigen::VectorXd::Ones(d)), Eigen::VectorXd::Ones(1)};
+  NearSimplex simplex{reach(Eigen::VectorXd::Ones(d)), Eigen::VectorXd::Ones(1)};
   Eigen::VectorXd point = simplex.corners.col(0);
   int idle = 0;
   for (int step = 0; step < max_steps; ++step) {

@@ -93,8 +93,8 @@ Projection project(const WrenchSpace& space, const ProjectionOptions& options) {
     turned.coordinates.push_back(options.fixed[i].first);
     values[static_cast<int>(i)] = options.fixed[i].second;
   }
-  const WrenchSpace seen(space.contacts(), turned);
-  const int exponent = seen.scale_exponent();
+  const WrenchSpace turned_space(space.contacts(), turned);
+  const int exponent = turned_space.scale_exponent();
   for (double& value : values) value = std::ldexp(value, -exponent);
 
   const auto nothing = [&] {
@@ -108,14 +108,14 @@ Projection project(const WrenchSpace& space, const ProjectionOptions& options) {
       .max_facets = max_faces,
       .progress = options.progress};
   Facets facets;
-  if (seen.scaled_reach().empty()) {
+  if (turned_space.scaled_reach().empty()) {
     if (!values.isZero(0)) nothing();
     return out;
   }
   if (values.size() == 0) {
-    facets = all_facets(seen.scaled_reach(), facets_options);
+    facets = all_facets(turned_space.scaled_reach(), facets_options);
   } else {
-    const Slice slice(seen.scaled_reach(), values);
+    const Slice slice(turned_space.scaled_reach(), values);
     if (slice.empty()) nothing();
     facets = all_facets(slice, facets_options);
   }

@@ -10,7 +10,7 @@
 namespace clench {
 
 static constexpr double same_point = 1e-12;
-static constexpr double shifts[] = {0, 1e-11, 1e-9, 1e-7, 1e-5};
+static constexpr double hull_shifts[] = {0, 1e-11, 1e-9, 1e-7, 1e-5};
 
 // indices of points that are not near an earlier one, ascending
 static std::vector<int> distinct(const Eigen::MatrixXd& points) {
@@ -38,7 +38,7 @@ static std::vector<int> distinct(const Eigen::MatrixXd& points) {
 Hull wrench_hull(const Eigen::MatrixXd& points) {
   const std::vector<int> kept = distinct(points);
   const Eigen::MatrixXd exact = points(Eigen::all, kept);
-  for (const double shift : shifts) {
+  for (const double shift : hull_shifts) {
     Eigen::MatrixXd shifted = exact;
     Random random(1);
     if (shift > 0)
@@ -49,7 +49,7 @@ Hull wrench_hull(const Eigen::MatrixXd& points) {
         for (int& corner : facet) corner = kept[corner];
       return hull;
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::internal || shift == *std::rbegin(shifts)) throw;
+      if (error.kind() != ErrorKind::internal || shift == *std::rbegin(hull_shifts)) throw;
     }
   }
   return {};

@@ -18,15 +18,15 @@ Mesh box_mesh(const Eigen::Vector3d& size) {
 namespace {
 
 /// A circle about z on the surface.
-struct Ring {
+struct LatheRing {
   double radius = 0, z = 0;
 };
 
 /// The surface that rings from the lowest to the highest bound, with a point at each end.
-Mesh turned(const std::vector<Ring>& rings, double lowest, double highest) {
+Mesh turned(const std::vector<LatheRing>& rings, double lowest, double highest) {
   Mesh mesh;
   const int n = circle_edges, count = static_cast<int>(rings.size());
-  for (const Ring& ring : rings)
+  for (const LatheRing& ring : rings)
     for (int i = 0; i < n; ++i) {
       const double angle = 2 * std::numbers::pi * i / n;
       mesh.vertices.emplace_back(ring.radius * std::cos(angle), ring.radius * std::sin(angle),
@@ -57,7 +57,7 @@ Mesh cylinder_mesh(double radius, double length) {
 
 Mesh capsule_mesh(double radius, double length) {
   const int quarter = circle_edges / 4;
-  std::vector<Ring> rings;
+  std::vector<LatheRing> rings;
   for (int k = 1; k <= quarter; ++k) {
     const double angle = std::numbers::pi / 2 * k / quarter;
     rings.push_back({radius * std::sin(angle), -length / 2 - radius * std::cos(angle)});
