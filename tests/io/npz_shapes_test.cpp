@@ -33,7 +33,7 @@ std::string archive(const std::string& type, bool fortran, const std::string& sh
   crc = ~crc;
   const auto number = [](uint64_t x, int bytes) {
     std::string out;
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>((x >> (8 * i)) & 255);
+    for (int i = 0; i < bytes; ++i, x >>= 8) out += static_cast<char>(x & 255);
     return out;
   };
   const std::string fields = number(20, 2) + number(0, 8) + number(crc, 4) + number(npy.size(), 4) +
