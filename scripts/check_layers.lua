@@ -1,6 +1,6 @@
 -- Holds the sources against the three tables of docs/architecture.md: which module may include which, in which order
--- the rooms within a module stand, and where each library may be seen. Finds circles of includes, and types of one name,
--- too. Runs in a stock interpreter:
+-- the rooms within a module stand, and where each library may be seen. Finds circles of includes, types of one name, and
+-- names that unity builds would bring together, too. Runs in a stock interpreter:
 --   lua5.4 scripts/check_layers.lua [ROOT]
 -- One sentence a fault, file:line first; exit code 1 when there is any.
 local root = arg[1] or "."
@@ -314,11 +314,40 @@ local function check_types(sources)
   end
 end
 
+-- the constant, type or alias that a line at file scope defines, or nil
+local function local_name(text)
+  local plain = text:gsub("^static%s+", ""):gsub("^inline%s+", "")
+  local constant = plain:match "^constexpr%s+(.*)$" or plain:match "^const%s+(.*)$"
+  if constant then return constant:match "([%w_]+)%s*%b[]%s*[={]" or constant:match "^[^=({]-([%w_]+)%s*[={]" end
+  return defined_type(text) or text:match "^using%s+([%w_]+)%s*="
+end
+
+--- No two sources of a module that define a constant, type or alias of one name for themselves, unless they are the same
+--- alias: unity builds compile sources together, and which ones depends on their number.
+local function check_local_names(sources)
+  local first = {}
+  for _, source in ipairs(sources) do
+    if source.path:find "%.cpp$" then
+      for line, text in ipairs(source.lines) do
+        local name = local_name(text)
+        local key = name and source.module .. " " .. name
+        local other = first[key]
+        if other and other.path ~= source.path and not (text:find "^using" and text == other.text) then
+          fault(at(source, line), "'%s' is defined in src/%s as well; a unity build may compile both as one", name, other.path)
+        elseif name and not other then
+          first[key] = {path = source.path, text = text}
+        end
+      end
+    end
+  end
+end
+
 local modules, libraries = read_modules "docs/architecture.md", read_libraries "docs/architecture.md"
 local sources = read_sources()
 check_modules(sources, modules, read_rooms("docs/architecture.md", modules))
 check_circles(sources)
 check_types(sources)
+check_local_names(sources)
 local owners = owners_of_names(libraries)
 for _, source in ipairs(sources) do check_libraries(source, libraries, owners, sources) end
 for _, text in ipairs(faults) do print(text) end

@@ -3,7 +3,7 @@
 
 namespace clench {
 
-/// The value of a digit in either case; -1: it is none.
+/// Value of a digit in upper or lower case; -1 for other characters.
 constexpr int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;

@@ -55,7 +55,7 @@ void change_or_restore(World& world, Change change) {
   }
 }
 
-// What is welded to something that moves as prescribed moves so, too.
+// Objects that are welded to prescribed bodies move with them.
 void carry_welded(World& world, const System& system) {
   DynamicState& state = world.edit_dynamics();
   for (const auto& [body, to] : system.welds)
@@ -64,7 +64,7 @@ void carry_welded(World& world, const System& system) {
 
 void count_overlaps(World& world) {
   DynamicState& state = world.edit_dynamics();
-  // surfaces that overlap by no more only touch
+  // surfaces that overlap by less only touch
   const auto is_inside = [deep = -0.01 * world.contact_threshold()](const ManifoldPoint& p) {
     return p.gap < deep;
   };

@@ -160,7 +160,7 @@ void ClenchText::add_tendon(const JointTendonSpec& tendon) {
   line("</joint_tendon>");
 }
 
-/// The joint of the file that is one of ours; null: there is none.
+/// The joint of the file for one of ours; null if the file lacks it.
 const UrdfJoint* ClenchText::joint(const std::string& name) const {
   for (const UrdfJoint& joint : plan_.joints)
     if (joint.spec && joint.spec->name == name) return &joint;

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-// six file_digits of a metre and of a radian
+// world files keep six digits of a metre and of a radian
 static constexpr double file_digits = 1e-5;
 
 // inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its

@@ -142,7 +142,7 @@ uint64_t World::hash() const {
       h.add(f.statics), h.add(f.kinetic), h.add(f.restitution.value_or(-1));
     }
   for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
-  // what most worlds lack leaves the hash as it is
+  // worlds without bits keep their hash
   for (const auto& [id, of] : settings_->collision_bits) {
     h.add(body(id).name);
     h.add(uint64_t{of.first.type} << 32 | of.first.affinity);

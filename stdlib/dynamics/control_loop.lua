@@ -19,7 +19,7 @@ local function explained(problem, name, trace, place)
                        cause = ours and problem.cause or nil}, error_value)
 end
 
--- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if there is none
+-- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if it has no such line
 local function line_of(thread)
   local level = 0
   while true do

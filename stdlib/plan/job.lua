@@ -81,7 +81,7 @@ function Job:in_time(work)
   local ok, result = pcall(work)
   local over = self:end_deadline()
   if ok then return result end
-  -- Ctrl-C before the deadline stays what it is
+  -- Ctrl-C before the deadline is raised again
   if not (over and is_stopped(result) and result.sentence ~= "interrupted") then error(result, 0) end
 end
 

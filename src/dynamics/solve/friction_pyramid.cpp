@@ -122,12 +122,14 @@ void take_damping_away(const MatrixXd& damped, const Velocities& velocities, Vec
 
 }  // namespace
 
-double inscribed_cone(int tangents, int edges) {
-  if (tangents <= 0) return 1;
-  const double of_polygon = std::cos(std::numbers::pi / edges);
-  if (tangents == 2) return of_polygon;
-  // the two poles over the equator are a double pyramid, which the others only widen
-  return of_polygon / std::sqrt(1 + of_polygon * of_polygon);
+std::vector<FrictionProblem::Block> inscribed_cones(std::vector<FrictionProblem::Block> blocks,
+                                                    int edges) {
+  const double polygon = std::cos(std::numbers::pi / edges);
+  // the equator with the two poles is a double pyramid, which the other directions only widen
+  const double with_torsion = polygon / std::sqrt(1 + polygon * polygon);
+  for (auto& block : blocks)
+    if (block.tangents > 0) block.mu *= block.tangents == 2 ? polygon : with_torsion;
+  return blocks;
 }
 
 // Largest number of unknowns; time of a pivot and memory are quadratic in it.

@@ -10,9 +10,10 @@ namespace clench {
 /// source  Ciocarlie, Lackner & Allen (2007), Soft finger model with adaptive contact geometry
 Eigen::MatrixXd pyramid_directions(int tangents, int edges);
 
-/// The coefficient of the largest round cone within the pyramid of a coefficient of 1.
-/// edges  as of pyramid_directions; with torsion at least so large
-double inscribed_cone(int tangents, int edges);
+/// The blocks with round cones that lie inside their pyramids, as large as can be for contacts without
+/// torsion.   edges  as of pyramid_directions
+std::vector<FrictionProblem::Block> inscribed_cones(std::vector<FrictionProblem::Block> blocks,
+                                                    int edges);
 
 /// Impulses of a scaled problem, and how true they are.
 struct PyramidSolution {

@@ -168,7 +168,7 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
                                                   const VectorXd& warm_start, double tolerance,
                                                   int edges_per_contact, const Progress& progress) {
   FrictionProblem inner = problem;
-  for (auto& block : inner.blocks) block.mu *= inscribed_cone(block.tangents, edges_per_contact);
+  inner.blocks = inscribed_cones(std::move(inner.blocks), edges_per_contact);
   FrictionSolution solution = solve(inner, warm_start, {.tolerance = tolerance}, progress);
   if (solution.solved && all_stick(inner, solution, tolerance)) return solution;
   // where no pyramid is solved, the solution of the cones inside remains

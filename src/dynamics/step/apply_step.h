@@ -1,4 +1,4 @@
-// What a solved step changes in its world.
+// Applies a solved step to its world.
 #pragma once
 #include "clench/dynamics/step/step_problem.h"
 

@@ -1,6 +1,7 @@
 #include "clench/dynamics/step/solve_islands.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "clench/base/watched.h"
 #include "clench/dynamics/solve/friction_pyramid.h"
@@ -72,12 +73,13 @@ bool IslandSolver::holds(const StepProblem& problem, const Island& island,
       solution.u[local_[columns.rows[i]]] +=
           columns.Y.col(static_cast<Eigen::Index>(i)).dot(change);
   }
-  const std::vector<FrictionProblem::Block> blocks = problem_.blocks;
-  if (options.cone == FrictionCone::pyramid)
-    for (auto& block : problem_.blocks) block.mu *= inscribed_cone(block.tangents, options.edges);
+  const bool is_pyramid = options.cone == FrictionCone::pyramid;
+  std::vector<FrictionProblem::Block> pyramids;
+  if (is_pyramid)
+    pyramids = std::exchange(problem_.blocks, inscribed_cones(problem_.blocks, options.edges));
   const FrictionFault fault =
       friction_fault(problem_, warm_start_, solution.u, rest_acceleration * problem.h);
-  problem_.blocks = blocks;
+  if (is_pyramid) problem_.blocks = std::move(pyramids);
   solution.r = warm_start_;
   solution.residual = fault.largest;
   solution.solved = fault.excess <= 1;
@@ -104,7 +106,9 @@ void IslandSolver::assemble(const StepProblem& problem, const Island& island) {
   }
 }
 
-// What stabilization asks for may contradict limits and locks; what does not approach never does.
+// Removes from q the velocities that stabilization asks for: they may contradict limits and locks,
+// whereas not approaching never does.
+// returns  were there any?
 bool IslandSolver::leave_out_push(const StepProblem& problem) {
   bool any = false;
   for (const int row : rows_) {

@@ -36,7 +36,8 @@ constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 // leave one.
 constexpr double poor = 3e-10;
 
-// Beyond this number of wrenches the last digits take too long; whether the origin is inside is decided without them.
+// Beyond this number of wrenches the last digits take too long; whether the origin is inside is
+// decided without them.
 constexpr size_t many_wrenches = 10'000;
 
 // Tolerance within which a contact counts as attaining the support.

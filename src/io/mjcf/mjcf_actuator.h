@@ -30,7 +30,7 @@ struct MjcfActuatorSwitches {
 
   bool off(int group) const { return all_off || groups_off.contains(group); }
 };
-/// throws  Error for a word or number that is none
+/// throws  Error for an invalid number or word
 MjcfActuatorSwitches read_actuator_switches(const MjcfDocument& document);
 
 /// All shortcuts of <general>, such as <motor> and <position>, write into one set of parameters:

@@ -80,7 +80,7 @@ class Couplings {
   const MjcfFileJoints& file_joints_;
   const bool is_one_of_several_;
   std::map<std::string, int> own_joints_;  // as MjcfFileJoints::in_trees
-  const bool tells_;                       // of what concerns no joint at all
+  const bool tells_;                       // reports elements that concern no joint
   UnusedXml told_already_;
   UnusedXml& unused_;
   const MjcfActuatorSwitches switches_;
@@ -111,7 +111,7 @@ bool Couplings::concerns(const XmlValues& values) const {
   return tells_ && !others;
 }
 
-/// Has another robot of the file a joint of the name?
+/// Does another robot of the file have a joint of this name?
 bool Couplings::is_elsewhere(const std::string& name) const {
   if (!is_one_of_several_) return false;
   const auto all = file_joints_.in_trees.find(name);

@@ -114,7 +114,7 @@ void Drives::take_control_range(const MjcfDrive& drive) {
 void Drives::inherit_range(const MjcfDrive& drive, std::array<double, 2> target) {
   const double centre = 0.5 * (target[0] + target[1]),
                half = 0.5 * (target[1] - target[0]) * drive.actuator.inherit_range;
-  // what an integrator integrates to
+  // the activation of an integrator
   auto& range =
       spec(drive).activation_range ? spec(drive).activation_range : spec(drive).control_range;
   range = {centre - half, centre + half};
@@ -267,7 +267,7 @@ void Drives::take_gains(const MjcfDrive& drive) {
   }
 }
 
-/// As a sentence names it.
+/// Name of an actuator for messages.
 std::string label(const ActuatorSpec& spec) {
   return !spec.name.empty() ? spec.name : !spec.joint.empty() ? spec.joint : spec.tendon;
 }
@@ -301,8 +301,8 @@ void Drives::tell_disabled() const {
                           some_names(names)));
 }
 
-/// Completes the actuator's spec by its target, and adds it to those of the tree. What pulls a joint
-/// that stands still moves nothing.
+/// Completes the actuator's spec by its target, and adds it to those of the tree. An actuator of a
+/// joint that does not move drives nothing.
 void Drives::attach(const MjcfDrive& drive) {
   ActuatorSpec out = spec(drive);
   const auto add = [&](int joint, double coefficient) {

@@ -16,8 +16,9 @@ struct MjcfDrive {
 };
 
 /// Sets ranges and gains of the DOFs, ties joints that share a tendon, and adds tree.actuators;
-/// `driven` marks DOFs with an actuator, see settle_motors. Joints that share one tendon move in proportion to their coefficients where no
-/// other actuator pulls them in another ratio; where one does, they stay independent.
+/// `driven` marks DOFs with an actuator, see settle_motors. Joints that share one tendon move in
+/// proportion to their coefficients where no other actuator pulls them in another ratio; where one
+/// does, they stay independent.
 void apply_mjcf_drives(const std::vector<MjcfDrive>& drives, MjcfDocument& document,
                        const FileCache& cache, TreeModel& tree);
 

@@ -116,7 +116,7 @@ int qpos_size(const std::vector<const SceneBody*>& moving) {
   return count;
 }
 
-/// How many numbers a keyframe keeps, those of rows that the file leaves out included.
+/// Count of the numbers that a keyframe keeps, with those that the file leaves out.
 size_t kept_numbers(const std::vector<const SceneBody*>& moving) {
   size_t count = 0;
   for (const SceneBody* body : moving) {

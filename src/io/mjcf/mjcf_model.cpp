@@ -41,7 +41,7 @@ static bool switches_actuators(const MjcfNode& option) {
          });
 }
 
-/// What an <option> says beside that is not used for a robot alone.
+/// Reports the other settings of such an <option>, which are not used for a robot alone.
 static void leave_out_rest(const MjcfNode& option, UnusedXml& unused) {
   unused.attributes(option.element, {"actuatorgroupdisable"});
   for (const MjcfNode& child : option.children)

@@ -37,9 +37,9 @@ class MjcfModel {
   void scale_masses(MjcfTree& tree);
   /// The tree that begins with a body, as one of the robots of a scene.
   MjcfRobot scene_robot(const TopBody& body, bool first);
-  /// trunk  the body that the robot begins with, one of several; null: the robot is the only one;
-  ///        tells  of what concerns no joint at all?; fixed_base  is its
-  ///            first body fixed to the world?
+  /// trunk       the body that the robot begins with, one of several; null: the robot is the only one
+  /// tells       also reports elements that concern no joint
+  /// fixed_base  is its first body fixed to the world?
   MjcfRobot make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk, bool tells,
                  bool fixed_base);
   /// Tells what is left to tell of the whole file.

@@ -10,11 +10,11 @@ namespace clench {
 /// One per link, in the frame of the first, all joints at zero.
 std::vector<Pose> tree_poses(const TreeModel& tree);
 
-/// Mass, centre and inertia of all links together; empty when one of them is not known.
+/// Mass, center of mass and inertia of all links together; empty if that of a link is unknown.
 /// X  poses of the links
 std::optional<BodySpec> weigh_tree(const MjcfTree& tree, const std::vector<Pose>& X);
 
-/// Part of the weight of all links together that is left out.
+/// Fraction of the total weight that is compensated.
 double mean_gravity_compensation(const MjcfTree& tree);
 
 }  // namespace clench

@@ -62,7 +62,7 @@ static std::vector<std::string> lost_by_ode(const World& world) {
   return out;
 }
 
-// Told once.
+// Warns once per script.
 static void warn_of_ode(lua_State* L, const World& world) {
   static const char lost = 0;
   if (world.dynamic_settings().engine != DynamicsEngine::ode) return;

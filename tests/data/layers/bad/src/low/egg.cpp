@@ -1,2 +1,4 @@
 #include "clench/low/egg.h"
 #include "clench/low/hen.h"
+
+static constexpr int feathers = 0;

@@ -1,1 +1,3 @@
 #include "clench/low/egg.h"
+
+static constexpr int feathers = 3;
