@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "bench/peers.h"
 #include "clench/base/random.h"
@@ -77,11 +78,11 @@ void measure_building(const std::string& name, const Shape& shape, Report& repor
   Times build, bytes;
   for (int i = 0; i < 5; ++i) {
     std::vector<double> time;
-    const auto again = timed(time, [&] { return Tree(shape.mesh(), Progress()); });
+    const auto again = timed(time, [&] { return std::make_unique<Tree>(shape.mesh(), Progress()); });
     build["ours"].push_back(time[0] / count);
     const double mesh = static_cast<double>(shape.mesh().vertices.size() * sizeof(Eigen::Vector3d) +
                                             shape.mesh().triangles.size() * sizeof(Triangle));
-    bytes["ours"].push_back((static_cast<double>(again.bytes()) + mesh) / count);
+    bytes["ours"].push_back((static_cast<double>(again->bytes()) + mesh) / count);
   }
   report.add("build, us a triangle", name, build);
   report.add("memory, bytes a triangle", name, bytes);
