@@ -24,11 +24,14 @@ struct TouchOptions {
   int max_per_patch = 8;  ///< a longer outline is thinned, the closest pair kept
 };
 
+/// Points of a patch nearer than this are one [m].
+double merge_radius(const Shape& a, const Shape& b, const TouchOptions& options);
+
 /// Contact set of two shapes that do not intersect. A patch is where near points with one normal
 /// hang together; it gives the corners of its outline, so a box standing on a table touches at four
 /// points however its faces are cut into triangles. Always contains the closest pair (its gap to
 /// the bit); never loses a patch. Normals run along the gap; where it is too narrow to tell a
-/// direction, along the face's normal.
+/// direction, along the face's normal. Round pieces touch as their formulas say.
 ///
 /// returns  nothing when they are farther apart than the threshold, intersect, or one holds the
 ///          other

@@ -4,13 +4,13 @@
 
 namespace clench {
 
-/// A vertex, an edge between two, or a triangle, by numbers of the mesh. Equal features of one
+/// A vertex, an edge between two, or a triangle, by numbers of the mesh, or a round piece by its. Equal features of one
 /// shape are the same part, however the shape stands; vertices at one place that a file does not
 /// share have a number each, and the lowest that is near speaks for them.
 struct Feature {
-  enum Kind { vertex, edge, triangle };
+  enum Kind { vertex, edge, triangle, round };
   Kind kind = triangle;
-  int first = -1;   ///< the vertex, the edge's lower vertex, or the triangle
+  int first = -1;   ///< the vertex, the edge's lower vertex, the triangle or the piece
   int second = -1;  ///< the edge's higher vertex; else -1
 
   auto operator<=>(const Feature&) const = default;

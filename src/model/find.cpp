@@ -7,6 +7,7 @@
 #include "clench/base/text.h"
 #include "clench/base/watched.h"
 #include "clench/contact/contact_set.h"
+#include "clench/geometry/query/round_pairs.h"
 
 namespace clench {
 
@@ -118,14 +119,14 @@ static bool presses(const World& world, const Manifold& m) {
 }
 
 // The touch of each point of the last step: that on the same features, else the nearest. One that
-// presses where none is becomes one; of balls the step knows better than their facets where they
-// touch.   returns  -1: none
+// presses where none is becomes one; of what is round in motion alone the step knows better than
+// its facets where they touch.   returns  -1: none
 static std::vector<int> match(const World& world, const Manifold& manifold, const Pose& X_AB,
                               std::vector<Touch>& touches) {
   constexpr double near = 1e-3;
   const bool press = presses(world, manifold);
-  if (press && (world.body(manifold.a).shape->ball() || world.body(manifold.b).shape->ball()))
-    touches.clear();
+  const Shape &a = *world.body(manifold.a).shape, &b = *world.body(manifold.b).shape;
+  if (press && are_round(a, b, RoundIn::motion) && !are_round(a, b, RoundIn::all)) touches.clear();
   const size_t count = touches.size();
   std::vector<bool> taken(count);
   std::vector<int> out;

@@ -31,5 +31,7 @@ return function(options)
     profile[#profile + 1] = {top * math.cos(angle), length + top * math.sin(angle)}
   end
   profile[#profile + 1] = {0, length + top}
-  return place(revolve(profile, false, segments, "shapes.capsule"))
+  local shape = revolve(profile, false, segments, "shapes.capsule")
+  shape.round = radius == top or nil
+  return place(shape)
 end

@@ -32,5 +32,7 @@ return function(options)
     end
   end
   if profile[#profile][1] > 0 then profile[#profile + 1] = {0, height} end
-  return place(revolve(profile, false, segments, "shapes.cylinder"))
+  local shape = revolve(profile, false, segments, "shapes.cylinder")
+  shape.round = cut == 0 or nil
+  return place(shape)
 end

@@ -1,6 +1,7 @@
 -- stdlib/shapes/mesh.lua
 --- A shape is a plain table {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}: indices from 1,
---- metres, counter-clockwise from outside. This unit checks, welds and orients such tables.
+--- metres, counter-clockwise from outside. `round = true` says that parts of it stand for balls, capsules or
+--- cylinders; the engine looks which, and lets them touch as such. This unit checks, welds and orients such tables.
 local raise = require "clench.raise"
 local described = require "clench.described"
 local vector = require "clench.shapes.vector"
@@ -101,7 +102,7 @@ function mesh.map(shape, map, subject)
     check_vertex(subject, i, vertices[i])
   end
   for i, t in ipairs(shape.triangles) do triangles[i] = {t[1], t[2], t[3]} end
-  return {vertices = vertices, triangles = triangles}
+  return {vertices = vertices, triangles = triangles, round = shape.round}
 end
 
 return mesh

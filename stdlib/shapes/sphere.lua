@@ -44,5 +44,5 @@ return function(options)
   local vertices, triangles = icosahedron()
   for _ = 1, subdivisions do triangles = subdivide(vertices, triangles) end
   for i, p in ipairs(vertices) do vertices[i] = vector.scale(p, radius) end
-  return {vertices = vertices, triangles = triangles}
+  return {vertices = vertices, triangles = triangles, round = true}
 end

@@ -11,12 +11,13 @@ return function(parts)
   if type(parts) ~= "table" or #parts == 0 then
     raise("shapes.union: expected a list of shapes, got " .. (type(parts) == "table" and "none" or described(parts)))
   end
-  local vertices, triangles = {}, {}
+  local vertices, triangles, round = {}, {}, nil
   for i = 1, #parts do
     local part = mesh.check(parts[i], "shapes.union: part " .. i)
     local base = #vertices
+    round = round or part.round
     for _, p in ipairs(part.vertices) do vertices[#vertices + 1] = {p[1], p[2], p[3]} end
     for _, t in ipairs(part.triangles) do triangles[#triangles + 1] = {t[1] + base, t[2] + base, t[3] + base} end
   end
-  return {vertices = vertices, triangles = triangles}
+  return {vertices = vertices, triangles = triangles, round = round}
 end

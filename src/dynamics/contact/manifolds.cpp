@@ -6,7 +6,7 @@
 #include "clench/base/watched.h"
 #include "clench/contact/contact_set.h"
 #include "clench/contact/near_points.h"
-#include "clench/dynamics/contact/ball_contact.h"
+#include "clench/contact/round_touches.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/dynamics/contact/sliding.h"
 #include "clench/model/near_bodies.h"
@@ -25,6 +25,17 @@ double gap_of(const ManifoldPoint& point, const Pose& X_AB) {
   return point.normal.dot(X_AB * point.p_b - point.p_a);
 }
 
+double pair_gap(World& world, const Manifold& m, double limit) {
+  const auto [first, second] = ordered(m.a, m.b);
+  const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
+  const Pose X_AB = relative_pose(world, m.a, m.b);
+  PairCache& cache = world.context().pair(first, second);
+  const double gap = are_round(a, b, RoundIn::motion)
+                         ? signed_distance(a, b, X_AB, RoundIn::motion, limit, &cache).distance
+                         : distance(a, b, X_AB, limit, &cache).distance;
+  return std::min(gap, limit);
+}
+
 void update_gaps(const World& world, Manifold& manifold) {
   const Pose X_AB = relative_pose(world, manifold.a, manifold.b);
   for (ManifoldPoint& point : manifold.points) point.gap = gap_of(point, X_AB);
@@ -37,6 +48,11 @@ void update_torsion(ManifoldPoint& point) {
   if (force == 0 || std::abs(force - point.torsion_force) <= noticed * point.torsion_force) return;
   point.torsion_radius = torsion_radius(*point.patch, force);
   point.torsion_force = force;
+}
+
+// What rolls leaves its points behind.
+static bool is_on_round(const ManifoldPoint& p) {
+  return p.feature_a.kind == Feature::round || p.feature_b.kind == Feature::round;
 }
 
 // the one on the same features, else the nearest that no other has taken, within the radius in
@@ -52,11 +68,17 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
     points[i].torsion_radius = before[k].torsion_radius;
     points[i].torsion_force = before[k].torsion_force;
   };
-  for (size_t i = 0; i < points.size(); ++i)
-    for (size_t k = 0; k < before.size() && !found[i]; ++k)
+  // both ends of a line that a round piece touches along lie on the same features
+  for (size_t i = 0; i < points.size(); ++i) {
+    size_t nearest = before.size();
+    const auto away = [&](size_t k) { return (points[i].p_b - before[k].p_b).squaredNorm(); };
+    for (size_t k = 0; k < before.size(); ++k)
       if (!taken[k] && points[i].feature_a == before[k].feature_a &&
-          points[i].feature_b == before[k].feature_b)
-        take(i, k);
+          points[i].feature_b == before[k].feature_b &&
+          (nearest == before.size() || (is_on_round(points[i]) && away(k) < away(nearest))))
+        nearest = k;
+    if (nearest < before.size()) take(i, nearest);
+  }
   for (size_t i = 0; i < points.size(); ++i) {
     if (found[i]) continue;
     size_t best = before.size();
@@ -80,7 +102,7 @@ static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& befo
   std::vector<ManifoldPoint> out;
   std::erase_if(before, [&](ManifoldPoint& p) {
     const double pressing = p.force.dot(p.normal);
-    if (pressing <= 0 || out.size() == fresh.size() ||
+    if (pressing <= 0 || is_on_round(p) || out.size() == fresh.size() ||
         (p.force - pressing * p.normal).norm() >= 0.99 * mu * pressing)
       return false;
     const auto same = [&](const ManifoldPoint& q) {
@@ -111,7 +133,8 @@ static std::vector<ManifoldPoint> take_deep(const std::vector<ManifoldPoint>& be
     const auto near = [&](const ManifoldPoint& q) {
       return (q.p_a - p.p_a).norm() < beside || (q.p_b - p.p_b).norm() < beside;
     };
-    if (p.gap < 0 && aside.norm() <= opposite * threshold && std::ranges::none_of(fresh, near))
+    if (p.gap < 0 && !is_on_round(p) && aside.norm() <= opposite * threshold &&
+        std::ranges::none_of(fresh, near))
       out.push_back(p);
   }
   std::ranges::stable_sort(out, {}, &ManifoldPoint::gap);
@@ -186,21 +209,57 @@ static bool are_of_one_robot(const World& world, const Manifold& m) {
   return world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
 }
 
-// Of two meshes; sets the clearance.   returns  false: the points that it has serve on
+static std::vector<Touch> touches_of(const Shape& a, const Shape& b, const Pose& X_AB,
+                                     double threshold) {
+  if (are_round(a, b, RoundIn::motion))
+    return round_contact_set(a, b, X_AB, RoundIn::motion, {.threshold = threshold});
+  return contact_set(a, b, X_AB, {.threshold = threshold});
+}
+
+// Where a round piece has got into the other body beyond its middle: it is pushed back to the
+// surface that is nearest to that.
+static std::vector<Touch> way_back(const Shape& a, const Shape& b, const Pose& X_AB) {
+  std::vector<Touch> out;
+  const auto add = [&](const Shape& mesh, const RoundPiece& piece, const Pose& X_MP, bool of_b) {
+    const Eigen::Vector3d centre = X_MP * piece.X_SR.position;
+    if (!out.empty() || !contains(mesh, centre)) return;
+    const ClosestPoint near = closest_point(mesh, centre);
+    if (!(near.distance > 0)) return;
+    const Eigen::Vector3d normal = (near.point - centre) / near.distance;
+    const PlacedRound round{piece.solid, X_MP * piece.X_SR};
+    const Eigen::Vector3d deepest = round.farthest(-normal);
+    Touch touch{near.point,
+                deepest,
+                normal,
+                normal.dot(deepest - near.point),
+                {Feature::triangle, near.triangle, -1},
+                {Feature::round, 0, -1}};
+    if (!of_b)
+      touch = {X_AB * deepest, X_AB * near.point, X_AB.rotation * Eigen::Vector3d(-normal),
+               touch.gap,      touch.feature_b,   touch.feature_a};
+    out.push_back(touch);
+  };
+  for (const RoundPiece& piece : b.rounds().pieces) add(a, piece, X_AB, true);
+  for (const RoundPiece& piece : a.rounds().pieces) add(b, piece, X_AB.inverse(), false);
+  return out;
+}
+
+// Sets the clearance.   returns  false: the points that it has serve on
 static bool find_points(World& world, Manifold& m, double limit,
                         std::vector<ManifoldPoint>& points) {
-  const auto [first, second] = ordered(m.a, m.b);
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
   const double threshold = world.contact_threshold();
   const Pose before = m.X_AB;
   m.X_AB = relative_pose(world, m.a, m.b);
-  const Distance d = distance(a, b, m.X_AB, limit, &world.context().pair(first, second));
-  m.clearance = std::min(d.distance, limit);
-  if (d.distance > threshold) return true;
-  std::optional<Pose> X_AT = m.X_AB;
-  const bool overlap = d.distance == 0;
-  if (overlap) {
-    if (are_of_one_robot(world, m)) return false;
+  const double gap = pair_gap(world, m, limit);
+  m.clearance = std::max(0.0, gap);
+  if (gap > threshold) return true;
+  if (gap <= 0 && are_of_one_robot(world, m)) return are_round(a, b, RoundIn::motion);
+  Pose X_AT = m.X_AB;
+  std::vector<Touch> touches;
+  if (gap != 0) {
+    touches = touches_of(a, b, X_AT, threshold);
+  } else {
     // points serve for a short way, and while one of them lies where bodies overlap
     const auto inside = [&](const ManifoldPoint& p) { return gap_of(p, m.X_AB) < 0; };
     if (std::ranges::any_of(m.points, inside) && displacement(before, m.X_AB, b) <= threshold) {
@@ -208,17 +267,21 @@ static bool find_points(World& world, Manifold& m, double limit,
       return false;
     }
     // bodies placed into each other touch where they would on the way out
-    X_AT = moved_out(a, b, m.X_AB, threshold);
-    if (!X_AT) return false;
+    if (const auto out = moved_out(a, b, m.X_AB, threshold))
+      touches = touches_of(a, b, X_AT = *out, threshold);
+    else if (are_round(a, b, RoundIn::motion))
+      touches = way_back(a, b, m.X_AB);
+    if (touches.empty()) return false;
   }
-  for (const Touch& touch : contact_set(a, b, *X_AT, {.threshold = threshold})) {
+  const bool round = are_round(a, b, RoundIn::motion);
+  for (const Touch& touch : touches) {
     points.push_back({.p_a = touch.p_a,
-                      .p_b = X_AT->inverse() * touch.p_b,
-                      .normal = normal_of(a, b, *X_AT, touch),
+                      .p_b = X_AT.inverse() * touch.p_b,
+                      .normal = round ? touch.normal_b : normal_of(a, b, X_AT, touch),
                       .feature_a = touch.feature_a,
                       .feature_b = touch.feature_b,
                       .gap = touch.gap});
-    if (overlap) points.back().gap = gap_of(points.back(), m.X_AB);
+    if (gap == 0) points.back().gap = gap_of(points.back(), m.X_AB);
   }
   return true;
 }
@@ -231,11 +294,6 @@ void measure(World& world, Manifold& m) {
   if (const double spheres = sphere_gap(world, m.a, m.b); spheres > limit) {
     m.X_AB = relative_pose(world, m.a, m.b);
     m.clearance = spheres;
-  } else if (has_ball(world, m)) {
-    m.X_AB = relative_pose(world, m.a, m.b);
-    m.clearance = std::max(0.0, ball_distance(world, m, limit));
-    if (m.clearance <= threshold && !(m.clearance == 0 && are_of_one_robot(world, m)))
-      points = ball_points(world, m, threshold);
   } else if (!find_points(world, m, limit, points)) {
     return update_gaps(world, m);
   }

@@ -17,6 +17,11 @@ inline constexpr double manifold_reach = 0.02;
 /// way [m].
 double displacement(const Pose& X_AB, const Pose& other, const Shape& b);
 
+/// Of the surfaces of a pair where it is; negative where a round piece lies in the other body, 0 where
+/// they overlap otherwise [m].
+/// limit  what is farther apart is `limit`
+double pair_gap(World& world, const Manifold& manifold, double limit);
+
 /// Brings the list of pairs up to date with what was added, removed, switched or moved far, and
 /// measures those anew that somebody has placed elsewhere since the last step.
 /// travel  how far any point of a body may go before the next call [m]

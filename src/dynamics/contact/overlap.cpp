@@ -14,6 +14,9 @@ std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, 
       ways.push_back(side * axes.col(k)), ways.push_back(-side * axes.col(k));
     }
   if (apart.norm() > threshold) ways.push_back(apart.normalized());
+  const auto gap_at = [&](const Pose& X, double limit) {
+    return signed_distance(a, b, X, RoundIn::motion, limit).distance;
+  };
   const auto at = [&](const Eigen::Vector3d& way, double s) {
     return Pose{X_AB.rotation, X_AB.position + s * way};
   };
@@ -21,12 +24,12 @@ std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, 
     std::optional<Pose> best;
     double least = 2 * s;
     for (const Eigen::Vector3d& way : ways) {
-      double here = s, gap = distance(a, b, at(way, here), 2 * s + threshold).distance;
+      double here = s, gap = gap_at(at(way, here), 2 * s + threshold);
       if (!(gap > 0)) continue;
       // back by what is sure to leave a gap
       for (int i = 0; i < 20 && gap > 0.8 * threshold; ++i) {
         here -= gap - threshold / 2;
-        gap = distance(a, b, at(way, here), 2 * s + threshold).distance;
+        gap = gap_at(at(way, here), 2 * s + threshold);
       }
       if (gap > 0 && gap <= threshold && here < least) least = here, best = at(way, here);
     }

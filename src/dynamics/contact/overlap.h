@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "clench/geometry/query/queries.h"
+#include "clench/geometry/query/round_pairs.h"
 
 namespace clench {
 
@@ -11,7 +11,7 @@ inline constexpr double deepest_parted =
 
 /// Where b would stand if it were moved straight out of a, on a short way along an axis of either
 /// or away from a's centre, until less than the threshold is between them; none where no such way
-/// of up to deepest_parted thresholds leads out.
+/// of up to deepest_parted thresholds leads out. Round pieces are round.
 /// threshold  > 0 [m]
 std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, double threshold);
 

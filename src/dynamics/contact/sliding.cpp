@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clench/contact/near_points.h"
+#include "clench/geometry/query/round_pairs.h"
 #include "clench/model/near_bodies.h"
 
 namespace clench {
@@ -22,8 +23,8 @@ bool follow_sliding(const World& world, Manifold& m) {
   const bool face_of_a = m.points[0].feature_a.kind == Feature::triangle;
   const Shape &face = *(face_of_a ? a : b).shape, &other = *(face_of_a ? b : a).shape;
   constexpr size_t max_vertices = 4096;  // all are looked at in every step
-  if (!face.convex() || other.mesh().vertices.size() > max_vertices || a.elastic_modulus ||
-      b.elastic_modulus)
+  if (are_round(*a.shape, *b.shape, RoundIn::motion) || !face.convex() ||
+      other.mesh().vertices.size() > max_vertices || a.elastic_modulus || b.elastic_modulus)
     return false;
 
   const Pose X_AB = relative_pose(world, m.a, m.b), X_FV = face_of_a ? X_AB : X_AB.inverse();

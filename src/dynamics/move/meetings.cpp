@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "clench/base/watched.h"
-#include "clench/dynamics/contact/ball_contact.h"
 #include "clench/dynamics/contact/manifolds.h"
 #include "clench/dynamics/contact/sliding.h"
 #include "clench/dynamics/move/mover.h"
+#include "clench/geometry/query/round_pairs.h"
 #include "clench/model/advance.h"
 #include "clench/model/near_bodies.h"
 
@@ -66,7 +66,7 @@ class Meetings {
   void measure_changed(bool whole);
 
  private:
-  double advance_balls(double end);
+  double advance_round(double end);
   double free_until(const Manifold& m, int looks);
 
   World& world_;
@@ -74,7 +74,7 @@ class Meetings {
   double dt_;
   std::vector<int> suspects_;  // manifolds that may change
   std::vector<PairBound> watched_;
-  std::vector<std::pair<int, double>> balls_;      // manifolds, and bounds of their speeds
+  std::vector<std::pair<int, double>> round_;      // manifolds, and bounds of their speeds
   std::vector<std::pair<int, Manifold>> arrived_;  // measured where they arrive
   // least time that passes: next to none where all start with a gap, as they may meet at any time
   std::optional<double> min_time_;
@@ -82,19 +82,20 @@ class Meetings {
   double overlap_time_;  // after which bodies that overlap are measured again
 };
 
-// Conservative advancement (see model/advance.h) of pairs one of which is a ball.
+// Conservative advancement (see model/advance.h) of pairs with round pieces, which
+// model/advance knows as facets where they are round in motion alone.
 // returns  the time until the first of them meet, or `end` [s]
-double Meetings::advance_balls(double end) {
+double Meetings::advance_round(double end) {
   constexpr double aim = 0.2, there = 0.3;
   const double threshold = world_.contact_threshold();
   double stop = end;
-  for (const auto& [i, speed] : balls_) {
+  for (const auto& [i, speed] : round_) {
     const Manifold& m = world_.dynamics()->manifolds[i];
     double s = 0, before = std::numeric_limits<double>::infinity();
     for (int steps = 0; s < stop && steps < 1000; ++steps) {
       check_stop();
       mover_.place(s);
-      const double gap = ball_distance(world_, m, speed * (stop - s) + 2 * threshold);
+      const double gap = pair_gap(world_, m, speed * (stop - s) + 2 * threshold);
       // a pair that separates does not stop
       if (gap <= there * threshold && gap < before && steps > 0) break;
       before = gap;
@@ -109,15 +110,10 @@ double Meetings::advance_balls(double end) {
 // The time until which a touching pair does not overlap, found by `looks` queries on its path and a
 // bisection; dt where it never overlaps.
 double Meetings::free_until(const Manifold& m, int looks) {
-  const auto [first, second] = ordered(m.a, m.b);
   const auto is_free = [&](double s) {
     check_stop();
     mover_.place(s);
-    if (has_ball(world_, m)) return ball_distance(world_, m, world_.contact_threshold()) > 0;
-    return distance(*world_.body(m.a).shape, *world_.body(m.b).shape,
-                    relative_pose(world_, m.a, m.b), world_.contact_threshold(),
-                    &world_.context().pair(first, second))
-               .distance > 0;
+    return pair_gap(world_, m, world_.contact_threshold()) > 0;
   };
   double free = 0, met = dt_;
   int k = 1;
@@ -182,8 +178,8 @@ void Meetings::follow(int number) {
   if (touching) min_time_ = std::min(min_time_.value_or(dt_), least);
   if (looks)
     max_time_ = std::min(max_time_, std::max(free, 0.1 * least));
-  else if (has_ball(world_, m))
-    balls_.push_back({number, 1.1 * path / dt_});
+  else if (are_round(*world_.body(m.a).shape, *world_.body(m.b).shape, RoundIn::motion))
+    round_.push_back({number, 1.1 * path / dt_});
   else
     watched_.push_back({.a = m.a, .b = m.b, .speed = 1.1 * path / dt_});
 }
@@ -191,7 +187,7 @@ void Meetings::follow(int number) {
 double Meetings::time() {
   const double most = std::min(max_time_, overlap_time_);
   double passed = most;
-  if (!balls_.empty()) passed = advance_balls(passed);
+  if (!round_.empty()) passed = advance_round(passed);
   if (!watched_.empty()) {
     int queries = 0;
     // each pair is measured at first, and some ten times on its path
@@ -212,7 +208,7 @@ void Meetings::measure_changed(bool whole) {
     return;
   }
   for (auto& [i, there] : arrived_) manifolds[i] = std::move(there);
-  for (const auto& [i, speed] : balls_) measure(world_, manifolds[i]);
+  for (const auto& [i, speed] : round_) measure(world_, manifolds[i]);
   for (const PairBound& pair : watched_)
     for (const int i : suspects_)
       if (manifolds[i].a == pair.a && manifolds[i].b == pair.b) measure(world_, manifolds[i]);

@@ -14,6 +14,11 @@ namespace clench {
 /// Corners of a triangle (3) or a tetrahedron (4).
 using Simplex = std::span<const Eigen::Vector3d>;
 
+struct Sphere {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  double radius = 0;                                 ///< [m]
+};
+
 /// Holds them.
 Sphere sphere_about(Simplex corners);
 

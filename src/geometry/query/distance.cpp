@@ -4,6 +4,7 @@
 #include "clench/base/error.h"
 #include "clench/geometry/query/containment.h"
 #include "clench/geometry/query/queries.h"
+#include "clench/geometry/query/round_pairs.h"
 
 namespace clench {
 
@@ -41,15 +42,33 @@ class NearestPair {
 
 }  // namespace
 
+// Can nothing have come within the limit since the pair was last measured, nor one into the other?
+static bool stayed_clear(const Shape& a, const Shape& b, const Pose& X_AB, double limit,
+                         const PairCache* cache) {
+  if (!cache || cache->measured.shapes != fingerprint(a, b)) return false;
+  const double clear = cache->measured.clear - motion_bound(b, cache->measured.X_AB, X_AB);
+  return clear > 0 && limit <= clear;
+}
+
+static Distance distance_of_round(const Shape& a, const Shape& b, const Pose& X_AB, double limit,
+                                  PairCache* cache) {
+  if (stayed_clear(a, b, X_AB, limit, cache)) return {.distance = infinity};
+  Distance out = signed_distance(a, b, X_AB, RoundIn::all, limit, cache);
+  if (out.distance <= 0) {
+    out.distance = 0;
+    out.p_a = out.p_b = 0.5 * (out.p_a + out.p_b);
+  }
+  if (cache)
+    cache->measured = {fingerprint(a, b), X_AB, std::max(0.0, std::min(out.distance, limit))};
+  return out;
+}
+
 Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit,
                   PairCache* cache) {
   if (std::isnan(limit)) fail("distance: limit must be a number [m], got {}", limit);
+  if (are_round(a, b, RoundIn::all)) return distance_of_round(a, b, X_AB, limit, cache);
   const Placement placement(a, b, X_AB);
-  // since it was last measured nothing can have come within the limit, nor one into the other
-  if (cache && cache->measured.shapes == fingerprint(a, b)) {
-    const double clear = cache->measured.clear - motion_bound(b, cache->measured.X_AB, X_AB);
-    if (clear > 0 && limit <= clear) return {.distance = infinity};
-  }
+  if (stayed_clear(a, b, X_AB, limit, cache)) return {.distance = infinity};
   if (limit < infinity && placement.clearly_apart(limit, cache)) {
     if (cache) cache->measured = {fingerprint(a, b), X_AB, std::max(0.0, limit)};
     return {.distance = infinity};
@@ -91,6 +110,8 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
 
 double distance_bound(const Shape& a, const Shape& b, const Pose& X_AB, double limit, double part,
                       std::array<int, 2>& near) {
+  if (are_round(a, b, RoundIn::all))
+    return std::clamp(distance(a, b, X_AB, limit).distance, 0.0, limit);
   const Placement placement(a, b, X_AB);
   if (placement.clearly_apart(limit)) return limit;
   double nearest = limit;

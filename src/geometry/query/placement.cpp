@@ -26,23 +26,27 @@ double motion_bound(const Shape& b, const Pose& from, const Pose& to) {
          rounding_of(b.bounds(), from.position) + rounding_of(b.bounds(), to.position);
 }
 
-Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
-    : mesh_a_(a.mesh()),
-      mesh_b_(b.mesh()),
-      position_(X_AB.position),
-      trees_{&a.tree(), &b.tree(), {}, {}, 0} {
+Pose checked_pose(const Pose& X_AB) {
   const Eigen::Quaterniond& q = X_AB.rotation;
   const double norm = q.norm();
   if (!(std::abs(norm - 1) < 0.1))
     fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
          q.z());
-  rotation_ = Eigen::Quaterniond(q.coeffs() / norm).toRotationMatrix();
   // beyond this, products of lengths leave the range of doubles [m]
   constexpr double largest_offset = 1e30;
-  const Vector3d& p = position_;
+  const Vector3d& p = X_AB.position;
   if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_offset)
     fail("geometry query: position of the pose must be finite and within {} [m], got ({}, {}, {})",
          largest_offset, p.x(), p.y(), p.z());
+  return {Eigen::Quaterniond(q.coeffs() / norm), p};
+}
+
+Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
+    : mesh_a_(a.mesh()),
+      mesh_b_(b.mesh()),
+      rotation_(checked_pose(X_AB).matrix()),
+      position_(X_AB.position),
+      trees_{&a.tree(), &b.tree(), {}, {}, 0} {
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(trees_.rotation) = rotation_;
   Vector3d::Map(trees_.offset) =
       to_a(Vector3d::Map(b.tree().centre())) - Vector3d::Map(a.tree().centre());

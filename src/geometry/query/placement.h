@@ -23,6 +23,9 @@ inline uint64_t fingerprint(const Shape& a, const Shape& b) {
 /// No point of b moves more between the two poses of it, rounding of coordinates included [m]
 double motion_bound(const Shape& b, const Pose& from, const Pose& to);
 
+/// X_AB with a unit quaternion.   throws Error where it has none or is not finite
+Pose checked_pose(const Pose& X_AB);
+
 struct PairCache;
 
 /// All pair queries move corners by the same arithmetic.

@@ -6,9 +6,9 @@
 #include <mutex>
 
 #include "clench/base/progress.h"
-#include "clench/geometry/mesh/ball.h"
 #include "clench/geometry/mesh/mass.h"
 #include "clench/geometry/mesh/mesh.h"
+#include "clench/geometry/round/round.h"
 #include "clench/math/pose.h"
 
 namespace clench {
@@ -16,13 +16,26 @@ namespace clench {
 // bounding volumes over the triangles; its layout is nobody's business but the queries'
 class Tree;
 
+/// Where round solids count as round, and not as the triangles that stand for them.
+enum class RoundIn {
+  all,    ///< wherever distances and contacts are found
+  motion  ///< in dynamics alone
+};
+
+/// The round solids of a mesh, in the order of their triangles, of which none belongs to two.
+struct RoundPieces {
+  std::vector<RoundPiece> pieces;
+  RoundIn in = RoundIn::all;
+};
+
 class Shape {
  public:
   using Extremes = std::array<Eigen::Vector3d, 6>;
 
+  /// A mesh given without round pieces that is a tessellation of one rolls as that.
   /// throws Error when check_mesh does, `subject` names the mesh in it; Stopped
   static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh",
-                                           const Progress& progress = {});
+                                           const Progress& progress = {}, RoundPieces rounds = {});
   ~Shape();
 
   const Mesh& mesh() const { return mesh_; }
@@ -40,13 +53,24 @@ class Shape {
   /// centre and radius [m] of a sphere that holds the mesh
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
-  /// that it is a tessellation of
-  const std::optional<Sphere>& ball() const { return ball_; }
+  const RoundPieces& rounds() const { return rounds_; }
+  /// Does it have round pieces that count there?
+  bool is_round(RoundIn where) const {
+    return !rounds_.pieces.empty() && (where == RoundIn::motion || rounds_.in == RoundIn::all);
+  }
+  /// The triangles that stand for no round piece, their numbers and those of their vertices here;
+  /// null without any.
+  /// Only of a shape with round pieces.
+  const std::shared_ptr<const Shape>& facets() const { return facets_; }
+  int facet(int number) const { return facet_numbers_[number]; }
+  int facet_vertex(int number) const { return facet_vertices_[number]; }
+  /// the axes of the round pieces, each a triangle without area
+  const Shape& core(int piece) const { return *cores_[piece]; }
   /// one triangle of each connected part (vertices at one place connect), in index order
   const std::vector<int>& parts() const { return parts_; }
   /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty where parts are many
   const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
-  /// fingerprint of vertices and triangles: equal for equal bits
+  /// fingerprint of vertices, triangles and round pieces: equal for equal bits
   uint64_t hash() const { return hash_; }
   /// that it takes, about, with its tree
   size_t bytes() const;
@@ -60,6 +84,7 @@ class Shape {
  private:
   Shape();
   void find_parts();
+  void set_rounds(RoundPieces rounds);
   const Tree& build_tree(const Progress& progress) const;
   Mesh mesh_;
   MeshFaults faults_;
@@ -68,7 +93,10 @@ class Shape {
   Eigen::Vector3d centre_;
   double radius_ = 0;
   bool convex_ = false;
-  std::optional<Sphere> ball_;
+  RoundPieces rounds_;
+  std::shared_ptr<const Shape> facets_;
+  std::vector<int> facet_numbers_, facet_vertices_;
+  std::vector<std::shared_ptr<const Shape>> cores_;
   std::vector<int> parts_;
   uint64_t hash_ = 0;
   std::vector<Extremes> part_extremes_;

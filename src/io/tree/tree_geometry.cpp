@@ -47,13 +47,16 @@ GeometryPiece TreeGeometry::primitive(const std::string& kind, const std::vector
   } else if (kind == "ellipsoid") {
     mesh = ellipsoid_mesh({sizes[0], sizes[1], sizes[2]});
     out.solid = ellipsoid_solid({sizes[0], sizes[1], sizes[2]});
+    out.round = Round::ellipsoid_of({sizes[0], sizes[1], sizes[2]});
   } else if (kind == "cylinder") {
     mesh = cylinder_mesh(sizes[0], sizes[1]);
     out.solid = cylinder_solid(sizes[0], sizes[1]);
+    out.round = Round::cylinder_of(sizes[0], sizes[1]);
   } else {
     const double length = kind == "sphere" ? 0 : sizes[1];
     mesh = capsule_mesh(sizes[0], length);
     out.solid = capsule_solid(sizes[0], length);
+    out.round = Round::capsule_of(sizes[0], length);
   }
   std::string name = kind;
   for (const double size : sizes) name += fmt::format(" {}", size);
@@ -121,6 +124,22 @@ static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
   return out;
 }
 
+// Every two round pieces of two bodies are compared: of more than these the facets touch.
+static constexpr size_t max_round_pieces = 64;
+
+static RoundPieces rounds_of(const std::vector<GeometryPiece>& pieces) {
+  RoundPieces out;
+  int first = 0;
+  for (const GeometryPiece& piece : pieces) {
+    const int count = static_cast<int>(piece.geometry->mesh.triangles.size());
+    if (piece.round && piece.scale == Eigen::Vector3d::Ones())
+      out.pieces.push_back(
+          {.solid = *piece.round, .X_SR = piece.X_LG, .first = first, .count = count});
+    first += count;
+  }
+  return out;
+}
+
 TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
                                        const std::string& subject) {
   if (pieces.empty()) return {};
@@ -153,7 +172,14 @@ TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
     append(mesh, colors, piece);
   }
   Body body;
-  body.shape = Shape::make(std::move(mesh), subject);
+  RoundPieces rounds = rounds_of(pieces);
+  if (rounds.pieces.size() > max_round_pieces) {
+    options_.note(fmt::format(
+        "{}: its {} round shapes touch as their triangles, since there are more than {}", subject,
+        rounds.pieces.size(), max_round_pieces));
+    rounds = {};
+  }
+  body.shape = Shape::make(std::move(mesh), subject, {}, std::move(rounds));
   body.appearance = looks_of(pieces, std::move(colors));
   if (pieces.size() == 1 && !pieces[0].geometry->report.format.empty())
     body.report = pieces[0].geometry->report;

@@ -26,6 +26,7 @@ struct GeometryPiece {
   Pose X_LG;                            ///< in the link, after scaling
   std::optional<PieceColor> color;      ///< over that of the file
   std::optional<MassProperties> solid;  ///< of a round shape, which its mesh only comes near
+  std::optional<Round> round = {};      ///< as which a round shape touches
 };
 
 /// Mass properties of what a piece shows, without its scale.

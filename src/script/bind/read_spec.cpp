@@ -5,6 +5,7 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
+#include "clench/geometry/round/recognize.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/lua/home.h"
 #include "clench/script/lua/setting.h"
@@ -57,8 +58,9 @@ ReadOptions read_options(lua_State* L, Table& options) {
   return options.boolean("strict", false) ? strict(std::move(out)) : out;
 }
 
-// a table of vertices and triangles, as the shapes of the standard library are
-static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
+// A table of vertices and triangles, as the shapes of the standard library are.
+// round  does it say of itself that parts of it stand for round solids?
+static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading, bool& round) {
   Table table(L, i, subject(L) + ": mesh");
   Mesh mesh;
   int number = 0;
@@ -81,6 +83,7 @@ static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading) {
     }
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
   }
+  round = table.boolean("round", false);
   table.done();
   if (number == 0) fail("{}: expected at least one triangle, got none", table.subject());
   const size_t left_out = static_cast<size_t>(number) - mesh.triangles.size();
@@ -145,10 +148,17 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
   } else if (const ShapePtr* given = to<ShapePtr>(L, i); given || lua_istable(L, i)) {
     const std::string name = options.string("name", "body");
     spec.name = name;
-    Mesh mesh = given ? (*given)->mesh() : read_mesh(L, i, reading);
-    if (reading.mesh_scale)
-      for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
-    spec.shape = Shape::make(std::move(mesh), name);
+    bool round = given && (*given)->is_round(RoundIn::all);
+    Mesh mesh = given ? (*given)->mesh() : read_mesh(L, i, reading, round);
+    if (given && !reading.mesh_scale) {
+      spec.shape = *given;
+    } else {
+      if (reading.mesh_scale)
+        for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
+      RoundPieces rounds;
+      if (round) rounds.pieces = round_parts(mesh);
+      spec.shape = Shape::make(std::move(mesh), name, {}, std::move(rounds));
+    }
   } else {
     fail_expected({L, {}, "body"},
                   "a file name, a mesh of a body, or one {vertices = ..., triangles = ...}", i);

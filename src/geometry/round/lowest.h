@@ -1,0 +1,50 @@
+// Where a round solid comes nearest to a segment, a circle, a triangle or another round solid.
+#pragma once
+#include <limits>
+
+#include "clench/geometry/query/triangle.h"
+#include "clench/geometry/round/round.h"
+
+namespace clench {
+
+/// A place near a round solid, in one frame with it.
+struct NearPlace {
+  double distance = std::numeric_limits<double>::infinity();  ///< negative inside the solid [m]
+  Eigen::Vector3d point;                                      ///< the place
+  Eigen::Vector3d normal;  ///< unit, of the solid's surface, towards the place
+};
+
+/// A solid in the frame of what it is compared with.
+struct PlacedRound {
+  Round solid;
+  Pose X;
+
+  NearPlace nearest_to(const Eigen::Vector3d& p) const {
+    const NearSkin skin = nearest(solid, X.inverse() * p);
+    return {skin.distance, p, X.rotation * skin.normal};
+  }
+  Eigen::Vector3d centre() const { return X.position; }
+  /// the point farthest along a unit direction
+  Eigen::Vector3d farthest(const Eigen::Vector3d& direction) const {
+    return X * support(solid, X.rotation.conjugate() * direction);
+  }
+};
+
+/// The place on the segment from p to q with the least distance.
+NearPlace nearest_on_segment(const PlacedRound& round, const Eigen::Vector3d& p,
+                             const Eigen::Vector3d& q);
+
+/// The same on a triangle; one that passes through the solid gives a place inside it.
+NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle);
+
+/// Two round solids.
+struct RoundGap {
+  /// of the surfaces, to 1e-9 of their size; where they overlap, how deep the one lies in the other,
+  /// negative [m]
+  double gap = 0;
+  Eigen::Vector3d p_a, p_b;  ///< where they are nearest, on both surfaces
+  Eigen::Vector3d normal;    ///< unit, from a into b
+};
+RoundGap gap_between(const PlacedRound& a, const PlacedRound& b);
+
+}  // namespace clench

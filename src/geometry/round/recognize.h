@@ -1,0 +1,19 @@
+// Meshes that stand for round solids.
+#pragma once
+#include <optional>
+
+#include "clench/geometry/mesh/mesh.h"
+#include "clench/geometry/round/round.h"
+
+namespace clench {
+
+/// The ball, capsule or cylinder that a closed mesh is a tessellation of: all its vertices lie on
+/// the solid's surface, to a millionth of its size, and it fills at least 95 % of it, as prisms of
+/// 12 sides and more do. A cap or a bowl does not, nor does a cube.
+std::optional<RoundPiece> round_of(const Mesh& mesh);
+
+/// The same of each of its connected parts whose triangles follow one another; of the others
+/// nothing.
+std::vector<RoundPiece> round_parts(const Mesh& mesh);
+
+}  // namespace clench

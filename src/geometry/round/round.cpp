@@ -1,0 +1,125 @@
+#include "clench/geometry/round/round.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clench {
+
+using Eigen::Vector3d;
+
+Core core_of(const Round& round) {
+  if (round.kind != Round::ellipsoid) return {.end = {0, 0, round.half}, .around = round.radii.x()};
+  int longest = 0;
+  round.radii.maxCoeff(&longest);
+  Core out;
+  out.end[longest] = round.radii[longest];
+  out.around = std::max(round.radii[(longest + 1) % 3], round.radii[(longest + 2) % 3]);
+  return out;
+}
+
+double inner_radius(const Round& round) {
+  if (round.kind == Round::ellipsoid) return round.radii.minCoeff();
+  return round.kind == Round::capsule ? round.radii.x() : std::min(round.radii.x(), round.half);
+}
+
+static NearSkin nearest_of_capsule(const Round& round, const Vector3d& p) {
+  const Vector3d away = p - Vector3d(0, 0, std::clamp(p.z(), -round.half, round.half));
+  const double length = away.norm();
+  return {length - round.radii.x(), length > 0 ? Vector3d(away / length) : Vector3d(1, 0, 0)};
+}
+
+static NearSkin nearest_of_cylinder(const Round& round, const Vector3d& p) {
+  const double rho = std::hypot(p.x(), p.y());
+  const Vector3d outward = rho > 0 ? Vector3d(p.x() / rho, p.y() / rho, 0) : Vector3d(1, 0, 0);
+  const Vector3d up(0, 0, p.z() < 0 ? -1 : 1);
+  const double side = rho - round.radii.x(), cap = std::abs(p.z()) - round.half;
+  if (side <= 0 && cap <= 0) return side > cap ? NearSkin{side, outward} : NearSkin{cap, up};
+  if (cap <= 0) return {side, outward};
+  if (side <= 0) return {cap, up};
+  const double distance = std::hypot(side, cap);
+  return {distance, (side * outward + cap * up) / distance};
+}
+
+// The nearest point is r_i^2 p_i / (t + r_i^2) for the largest root t of
+// sum (r_i p_i / (t + r_i^2))^2 = 1, which Newton's method finds from below: the sum falls and is
+// convex.
+static NearSkin nearest_of_ellipsoid(const Round& round, const Vector3d& p) {
+  constexpr double no_coordinate = 1e-13;  // of the largest semi-axis: the distance moves by less
+  constexpr int most = 100;
+  const Vector3d& r = round.radii;
+  const Vector3d squared = r.cwiseAbs2();
+  const Vector3d q = p.cwiseAbs().cwiseMax(no_coordinate * r.maxCoeff());
+  double t = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) t = std::max(t, r[k] * q[k] - squared[k]);
+  for (int i = 0; i < most; ++i) {
+    double value = -1, slope = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double part = r[k] * q[k] / (t + squared[k]);
+      value += part * part;
+      slope -= 2 * part * part / (t + squared[k]);
+    }
+    const double next = t - value / slope;
+    if (!(value > 0 && next > t)) break;
+    t = next;
+  }
+  Vector3d on, normal;
+  for (int k = 0; k < 3; ++k) {
+    const double side = p[k] < 0 ? -1 : 1;
+    on[k] = side * squared[k] * q[k] / (t + squared[k]);
+    normal[k] = on[k] / squared[k];
+  }
+  normal.normalize();
+  return {(p - on).dot(normal), normal};
+}
+
+NearSkin nearest(const Round& round, const Vector3d& p) {
+  switch (round.kind) {
+    case Round::capsule:
+      return nearest_of_capsule(round, p);
+    case Round::cylinder:
+      return nearest_of_cylinder(round, p);
+    default:
+      return nearest_of_ellipsoid(round, p);
+  }
+}
+
+// -1, 0 or 1
+static double sign_of(double x) { return (x > 0) - (x < 0); }
+
+Vector3d support(const Round& round, const Vector3d& direction) {
+  if (round.kind == Round::ellipsoid) {
+    const Vector3d scaled = round.radii.cwiseProduct(direction);
+    return round.radii.cwiseProduct(scaled) / scaled.norm();
+  }
+  const Vector3d end(0, 0, round.half * sign_of(direction.z()));
+  if (round.kind == Round::capsule) return end + round.radii.x() * direction;
+  const Vector3d aside(direction.x(), direction.y(), 0);
+  const double length = aside.norm();
+  return length > 0 ? Vector3d(end + round.radii.x() / length * aside) : end;
+}
+
+FlatPart flat_part(const Round& round, const Vector3d& direction, double slack) {
+  const Vector3d farthest = support(round, direction);
+  FlatPart out{.middle = farthest};
+  if (round.kind == Round::ellipsoid || round.half == 0) return out;
+  const double radius = round.radii.x(), aside = std::hypot(direction.x(), direction.y());
+  if (round.kind == Round::cylinder && 2 * radius * aside <= slack) {
+    out.kind = FlatPart::disc;
+    out.middle = {0, 0, std::copysign(round.half, direction.z())};
+    constexpr double level = 1e-9;
+    const Vector3d low = aside > level ? Vector3d(direction.x() / aside, direction.y() / aside, 0)
+                                       : Vector3d(1, 0, 0);
+    out.x = radius * low;
+    out.y = radius * Vector3d(-low.y(), low.x(), 0);
+  } else if (2 * round.half * std::abs(direction.z()) <= slack) {
+    out.kind = FlatPart::segment;
+    out.middle = {farthest.x(), farthest.y(), 0};
+    if (round.kind == Round::capsule)  // along the line that touches both ends
+      out.middle = radius * direction;
+    out.half = {0, 0, round.half};
+  }
+  return out;
+}
+
+}  // namespace clench

@@ -1,0 +1,100 @@
+-- Round things roll as the closed formulas say, on planes and on meshes.
+local test, clench = require "test", require "clench"
+local shapes = clench.shapes
+
+local gravity, slope, radius = 9.81, math.rad(3), 0.05
+
+-- A square plate whose upper side is z = 0, and one cut into triangles of 7 mm, both tilted about y.
+local function plate(fine)
+  if not fine then return shapes.move(shapes.box {2, 2, 0.1}, {0, 0, -0.05}) end
+  local n, size, vertices, triangles = 40, 0.3, {}, {}
+  for i = 0, n do
+    for j = 0, n do vertices[#vertices + 1] = {size * (2 * i / n - 1), size * (2 * j / n - 1), 0} end
+  end
+  for i = 0, n - 1 do
+    for j = 0, n - 1 do
+      local a = i * (n + 1) + j + 1
+      local b, c, d = a + n + 1, a + n + 2, a + 1
+      triangles[#triangles + 1] = {a, b, c}
+      triangles[#triangles + 1] = {a, c, d}
+    end
+  end
+  return {vertices = vertices, triangles = triangles}
+end
+
+local function slope_world(shape, fine, turn)
+  local world = clench.world()
+  world.gravity = {0, 0, -gravity}
+  local tilt = clench.pose {axis = {0, 1, 0}, angle = slope}
+  world:add_obstacle(plate(fine), {name = "slope", material = "rubber", pose = tilt})
+  local body = world:add_object(shape, {name = "roller", material = "rubber", mass = 0.1,
+                                        pose = tilt * clench.pose {xyz = {0, 0, radius + 5e-5}} * turn})
+  return world, body
+end
+
+local along_y = clench.pose {axis = {1, 0, 0}, angle = math.pi / 2}
+
+-- I / (m r^2), of the solid
+local capsule_length = 0.1
+local function capsule_inertia()
+  local cylinder, ball = math.pi * radius ^ 2 * capsule_length, 4 / 3 * math.pi * radius ^ 3
+  return (cylinder / 2 + 0.4 * ball) / (cylinder + ball)
+end
+local rollers = {
+  {"ball", shapes.sphere {radius, subdivisions = 4}, 0.4},
+  {"cylinder", shapes.cylinder {radius, 0.1}, 0.5},
+  {"capsule", shapes.capsule {radius, capsule_length}, capsule_inertia()},
+  {"wheel", shapes.cylinder {radius, 0.01}, 0.5},
+}
+
+for _, fine in ipairs {false, true} do
+  for _, roller in ipairs(rollers) do
+    local name, shape, inertia = table.unpack(roller)
+    test(("a %s rolls down a slope of %s as its formula says"):format(name, fine and "many triangles" or "one face"),
+      function(t)
+        local world, body = slope_world(shape, fine, along_y)
+        local start = body.pose.position
+        local seconds = 0.8
+        world:run(seconds)
+        local way = (body.pose.position - start):norm()
+        local expected = gravity * math.sin(slope) / (1 + inertia) * seconds ^ 2 / 2
+        t.close(way, expected, 0.01 * expected)
+        -- it neither turns aside nor leaves the plate
+        local away = body.pose.position - start
+        t.close(away.y, 0, 1e-4)
+      end)
+  end
+end
+
+test("a wheel that rolls on a level mesh does not slow down", function(t)
+  for _, roller in ipairs(rollers) do
+    local world = clench.world()
+    world.gravity = {0, 0, -gravity}
+    world:add_obstacle(plate(true), {name = "floor", material = "rubber"})
+    local body = world:add_object(roller[2], {name = "roller", material = "rubber", mass = 0.1,
+                                              pose = clench.pose {xyz = {-0.2, 0, radius + 5e-5}} * along_y})
+    local speed = 0.3
+    body.velocity = {linear = {speed, 0, 0}, angular = {0, speed / radius, 0}}
+    world:run(1)
+    t.close(body.velocity.linear.x, speed, 2e-3 * speed)
+    t.close(body.pose.position.x, -0.2 + speed, 2e-3 * speed)
+  end
+end)
+
+test("a capsule on its side touches a plate at two points, standing at one, with the plate's normal", function(t)
+  local world = clench.world()
+  local floor = world:add_obstacle(plate(false), {name = "floor"})
+  local rod = world:add_object(shapes.capsule {0.01, 0.06}, {pose = clench.pose {xyz = {0.1, 0.2, 0.01 + 5e-5}} * along_y})
+  local lying = world:contacts(floor, rod)
+  t.equal(#lying, 2)
+  for _, contact in ipairs(lying) do
+    t.close(contact.gap, 5e-5, 1e-9)
+    t.close(contact.normal.z, 1, 1e-9)
+    t.close(math.abs(contact.position.y - 0.2), 0.03, 1e-6)
+  end
+  rod.pose = clench.pose {xyz = {0.1, 0.2, 0.04 + 5e-5}}
+  local standing = world:contacts(floor, rod)
+  t.equal(#standing, 1)
+  t.equal(standing[1].feature.kind, "round")
+  t.close(standing[1].position, {0.1, 0.2, 5e-5}, 1e-9)
+end)
