@@ -110,13 +110,27 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   return out;
 }
 
-std::string mesh_table(const Mesh& mesh) {
+// Which triangles stand for which round solids.
+std::string rounds_table(const std::vector<RoundPiece>& pieces) {
+  std::string out = "  round = {\n";
+  for (const RoundPiece& piece : pieces)
+    out += fmt::format(
+        "    {{kind = \"{}\", radii = {}, half = {}, pose = {}, first = {}, count = {}}},\n",
+        round_kinds[piece.solid.kind], list(piece.solid.radii), number(piece.solid.half),
+        pose(piece.X_SR), piece.first + 1, piece.count);
+  return out + "  },\n";
+}
+
+std::string mesh_table(const Shape& shape) {
+  const Mesh& mesh = shape.mesh();
   std::string out = "{\n  vertices = {\n";
   for (const auto& v : mesh.vertices) out += "    " + list(v) + ",\n";
   out += "  },\n  triangles = {\n";
   for (const auto& t : mesh.triangles)
     out += fmt::format("    {{{}, {}, {}}},\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return out + "  },\n}";
+  out += "  },\n";
+  if (shape.is_round(RoundIn::all)) out += rounds_table(shape.rounds().pieces);
+  return out + "}";
 }
 
 class LuaWriter {
@@ -189,7 +203,7 @@ void LuaWriter::add_body(const PlacedBody& placed) {
   if (read)
     made = file(body.file);
   else if (body.shape)
-    made = mesh_table(body.shape->mesh());
+    made = mesh_table(*body.shape);
   else
     made = file(files_.write_body(body).generic_string());
   if (!read && body.appearance.visual)

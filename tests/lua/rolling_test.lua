@@ -90,11 +90,11 @@ test("a capsule on its side touches a plate at two points, standing at one, with
   for _, contact in ipairs(lying) do
     t.close(contact.gap, 5e-5, 1e-9)
     t.close(contact.normal.z, 1, 1e-9)
-    t.close(math.abs(contact.position.y - 0.2), 0.03, 1e-6)
+    t.close(math.abs(contact.point.y - 0.2), 0.03, 1e-6)
   end
   rod.pose = clench.pose {xyz = {0.1, 0.2, 0.04 + 5e-5}}
   local standing = world:contacts(floor, rod)
   t.equal(#standing, 1)
   t.equal(standing[1].feature.kind, "round")
-  t.close(standing[1].position, {0.1, 0.2, 5e-5}, 1e-9)
+  t.close(standing[1].point, {0.1, 0.2, 5e-5}, 1e-9)
 end)

@@ -62,27 +62,33 @@ NearPlace nearest_on_segment(const PlacedRound& round, const Vector3d& p, const 
   return round.nearest_to(p + s * way);
 }
 
-// Inside a triangle the nearest place has the solid's extreme point straight above it.
+// Inside a triangle the nearest place has the solid's extreme point straight above it; a solid that
+// the plane cuts has a point of it between its two extremes.
 NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle) {
-  const Vector3d end = round.X.rotation * core_of(round.solid).end;
-  const Vector3d from = round.X.position - end, to = round.X.position + end;
-  const Closest core = round.solid.is_ball() ? point_triangle(round.X.position, triangle)
-                                             : triangle_triangle({from, to, to}, triangle);
-  if (round.solid.kind == Round::capsule || core.distance == 0) return round.nearest_to(core.q);
+  if (round.solid.is_ball()) return round.nearest_to(point_triangle(round.X.position, triangle).q);
+  if (round.solid.kind == Round::capsule) {
+    const Vector3d end = round.X.rotation * Vector3d(0, 0, round.solid.half);
+    const Vector3d from = round.X.position - end, to = round.X.position + end;
+    return round.nearest_to(triangle_triangle({from, to, to}, triangle).q);
+  }
   NearPlace best;
   for (int k = 0; k < 3; ++k)
     keep_nearer(best, nearest_on_segment(round, triangle[k], triangle[(k + 1) % 3]));
   const Vector3d normal =
       (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   if (normal.isZero()) return best;
-  const double height = normal.dot(round.centre() - triangle[0]);
-  const Vector3d up = height < 0 ? Vector3d(-normal) : normal;
+  const auto height = [&](const Vector3d& p) { return normal.dot(p - triangle[0]); };
+  const Vector3d up = height(round.centre()) < 0 ? Vector3d(-normal) : normal;
   const Vector3d low = round.farthest(-up);
-  const Vector3d foot = low - up.dot(low - triangle[0]) * up;
+  const double gap = up.dot(low - triangle[0]);
+  Vector3d foot = low - gap * up;
+  if (gap < 0) {
+    const Vector3d high = round.farthest(up);
+    foot = low + gap / up.dot(low - high) * (high - low);
+  }
   for (int k = 0; k < 3; ++k)
     if ((triangle[(k + 1) % 3] - triangle[k]).cross(foot - triangle[k]).dot(normal) < 0)
       return best;
-  const double gap = up.dot(low - triangle[0]);
   keep_nearer(best, gap > 0 ? NearPlace{gap, foot, -up} : round.nearest_to(foot));
   return best;
 }

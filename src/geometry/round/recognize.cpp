@@ -23,14 +23,21 @@ static double volume_of(const Round& round) {
   return round.kind == Round::cylinder ? middle : middle + 4 * pi / 3 * r * r * r;
 }
 
-// do all vertices lie on the surface, and does the mesh fill the solid?
-static bool stands_for(const Mesh& mesh, double volume, const RoundPiece& piece) {
-  if (!(piece.solid.radii.x() > 0) || volume < filled * volume_of(piece.solid)) return false;
-  const double size = piece.solid.radii.x() + piece.solid.half;
+static double size_of(const Round& round) { return round.radii.maxCoeff() + round.half; }
+
+bool lies_on(const Mesh& mesh, const RoundPiece& piece) {
   const Pose into = piece.X_SR.inverse();
-  return std::ranges::all_of(mesh.vertices, [&](const Vector3d& p) {
-    return std::abs(nearest(piece.solid, into * p).distance) <= exact * size;
-  });
+  for (int i = piece.first; i < piece.first + piece.count; ++i)
+    for (const Vector3d& p : mesh.corners(i))
+      if (!(std::abs(nearest(piece.solid, into * p).distance) <= exact * size_of(piece.solid)))
+        return false;
+  return true;
+}
+
+// of the whole mesh: does it lie on the solid, and fill it?
+static bool stands_for(const Mesh& mesh, double volume, const RoundPiece& piece) {
+  return piece.solid.radii.x() > 0 && volume >= filled * volume_of(piece.solid) &&
+         lies_on(mesh, piece);
 }
 
 static std::optional<RoundPiece> ball_of(const Mesh& mesh, const Bounds& bounds) {
@@ -94,8 +101,8 @@ std::optional<RoundPiece> round_of(const Mesh& mesh) {
   if (!(solid.volume > 0)) return std::nullopt;
   const Bounds bounds = mesh.bounds();
   const auto accepted = [&](RoundPiece piece) -> std::optional<RoundPiece> {
-    if (!stands_for(mesh, solid.volume, piece)) return std::nullopt;
     piece.count = static_cast<int>(mesh.triangles.size());
+    if (!stands_for(mesh, solid.volume, piece)) return std::nullopt;
     return piece;
   };
   if (const auto ball = ball_of(mesh, bounds))

@@ -12,7 +12,10 @@ namespace clench {
 /// 12 sides and more do. A cap or a bowl does not, nor does a cube.
 std::optional<RoundPiece> round_of(const Mesh& mesh);
 
-/// The same of each of its connected parts whose triangles follow one another; of the others
+/// Do all vertices of the piece's triangles lie on its surface, to a millionth of its size?
+bool lies_on(const Mesh& mesh, const RoundPiece& piece);
+
+/// round_of each of its connected parts whose triangles follow one another; of the others
 /// nothing.
 std::vector<RoundPiece> round_parts(const Mesh& mesh);
 

@@ -30,6 +30,8 @@ struct Round {
   bool operator==(const Round&) const = default;
 };
 
+inline constexpr const char* round_kinds[] = {"capsule", "cylinder", "ellipsoid"};
+
 /// A solid is the segment of its long axis, along `axis`, and what lies within `around` of it, or
 /// less.
 struct Core {

@@ -5,8 +5,8 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
-#include "clench/geometry/round/recognize.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/bind/read_mesh_table.h"
 #include "clench/script/lua/home.h"
 #include "clench/script/lua/setting.h"
 #include "clench/script/lua/watching.h"
@@ -56,44 +56,6 @@ ReadOptions read_options(lua_State* L, Table& options) {
     log(L, LogLevel::warning, message, "suspicious");
   };
   return options.boolean("strict", false) ? strict(std::move(out)) : out;
-}
-
-// A table of vertices and triangles, as the shapes of the standard library are.
-// round  does it say of itself that parts of it stand for round solids?
-static Mesh read_mesh(lua_State* L, int i, const ReadOptions& reading, bool& round) {
-  Table table(L, i, subject(L) + ": mesh");
-  Mesh mesh;
-  int number = 0;
-  for (const auto& row : table.rows("vertices", 3)) {
-    ++number;
-    mesh.vertices.emplace_back(row[0], row[1], row[2]);
-    check(coordinate_rule, mesh.vertices.back(),
-          fmt::format("{}: vertex {}", table.subject(), number));
-  }
-  const int count = number;
-  number = 0;
-  for (const auto& row : table.rows("triangles", 3)) {
-    ++number;
-    Triangle t;
-    for (int k = 0; k < 3; ++k) {
-      if (!(row[k] >= 1 && row[k] <= count && row[k] == std::floor(row[k])))
-        fail("{}: triangle {}: expected vertices from 1 to {}, got {}", table.subject(), number,
-             count, row[k]);
-      t[k] = floor_int(row[k]) - 1;
-    }
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
-  }
-  round = table.boolean("round", false);
-  table.done();
-  if (number == 0) fail("{}: expected at least one triangle, got none", table.subject());
-  const size_t left_out = static_cast<size_t>(number) - mesh.triangles.size();
-  if (mesh.triangles.empty())
-    fail("{}: expected a triangle of three different vertices, got none", table.subject());
-  if (left_out > 0)
-    reading.repaired(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
-                                 table.subject(), left_out, number));
-  if (turn_outward(mesh)) reading.repaired(table.subject() + inside_out);
-  return mesh;
 }
 
 // of a solid of that density [kg/m^3]
@@ -148,17 +110,13 @@ BodySpec check_body_spec(lua_State* L, int i, Table& options, const ReadOptions&
   } else if (const ShapePtr* given = to<ShapePtr>(L, i); given || lua_istable(L, i)) {
     const std::string name = options.string("name", "body");
     spec.name = name;
-    bool round = given && (*given)->is_round(RoundIn::all);
-    Mesh mesh = given ? (*given)->mesh() : read_mesh(L, i, reading, round);
-    if (given && !reading.mesh_scale) {
-      spec.shape = *given;
-    } else {
-      if (reading.mesh_scale)
-        for (auto& vertex : mesh.vertices) vertex *= *reading.mesh_scale;
-      RoundPieces rounds;
-      if (round) rounds.pieces = round_parts(mesh);
-      spec.shape = Shape::make(std::move(mesh), name, {}, std::move(rounds));
-    }
+    MeshTable mesh;
+    if (given)
+      mesh = {(*given)->mesh(), (*given)->rounds()};
+    else
+      mesh = read_mesh_table(L, i, reading);
+    if (reading.mesh_scale) mesh.scale(*reading.mesh_scale);
+    spec.shape = Shape::make(std::move(mesh.mesh), name, {}, std::move(mesh.rounds));
   } else {
     fail_expected({L, {}, "body"},
                   "a file name, a mesh of a body, or one {vertices = ..., triangles = ...}", i);

@@ -83,6 +83,8 @@ static std::string contact_text(const ContactHandle& c) {
 static int push(lua_State* L, const Feature& feature) {
   if (feature.kind == Feature::triangle)
     return push_record(L, {{"kind", "triangle"}, {"triangle", feature.first + 1}});
+  if (feature.kind == Feature::round)
+    return push_record(L, {{"kind", "round"}, {"piece", feature.first + 1}});
   const bool edge = feature.kind == Feature::edge;
   std::vector<int> vertices{feature.first + 1};
   if (edge) vertices.push_back(feature.second + 1);
@@ -122,15 +124,15 @@ Contact frame: origin at the point, +z into `body`.
 > c = world:contacts(hand, flask)[1]
 > (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
     {"feature", getter<[](const ContactHandle& x) { return x.contact.feature; }>, R"(
-The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1.
+The feature of the body's mesh that the contact lies on: a vertex, an edge between two, a triangle, or a round piece, counted from 1.
 It stays the same while the contact moves along it, so that contacts can be matched from step to step.
-@type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
-> kinds = {vertex = true, edge = true, triangle = true}
+@type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: integer[], triangle?: integer, piece?: integer}
+> kinds = {vertex = true, edge = true, triangle = true, round = true}
 > kinds[grasp.contacts[1].feature.kind]  --> true)"},
     {"other_feature", getter<[](const ContactHandle& x) { return x.contact.other_feature; }>, R"(
 The same of the mesh of `other`.
-@type {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer}
-> kinds = {vertex = true, edge = true, triangle = true}
+@type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: integer[], triangle?: integer, piece?: integer}
+> kinds = {vertex = true, edge = true, triangle = true, round = true}
 > kinds[grasp.contacts[1].other_feature.kind]  --> true)"},
     {"gap", getter<[](const ContactHandle& x) { return x.contact.gap; }>, R"(
 Distance of the two surfaces there, at most the world's contact threshold.
