@@ -1,7 +1,7 @@
 // Near points of one round solid and a triangle mesh, or another one.
 #pragma once
 #include "clench/contact/near_points.h"
-#include "clench/geometry/round/lowest.h"
+#include "clench/geometry/query/round_gap.h"
 
 namespace clench {
 

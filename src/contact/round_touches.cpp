@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "clench/contact/facet_touches.h"
 #include "clench/contact/patches.h"
 #include "clench/contact/round_points.h"
 
@@ -101,7 +102,7 @@ class RoundTouches {
 
   void facets() {
     const size_t before = touches_.size();
-    for (Touch touch : contact_set(*a_.facets, *b_.facets, X_AB_, options_)) {
+    for (Touch touch : facet_contact_set(*a_.facets, *b_.facets, X_AB_, options_)) {
       touch.feature_a = named(a_, touch.feature_a), touch.feature_b = named(b_, touch.feature_b);
       keep(touch, before);
     }

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "clench/geometry/query/queries.h"
-#include "clench/geometry/round/lowest.h"
+#include "clench/geometry/query/round_gap.h"
 #include "support/meshes.h"
 
 namespace clench::test {

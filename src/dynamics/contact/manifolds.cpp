@@ -6,9 +6,9 @@
 #include "clench/base/watched.h"
 #include "clench/contact/contact_set.h"
 #include "clench/contact/near_points.h"
-#include "clench/contact/round_touches.h"
 #include "clench/dynamics/contact/overlap.h"
 #include "clench/dynamics/contact/sliding.h"
+#include "clench/geometry/query/round_pairs.h"
 #include "clench/model/near_bodies.h"
 
 namespace clench {
@@ -209,13 +209,6 @@ static bool are_of_one_robot(const World& world, const Manifold& m) {
   return world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
 }
 
-static std::vector<Touch> touches_of(const Shape& a, const Shape& b, const Pose& X_AB,
-                                     double threshold) {
-  if (are_round(a, b, RoundIn::motion))
-    return round_contact_set(a, b, X_AB, RoundIn::motion, {.threshold = threshold});
-  return contact_set(a, b, X_AB, {.threshold = threshold});
-}
-
 // Where a round piece has got into the other body beyond its middle: it is pushed back to the
 // surface that is nearest to that.
 static std::vector<Touch> way_back(const Shape& a, const Shape& b, const Pose& X_AB) {
@@ -258,7 +251,7 @@ static bool find_points(World& world, Manifold& m, double limit,
   Pose X_AT = m.X_AB;
   std::vector<Touch> touches;
   if (gap != 0) {
-    touches = touches_of(a, b, X_AT, threshold);
+    touches = contact_set(a, b, X_AT, {.threshold = threshold}, RoundIn::motion);
   } else {
     // points serve for a short way, and while one of them lies where bodies overlap
     const auto inside = [&](const ManifoldPoint& p) { return gap_of(p, m.X_AB) < 0; };
@@ -268,7 +261,7 @@ static bool find_points(World& world, Manifold& m, double limit,
     }
     // bodies placed into each other touch where they would on the way out
     if (const auto out = moved_out(a, b, m.X_AB, threshold))
-      touches = touches_of(a, b, X_AT = *out, threshold);
+      touches = contact_set(a, b, X_AT = *out, {.threshold = threshold}, RoundIn::motion);
     else if (are_round(a, b, RoundIn::motion))
       touches = way_back(a, b, m.X_AB);
     if (touches.empty()) return false;

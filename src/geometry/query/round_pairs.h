@@ -4,7 +4,7 @@
 #include <span>
 
 #include "clench/geometry/query/queries.h"
-#include "clench/geometry/round/lowest.h"
+#include "clench/geometry/query/round_gap.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "clench/geometry/round/lowest.h"
+#include "clench/geometry/query/round_gap.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,21 @@
+// Where triangle meshes touch: the points of all near triangle pairs, reduced to the outline of each
+// patch.
+#pragma once
+#include <vector>
+
+#include "clench/contact/touch.h"
+#include "clench/geometry/query/queries.h"
+
+namespace clench {
+
+/// Points of a patch nearer than this are one [m].
+double merge_radius(const Shape& a, const Shape& b, const TouchOptions& options);
+
+/// throws  Error when an option is negative or not finite, or max_per_patch < 1
+void check(const TouchOptions& options);
+
+/// contact_set() of the triangles alone.
+std::vector<Touch> facet_contact_set(const Shape& a, const Shape& b, const Pose& X_AB,
+                                     const TouchOptions& options);
+
+}  // namespace clench
