@@ -140,19 +140,13 @@ local function tell_generated(robot, subject)
   end
 end
 
--- body by body, since a crowded world has millions of pairs
+-- a crowded world has millions of pairs
 local max_overlaps = 100
 local function overlaps_of(world)
-  local overlaps, before = {}, {}
-  for _, body in ipairs(world.bodies) do
-    before[body.name] = true
-    for _, pair in ipairs(world:colliding(body)) do
-      local other = (pair[1] == body and pair[2] or pair[1]).name
-      if not before[other] then
-        if #overlaps == max_overlaps then return overlaps, true end
-        overlaps[#overlaps + 1] = {body.name, other}
-      end
-    end
+  local overlaps = {}
+  for i, pair in ipairs(world:colliding(nil, nil, {max = max_overlaps + 1})) do
+    if i > max_overlaps then return overlaps, true end
+    overlaps[i] = {pair[1].name, pair[2].name}
   end
   return overlaps
 end
@@ -219,6 +213,7 @@ local function of_grasps(list, format)
   local counts = {unnamed_dofs = 0, without_pose = 0, with_contacts = 0, with_pregrasp = 0, collision_free = 0, in_collision = 0}
   local function count(key, is) if is then counts[key] = counts[key] + 1 end end
   local unnamed = 0  -- DOFs beyond those that are listed
+  local best_epsilon  -- it may be none of the measures that are listed
   for _, grasp in ipairs(list) do
     local hand, object = grasp.hand_name, grasp.object_name
     if hand ~= "" or object ~= "" then
@@ -233,6 +228,8 @@ local function of_grasps(list, format)
       for i, value in ipairs(values) do widen(dofs, names[i], value) end
     end
     for name, value in pairs(grasp.measures) do widen(measures, name, value) end
+    local epsilon = grasp.measures.epsilon
+    if epsilon then best_epsilon = math.max(best_epsilon or epsilon, epsilon) end
     for name, value in pairs(grasp.info) do widen(notes, name, value) end
     for name in pairs(grasp.labels) do labels[name] = true end
     count("without_pose", not grasp.pose)
@@ -246,10 +243,9 @@ local function of_grasps(list, format)
     local range = dofs.by_name[name]
     listed[i] = {name = name, low = range.low, high = range.high, count = range.count}
   end
-  local epsilon = measures.by_name.epsilon
   return {format = format, count = #list, of = sorted_names(pairs_of), dofs = listed, measures = measures.by_name, notes = notes.by_name,
           more = {dofs = dofs.more + unnamed, measures = measures.more, notes = notes.more}, labels = sorted_names(labels), counts = counts,
-          best_epsilon = epsilon and epsilon.high}
+          best_epsilon = best_epsilon}
 end
 
 local readers = {

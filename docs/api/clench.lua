@@ -736,6 +736,11 @@ local world_settings = {}
 ---@param b? body|robot
 function world_settings:set_collision(on, a, b) end
 
+---Gives bodies bits, as `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Bodies that are fixed do not collide with each other. `world:set_collision(true, a, b)` makes a pair collide whatever its bits say.
+---@param entity body|robot
+---@param bits? {type?: integer, affinity?: integer, fixed?: boolean} # type and affinity: 1 by default; fixed: does it stand in the world? false by default
+function world_settings:set_collision_bits(entity, bits) end
+
 ---Sets the Coulomb coefficients of a pair of materials; new names become materials.
 ---@param a string
 ---@param b string
@@ -778,8 +783,9 @@ function world_queries:collides(entity) end
 ---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 ---@param a? body|robot
 ---@param b? body|robot
+---@param options? {max?: integer} # max: at most so many pairs, the first ones in the order in which bodies were made; all by default
 ---@return body[][] # pairs
-function world_queries:colliding(a, b) end
+function world_queries:colliding(a, b, options) end
 
 ---Least distance of two things, 0 when they collide, with the closest points in the world frame.
 ---@param a body|robot

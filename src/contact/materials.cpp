@@ -28,6 +28,7 @@ MaterialTable::MaterialTable() : names_(material_names.begin(), material_names.e
       const double mu = static_friction[i][j];
       table_.push_back({mu, std::max(0.0, mu - 0.1)});
     }
+  own_.resize(names_.size());
 }
 
 int MaterialTable::index(std::string_view name) const {
@@ -50,6 +51,32 @@ void MaterialTable::set_friction(std::string_view a, std::string_view b, Frictio
   table_[place(i, j)] = friction;
 }
 
+bool MaterialTable::knows(std::string_view name) const {
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
+
+void MaterialTable::add(const OwnFriction& own) {
+  const std::string name = material_name(own);
+  if (const auto found = std::find(names_.begin(), names_.end(), name); found != names_.end()) {
+    // of a saved world, which keeps the friction of pairs
+    own_[found - names_.begin()] = own;
+    return;
+  }
+  check(friction_rule, own.mu, name);
+  const int i = find_or_add(name);
+  own_[i] = own;
+  for (int j = 0; j <= i; ++j) {
+    const Friction other = friction(j, j);
+    if (own_[j]) {
+      const double mu = combined(own, *own_[j]);
+      table_[place(i, j)] = {mu, mu};
+    } else if (other.statics > 0) {
+      const double mu = own.frictionless ? 0 : own.mu;
+      table_[place(i, j)] = {std::max(mu, other.statics), std::max(mu, other.kinetic)};
+    }
+  }
+}
+
 int MaterialTable::find_or_add(std::string_view name) {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found != names_.end()) return static_cast<int>(found - names_.begin());
@@ -59,6 +86,7 @@ int MaterialTable::find_or_add(std::string_view name) {
     fail(ErrorKind::limit, "material '{}': expected at most {} materials", name, count);
   names_.emplace_back(name);
   table_.resize(table_.size() + count + 1);  // without friction
+  own_.resize(names_.size());
   return static_cast<int>(count);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clench/base/hash.h"
+#include "clench/spec/own_friction.h"
 
 namespace clench {
 
@@ -34,6 +35,11 @@ class MaterialTable {
   /// Adds the names it does not know, frictionless against all others until told otherwise.
   /// throws Error when a coefficient is negative or not finite, or kinetic exceeds statics
   void set_friction(std::string_view a, std::string_view b, Friction friction);
+  /// Adds a material by the friction that it brings along, unless its name is known. With others of
+  /// this kind it has the combined friction; with those of none, but for frictionless ones, the
+  /// larger of both's own.
+  void add(const OwnFriction& own);
+  bool knows(std::string_view name) const;
 
  private:
   int find_or_add(std::string_view name);
@@ -42,7 +48,8 @@ class MaterialTable {
     return i * (i + 1) / 2 + j;
   }
   std::vector<std::string> names_;
-  std::vector<Friction> table_;  // row by row, each up to the diagonal
+  std::vector<Friction> table_;                  // row by row, each up to the diagonal
+  std::vector<std::optional<OwnFriction>> own_;  // one per name
 };
 
 }  // namespace clench

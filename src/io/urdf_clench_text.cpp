@@ -45,6 +45,7 @@ class ClenchText {
   void add_joint(const UrdfJoint& joint);
   void add_link(const UrdfLink& link);
   void add_collision();
+  std::string material(const BodySpec& body) const;
   void add_tendon(const JointTendonSpec& tendon);
   void add_actuator(const ActuatorSpec& actuator);
   void line(const std::string& text) { out_ += "    " + text + "\n"; }
@@ -97,12 +98,22 @@ void ClenchText::add_joint(const UrdfJoint& joint) {
        "/>");
 }
 
+std::string ClenchText::material(const BodySpec& body) const {
+  if (body.material == "plastic") return "";
+  for (const OwnFriction& own : robot_.frictions)
+    if (body.material == material_name(own))
+      return attribute("friction", own.mu) +
+             (own.priority == 0 ? "" : fmt::format(" friction_priority=\"{}\"", own.priority)) +
+             (own.frictionless ? " frictionless=\"true\"" : "");
+  return attribute("material", body.material);
+}
+
 void ClenchText::add_link(const UrdfLink& link) {
   if (!link.body) return;
   const BodySpec& body = *link.body;
   const BodySpec plain;
   std::string out;
-  if (body.material != "plastic") out += attribute("material", body.material);
+  out += material(body);
   if (body.elastic_modulus) out += attribute("elastic_modulus", *body.elastic_modulus);
   out += unless(plain.soft_layer, "soft_layer", body.soft_layer);
   out += unless(plain.poisson_ratio, "poisson_ratio", body.poisson_ratio);

@@ -149,6 +149,7 @@ class LuaWriter {
   std::string sets_of(const RobotSpec& now, const RobotSpec& was);
   std::string choices_of(const RobotSpec& now, const RobotSpec& was);
   void switch_collision();
+  void switch_pairs(const std::vector<std::array<std::string, 2>>& pairs, bool on);
   void add_camera();
   void add_keyframes();
   std::string file(const std::string& path);
@@ -378,6 +379,15 @@ void LuaWriter::add_connection(const Connection& c) {
 
 // --- what may collide, and who looks ---
 
+void LuaWriter::switch_pairs(const std::vector<std::array<std::string, 2>>& pairs, bool on) {
+  if (pairs.empty()) return;
+  line("for _, pair in ipairs {");
+  for (const auto& [a, b] : pairs) line(fmt::format("  {{{}, {}}},", as_lua(a), as_lua(b)));
+  line("} do");
+  line(fmt::format("  world:set_collision({}, world:body(pair[1]), world:body(pair[2]))", on));
+  line("end");
+}
+
 void LuaWriter::switch_collision() {
   if (!world_.collision) return;
   const CollisionSpec& spec = *world_.collision;
@@ -388,14 +398,17 @@ void LuaWriter::switch_collision() {
     line("  for _, b in ipairs(robots) do world:set_collision(true, a, b) end");
     line("end");
   }
-  if (!spec.pairs_off.empty()) {
-    line("for _, pair in ipairs {");
-    for (const auto& [a, b] : spec.pairs_off)
-      line(fmt::format("  {{{}, {}}},", as_lua(a), as_lua(b)));
+  switch_pairs(spec.pairs_off, false);
+  if (!spec.bits.empty()) {
+    line("for _, of in ipairs {");
+    for (const auto& [name, bits] : spec.bits)
+      line(fmt::format("  {{{}, {{type = {}, affinity = {}, fixed = {}}}}},", as_lua(name),
+                       static_cast<int>(bits.type), static_cast<int>(bits.affinity), bits.stands));
     line("} do");
-    line("  world:set_collision(false, world:body(pair[1]), world:body(pair[2]))");
+    line("  world:set_collision_bits(world:body(of[1]), of[2])");
     line("end");
   }
+  switch_pairs(spec.pairs_on, true);
   for (const auto& name : spec.bodies_off)
     line(fmt::format("world:set_collision(false, world:body({}))", as_lua(name)));
   if (!spec.on) line("world:set_collision(false)");

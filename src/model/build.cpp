@@ -129,7 +129,6 @@ class Builder {
  private:
   void add_robot(int index);
   void add_connection(int index);
-  void set_larger_friction(const std::string& material);
   void switch_collision();
   void add_keyframe(const KeyframeSpec& spec);
   Id<Body> named(const std::string& name) const;
@@ -178,6 +177,10 @@ void Builder::switch_collision() {
   for (const auto& [a, b] : neighbours) world_.set_collision(true, a, b);
   for (const auto& [a, b] : spec_.collision->pairs_off)
     world_.set_collision(false, named(a), named(b));
+  for (const auto& [name, bits] : spec_.collision->bits)
+    world_.set_collision_bits(named(name), bits);
+  for (const auto& [a, b] : spec_.collision->pairs_on)
+    world_.set_collision(true, named(a), named(b));
   for (const auto& name : spec_.collision->bodies_off) world_.set_collision(false, named(name));
   world_.set_collision(spec_.collision->on);
 }
@@ -196,24 +199,11 @@ void Builder::add_keyframe(const KeyframeSpec& spec) {
   world_.add_keyframe(std::move(keyframe));
 }
 
-void Builder::set_larger_friction(const std::string& material) {
-  const MaterialTable standard;
-  const int own = world_.materials().index(material);
-  const Friction f = world_.materials().friction(own, own);
-  for (const std::string& other : standard.names()) {
-    const int i = standard.index(other);
-    const Friction g = standard.friction(i, i);
-    if (g.statics > 0)
-      world_.set_friction(material, other,
-                          {std::max(f.statics, g.statics), std::max(f.kinetic, g.kinetic)});
-  }
-}
-
 World Builder::build() {
   if (spec_.contact_threshold) world_.set_contact_threshold(*spec_.contact_threshold);
   for (const FrictionSpec& f : spec_.friction)
     world_.set_friction(f.a, f.b, {f.statics, f.kinetic, f.restitution});
-  for (const std::string& name : spec_.larger_friction) set_larger_friction(name);
+  for (const OwnFriction& f : spec_.frictions) world_.add_friction(f);
   for (const WorldEntry& entry : spec_.order) {
     if (entry.kind == WorldEntry::Kind::body) {
       const PlacedBody& placed = spec_.bodies[entry.index];
@@ -231,6 +221,7 @@ World Builder::build() {
   if (spec_.collision) switch_collision();
   for (const auto& [a, b] : spec_.never_meet) world_.set_collision(false, part(a), part(b));
   for (const auto& [ref, bits] : spec_.collision_bits) world_.set_collision_bits(part(ref), bits);
+  for (const auto& [a, b] : spec_.always_meet) world_.set_collision(true, part(a), part(b));
   if (!spec_.collision_on) world_.set_collision(false);
   if (spec_.gravity) world_.set_gravity(*spec_.gravity);
   if (spec_.time_step) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <tuple>
 
 namespace clench {
@@ -71,8 +73,7 @@ class Comparer {
   void robots(Id<Robot> a_id, Id<Robot> b_id);
   void frictions();
   void switches();
-  std::vector<std::pair<size_t, size_t>> pairs_off(const World& world,
-                                                   const std::vector<Id<Body>>& all) const;
+  bool pairs_off_differ() const;
   std::vector<size_t> bodies_off(const World& world, const std::vector<Id<Body>>& all) const;
 
   const World &a_, &b_;
@@ -172,13 +173,13 @@ void Comparer::frictions() {
   for (const auto& [i, j] : pairs) add("the friction of {} on {}", one.name(i), one.name(j));
 }
 
-std::vector<std::pair<size_t, size_t>> Comparer::pairs_off(const World& world,
-                                                           const std::vector<Id<Body>>& all) const {
+template <class Pairs>
+static std::vector<std::pair<size_t, size_t>> in_numbers(const Pairs& pairs,
+                                                         const std::vector<Id<Body>>& all) {
   std::map<Id<Body>, size_t> numbers;
   for (size_t i = 0; i < all.size(); ++i) numbers[all[i]] = i;
   std::vector<std::pair<size_t, size_t>> out;
-  for (const auto& [a, b] : world.pairs_off())
-    out.push_back(std::minmax(numbers.at(a), numbers.at(b)));
+  for (const auto& [a, b] : pairs) out.push_back(std::minmax(numbers.at(a), numbers.at(b)));
   std::ranges::sort(out);
   return out;
 }
@@ -191,9 +192,33 @@ std::vector<size_t> Comparer::bodies_off(const World& world,
   return out;
 }
 
+// pair by pair only where their bits are not the same
+bool Comparer::pairs_off_differ() const {
+  const auto bits = [](const World& world, const std::vector<Id<Body>>& all) {
+    std::vector<std::optional<CollisionBits>> out;
+    const auto& of = world.settings().collision_bits;
+    for (const auto id : all) {
+      const auto found = of.find(id);
+      out.push_back(found == of.end() ? std::nullopt : std::optional(found->second.first));
+    }
+    return out;
+  };
+  if (bits(a_, a_bodies_) != bits(b_, b_bodies_))
+    return in_numbers(a_.pairs_off(), a_bodies_) != in_numbers(b_.pairs_off(), b_bodies_);
+  const auto beside_bits = [](const WorldSettings& settings) {
+    std::set<BodyPair> out = settings.pairs_off;
+    std::erase_if(out, [&](const BodyPair& pair) {
+      return settings.bits_keep_apart(pair.first, pair.second);
+    });
+    return out;
+  };
+  const WorldSettings &a = a_.settings(), &b = b_.settings();
+  return in_numbers(beside_bits(a), a_bodies_) != in_numbers(beside_bits(b), b_bodies_) ||
+         in_numbers(a.pairs_on, a_bodies_) != in_numbers(b.pairs_on, b_bodies_);
+}
+
 void Comparer::switches() {
-  if (a_.settings().collision_on != b_.settings().collision_on ||
-      pairs_off(a_, a_bodies_) != pairs_off(b_, b_bodies_) ||
+  if (a_.settings().collision_on != b_.settings().collision_on || pairs_off_differ() ||
       bodies_off(a_, a_bodies_) != bodies_off(b_, b_bodies_))
     add("which bodies may collide");
   if (!same(a_.contact_threshold(), b_.contact_threshold())) add("the contact threshold");

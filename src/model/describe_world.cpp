@@ -163,8 +163,13 @@ void Describer::add_collision() {
   CollisionSpec spec;
   spec.on = set.collision_on;
   for (const auto id : set.switched_off) spec.bodies_off.push_back(world_.body(id).name);
-  for (const auto& [a, b] : world_.pairs_off())
-    spec.pairs_off.push_back({world_.body(a).name, world_.body(b).name});
+  const auto names = [&](const BodyPair& pair) {
+    return std::array{world_.body(pair.first).name, world_.body(pair.second).name};
+  };
+  for (const BodyPair& pair : set.pairs_off) spec.pairs_off.push_back(names(pair));
+  for (const auto& [id, of] : set.collision_bits)
+    spec.bits.emplace_back(world_.body(id).name, of.first);
+  for (const BodyPair& pair : set.pairs_on) spec.pairs_on.push_back(names(pair));
   out_.collision = std::move(spec);
 }
 

@@ -56,6 +56,15 @@ std::vector<BodyPair> colliding_pairs(const World& world, std::span<const Id<Bod
   return colliding_of(world, near_bodies(world, a, b, 0, *memory), *memory);
 }
 
+std::vector<BodyPair> first_colliding_pairs(const World& world, size_t max, QueryContext* context) {
+  Remember memory(world, context);
+  return first_near(world, max, *memory, [&](const BodyPair& pair) {
+    check_stop();
+    PairCache cache;
+    return pair_collides(world, pair, cache);
+  });
+}
+
 bool collides(const World& world, QueryContext* context) {
   Remember memory(world, context);
   return any_near(world, *memory, [&](const BodyPair& pair, PairCache& cache) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
 #include <set>
 
 #include "clench/base/watched.h"
@@ -49,9 +51,9 @@ void sort_along(int axis, std::vector<SweepItem>& items) {
   }
 }
 
-// Visits all pairs within the reach, whichever first.
+// Visits all pairs whose boxes are within the reach along the axis of the sweep, whichever first.
 template <class Visit>
-void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
+void sweep_along(std::vector<SweepItem>& items, double reach, Visit visit) {
   const int axis = widest_axis(items);
   sort_along(axis, items);
   StopCheck check(16);
@@ -60,8 +62,16 @@ void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
     const BodyBox& box = *items[i].box;
     for (size_t j = i + 1; j < items.size() && items[j].box->low[axis] - box.high[axis] <= reach;
          ++j)
-      if (within_reach(box, *items[j].box, reach)) visit(items[i], items[j]);
+      visit(items[i], items[j]);
   }
+}
+
+// Visits all pairs within the reach, whichever first.
+template <class Visit>
+void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
+  sweep_along(items, reach, [&](const SweepItem& x, const SweepItem& y) {
+    if (within_reach(*x.box, *y.box, reach)) visit(x, y);
+  });
 }
 
 // with so few bodies the pairs that may collide are looked at one by one, with more a sweep finds
@@ -126,6 +136,36 @@ bool any_near(const World& world, QueryContext& context, Asked collides) {
       order, [](const auto& x, const auto& y) { return x.first->hit_rate > y.first->hit_rate; });
   return std::ranges::any_of(order,
                              [&](const auto& x) { return ask(x.second, *x.first, collides); });
+}
+
+std::vector<BodyPair> first_near(const World& world, size_t max, QueryContext& context,
+                                 FunctionRef<bool(const BodyPair&)> collides) {
+  context.attend(world.lineage(), world.model());
+  std::vector<BodyPair> out;
+  if (max == 0) return out;
+  const auto& all = world.bodies();
+  if (all.size() <= few) {
+    for (const BodyPair& pair : near_of_few(world, 0, context))
+      if (out.size() < max && collides(pair)) out.push_back(pair);
+    return out;
+  }
+  std::vector<SweepItem>& items = context.sweep_order(world.model());
+  for (SweepItem& item : items) find_box(world, context, item);
+  // the first of those that were found; once there are enough, pairs after the last are not asked
+  using Numbers = std::pair<int, int>;
+  std::set<Numbers> kept;
+  Numbers last(std::numeric_limits<int>::max(), 0);
+  sweep_along(items, 0, [&](const SweepItem& x, const SweepItem& y) {
+    const Numbers at = std::minmax(x.position, y.position);
+    if (last < at || !within_reach(*x.box, *y.box, 0) || !world.may_collide(x.body, y.body) ||
+        !collides({all[at.first], all[at.second]}))
+      return;
+    kept.insert(at);
+    if (kept.size() > max) kept.erase(std::prev(kept.end()));
+    if (kept.size() == max) last = *kept.rbegin();
+  });
+  for (const auto& [i, j] : kept) out.emplace_back(all[i], all[j]);
+  return out;
 }
 
 Pose relative_pose(const World& world, Id<Body> a, Id<Body> b) {

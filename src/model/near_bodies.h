@@ -27,6 +27,10 @@ std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> 
 bool any_near(const World& world, QueryContext& context,
               FunctionRef<bool(const BodyPair&, PairCache&)> collides);
 
+/// The first `max` pairs, in creation order, near enough to touch for which collides(pair) is true.
+std::vector<BodyPair> first_near(const World& world, size_t max, QueryContext& context,
+                                 FunctionRef<bool(const BodyPair&)> collides);
+
 /// b in the frame of a.
 Pose relative_pose(const World& world, Id<Body> a, Id<Body> b);
 

@@ -199,10 +199,14 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
   const auto id = insert_slot(model_->robots, std::move(robot), next_serial());
   model_->robot_order.push_back(id);
   named = id;
+  std::optional<MaterialTable> materials;
+  if (!spec.frictions.empty()) materials = settings_->materials;
   try {
+    for (const OwnFriction& friction : spec.frictions) add_friction(friction);
     add_parts(id, spec, X_WB);
     place(id, X_WB);
   } catch (const Error&) {
+    if (materials) edit_settings().materials = std::move(*materials);
     while (bodies().size() > count) erase(bodies().back());
     edit_model().robots[id.index].used = false;
     model_->robot_order.pop_back();
@@ -314,8 +318,8 @@ void World::erase(Id<Body> id) {
   WorldSettings& settings = edit_settings();
   settings.switched_off.erase(id);
   settings.collision_bits.erase(id);
-  std::erase_if(settings.pairs_off,
-                [&](const auto& pair) { return pair.first == id || pair.second == id; });
+  for (auto* pairs : {&settings.pairs_off, &settings.pairs_on})
+    std::erase_if(*pairs, [&](const auto& pair) { return pair.first == id || pair.second == id; });
   settings.dynamics.surface_velocities.erase(id);
   std::erase_if(settings.dynamics.welds,
                 [&](const auto& weld) { return weld.first == id || weld.second == id; });
@@ -387,6 +391,8 @@ void World::set_virtual_contacts(Id<Robot> id,
 }
 
 // --- properties ---
+
+void World::add_friction(const OwnFriction& own) { edit_settings().materials.add(own); }
 
 void World::set_material(Id<Body> id, std::string_view material) {
   edit(id).material = settings_->materials.index(material);

@@ -104,6 +104,8 @@ class World {
   void set_appearance(Id<Body> body, const Appearance& appearance);
 
   const MaterialTable& materials() const { return settings_->materials; }
+  /// Adds the material of this friction, unless there is one of its name.
+  void add_friction(const OwnFriction& own);
   void set_friction(std::string_view a, std::string_view b, Friction friction) {
     edit_settings().materials.set_friction(a, b, friction);
   }
@@ -152,7 +154,7 @@ class World {
   void set_collision(bool on, Id<Body> body);           ///< one body against everything
   void set_collision(bool on, Id<Body> a, Id<Body> b);  ///< a pair
   bool may_collide(Id<Body> a, Id<Body> b) const;
-  /// For many bodies, where a list of their pairs would be long.
+  /// Pairs that are switched on later collide whatever their bits say.
   void set_collision_bits(Id<Body> body, const CollisionBits& bits);
   /// All pairs that are switched off, those that bits keep apart included, in their order.
   /// throws Error when there are more than max_pairs_off
@@ -188,8 +190,6 @@ class World {
   QueryContext& context() { return scratch_.context; }
 
  private:
-  /// Lists the pairs of a body that bits keep apart, in place of its bits.
-  void list_pairs_of(Id<Body> body);
   static std::string the_body(const std::string& name);  ///< "body 'flask'", for sentences
   WorldModel& edit_model();
   WorldSettings& edit_settings();

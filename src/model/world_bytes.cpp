@@ -38,7 +38,7 @@ size_t WorldSettings::bytes() const {
   // a row for each material
   const size_t names = materials.names().size();
   return sizeof *this + switched_off.size() * (node_bytes + sizeof(Id<Body>)) +
-         pairs_off.size() * (node_bytes + 2 * sizeof(Id<Body>)) +
+         (pairs_off.size() + pairs_on.size()) * (node_bytes + 2 * sizeof(Id<Body>)) +
          collision_bits.size() * (node_bytes + sizeof(decltype(collision_bits)::value_type)) +
          names * (sizeof(std::string) + names * sizeof(Friction));
 }

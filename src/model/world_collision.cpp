@@ -17,11 +17,16 @@ void World::set_collision(bool on, Id<Body> id) {
 
 void World::set_collision(bool on, Id<Body> a, Id<Body> b) {
   body(a), body(b);
-  if (on && settings_->bits_keep_apart(a, b)) list_pairs_of(a);
+  WorldSettings& settings = edit_settings();
+  const BodyPair pair = ordered(a, b);
   if (on)
-    edit_settings().pairs_off.erase(ordered(a, b));
+    settings.pairs_off.erase(pair);
   else
-    edit_settings().pairs_off.insert(ordered(a, b));
+    settings.pairs_off.insert(pair);
+  if (on && settings.bits_keep_apart(a, b))
+    settings.pairs_on.insert(pair);
+  else if (!on)
+    settings.pairs_on.erase(pair);
 }
 
 bool World::may_collide(Id<Body> a, Id<Body> b) const {
@@ -31,14 +36,6 @@ bool World::may_collide(Id<Body> a, Id<Body> b) const {
 void World::set_collision_bits(Id<Body> id, const CollisionBits& bits) {
   const Id<Robot> robot = body(id).robot;
   edit_settings().collision_bits[id] = {bits, robot};
-}
-
-void World::list_pairs_of(Id<Body> id) {
-  WorldSettings& settings = edit_settings();
-  for (const auto& entry : settings.collision_bits)
-    if (entry.first != id && settings.bits_keep_apart(id, entry.first))
-      settings.pairs_off.insert(ordered(id, entry.first));
-  settings.collision_bits.erase(id);
 }
 
 std::vector<BodyPair> World::pairs_off() const {

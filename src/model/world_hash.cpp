@@ -148,6 +148,7 @@ uint64_t World::hash() const {
     h.add(uint64_t{of.first.type} << 32 | of.first.affinity);
     flag(of.first.stands);
   }
+  for (const auto& [a, b] : settings_->pairs_on) h.add(body(a).name), h.add(body(b).name);
   h.add(settings_->contact_threshold);
   for (const double x : settings_->gravity) h.add(x);
   for (const Keyframe& keyframe : settings_->keyframes) {

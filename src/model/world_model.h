@@ -57,6 +57,7 @@ struct WorldSettings {
   std::set<BodyPair> pairs_off;     ///< as ordered gives them
   /// Bodies whose bits may keep them apart, and their robots.
   std::map<Id<Body>, std::pair<CollisionBits, Id<Robot>>> collision_bits;
+  std::set<BodyPair> pairs_on;  ///< that collide although their bits keep them apart
   std::optional<Camera> camera;
   Eigen::Vector3d gravity{0, 0, -standard_gravity};             ///< in the world frame [m/s^2]
   std::vector<Keyframe> keyframes;                              ///< of different names
@@ -75,7 +76,8 @@ struct WorldSettings {
     if (x == collision_bits.end() || y == collision_bits.end()) return false;
     const auto& [bits_a, robot_a] = x->second;
     const auto& [bits_b, robot_b] = y->second;
-    return !(robot_a && robot_a == robot_b) && bits_a.keeps_apart(bits_b);
+    return !(robot_a && robot_a == robot_b) && bits_a.keeps_apart(bits_b) &&
+           !pairs_on.contains(ordered(a, b));
   }
   size_t bytes() const;
 };

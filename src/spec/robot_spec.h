@@ -11,6 +11,7 @@
 #include "clench/spec/eigengrasp_spec.h"
 #include "clench/spec/glove_spec.h"
 #include "clench/spec/joint_tendon.h"
+#include "clench/spec/own_friction.h"
 #include "clench/spec/passive_parts.h"
 #include "clench/spec/virtual_contact_spec.h"
 
@@ -107,6 +108,8 @@ struct RobotSpec {
   std::optional<std::vector<VirtualContactSpec>> virtual_contacts;
   std::optional<GloveCalibration> glove;
   RobotFiles files;  ///< where the three above come from
+  /// materials of its parts that its file defines, each by the name of material_name()
+  std::vector<OwnFriction> frictions;
   std::optional<TrackerSpec> tracker;
   std::vector<TactileSpec> tactile;
   std::vector<TendonSpec> tendons;

@@ -62,12 +62,6 @@ struct FrictionSpec {
 };
 
 /// All that is switched off, by the names of bodies.
-struct CollisionSpec {
-  bool on = true;  ///< false: nothing collides
-  std::vector<std::string> bodies_off;
-  std::vector<std::array<std::string, 2>> pairs_off;
-};
-
 /// A body, or a base or link of a robot.
 struct PartRef {
   WorldEntry::Kind kind = WorldEntry::Kind::body;  ///< body or robot
@@ -86,6 +80,14 @@ struct CollisionBits {
     return (stands && other.stands) || !((type & other.affinity) || (other.type & affinity));
   }
   bool operator==(const CollisionBits&) const = default;
+};
+
+struct CollisionSpec {
+  bool on = true;  ///< false: nothing collides
+  std::vector<std::string> bodies_off;
+  std::vector<std::array<std::string, 2>> pairs_off;
+  std::vector<std::pair<std::string, CollisionBits>> bits;
+  std::vector<std::array<std::string, 2>> pairs_on;  ///< that bits would keep apart
 };
 
 /// A state of a world by its name: what stands where then. What it does not name stays as it is.
@@ -118,14 +120,13 @@ struct WorldSpec {
   std::optional<double> contact_threshold;  ///< [m]; absent: that of an empty world
   std::optional<double> time_step;          ///< of dynamics [s]; absent: that of an empty world
   std::vector<FrictionSpec> friction;       ///< in the order in which new materials get their names
-  /// materials whose friction on those that every world begins with, but for frictionless, is the
-  /// larger of both's own
-  std::vector<std::string> larger_friction;
-  std::optional<CollisionSpec> collision;          ///< absent: what the robots bring along
+  std::vector<OwnFriction> frictions;       ///< materials beside, by the names of material_name()
+  std::optional<CollisionSpec> collision;   ///< absent: what the robots bring along
   std::vector<std::array<PartRef, 2>> never_meet;  ///< beside what the robots bring along
-  /// of many bodies, in place of their pairs; a pair of which one has none may collide
+  /// a pair of which one has none may collide
   std::vector<std::pair<PartRef, CollisionBits>> collision_bits;
-  bool collision_on = true;  ///< false: nothing collides
+  std::vector<std::array<PartRef, 2>> always_meet;  ///< although their bits keep them apart
+  bool collision_on = true;                         ///< false: nothing collides
   /// in the world frame [m/s^2]; absent: standard_gravity along -z
   std::optional<Eigen::Vector3d> gravity;
   std::vector<KeyframeSpec> keyframes;

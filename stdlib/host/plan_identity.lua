@@ -1,4 +1,5 @@
 --- Identifies a search of `clench plan` by its scene and the options on which its grasps depend.
+local fingerprint = require "clench.fingerprint"
 local in_utf8 = require "clench.in_utf8"
 local identity = {}
 
@@ -24,13 +25,6 @@ local function text_of(value)
   table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
   for i, key in ipairs(keys) do keys[i] = tostring(key) .. "=" .. text_of(value[key]) end
   return "{" .. table.concat(keys, ",") .. "}"
-end
-
--- FNV-1a of 64 bits
-local function fingerprint(text)
-  local h = 0xcbf29ce484222325
-  for i = 1, #text do h = (h ~ text:byte(i)) * 0x100000001b3 end
-  return ("%016x"):format(h)
 end
 
 -- equal text for equal numbers, such as "1e1" and "10"

@@ -7,6 +7,7 @@ local read_options = require "clench.options"
 local deadline = require "clench.deadline"
 local described = require "clench.described"
 local is_stopped = require "clench.is_stopped"
+local is_timeout = require "clench.is_timeout"
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
 local running = require "clench.plan.running"
@@ -82,7 +83,7 @@ function Job:in_time(work)
   local over = self:end_deadline()
   if ok then return result end
   -- Ctrl-C before the deadline is raised again
-  if not (over and is_stopped(result) and result.sentence ~= "interrupted") then error(result, 0) end
+  if not (over and is_timeout(result)) then error(result, 0) end
 end
 
 --- Called between two pieces of work: false once the time has run out, Ctrl-C was pressed or the search was cancelled.
@@ -147,7 +148,7 @@ function Job:close(hand, object, state, stats, approach)
   local ok, grasp, why = pcall(closing.close, hand, object, state, {approach = approach, grasp = self.grasp_options})
   local over = limit and limit:close()
   if not ok then
-    if not (over and is_stopped(grasp)) then error(grasp, 0) end
+    if not (over and is_timeout(grasp)) then error(grasp, 0) end
     grasp, why = nil, "no time left"
   end
   why = why or touch.fault(self.touch, grasp)

@@ -97,3 +97,32 @@ TEST_CASE("there are no more materials than a table can hold") {
   };
   CHECK_THROWS_WITH_AS(add(), "material 'm493': expected at most 500 materials", Error);
 }
+
+TEST_CASE("materials of their own friction combine with each other and with the usual ones") {
+  MaterialTable table;
+  const OwnFriction low{.mu = 0.05}, high{.mu = 0.9}, first{.mu = 0.2, .priority = 1},
+      smooth{.mu = 0.3, .frictionless = true};
+  for (const OwnFriction& own : {low, high, first, smooth, low}) table.add(own);
+  CHECK(table.names().size() == 7 + 4);
+  const auto mu = [&](const std::string& a, const std::string& b) {
+    return table.friction(table.index(a), table.index(b)).statics;
+  };
+  const auto name = [](const OwnFriction& own) { return material_name(own); };
+  CHECK(mu(name(low), name(low)) == 0.05);
+  CHECK(mu(name(low), name(high)) == 0.9);
+  CHECK(mu(name(first), name(high)) == 0.2);
+  CHECK(mu(name(smooth), name(smooth)) == 0);
+  CHECK(mu(name(smooth), name(low)) == 0.3);
+  // the larger of both's own
+  CHECK(mu(name(low), "plastic") == 0.3);
+  CHECK(mu(name(high), "plastic") == 0.9);
+  CHECK(mu(name(high), "frictionless") == 0);
+  CHECK(mu(name(smooth), "glass") == 0.2);
+  CHECK(table.friction(table.index(name(low)), table.index("plastic")).kinetic == 0.3 - 0.1);
+  // what is set stays
+  table.set_friction(name(low), name(high), {0.4, 0.4});
+  table.add(low);
+  CHECK(mu(name(low), name(high)) == 0.4);
+  CHECK_THROWS_WITH_AS(table.add({.mu = -1}),
+                       "friction -1: friction: expected a number from 0 to 1e+06, got -1", Error);
+}

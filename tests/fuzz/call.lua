@@ -1,11 +1,16 @@
 -- Runs one statement of the API's fuzzer, and judges what came of it: a message or a warning that is no sentence, a number
 -- that is not finite, seconds. What is wrong is printed as `FINDING <statement> <signature>`, once.
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
+local deadline = require "clench.deadline"
 local judge = dofile(here .. "judge.lua")
 local env = dofile(here .. "values.lua").environment()
 
+-- a call of the engine is asked to stop after so many seconds, as by the time limit of a search
+local patience = 5
 -- seconds of one call that are too many under sanitizers, which make a call ten times as long, of any values
-local max_seconds = 60
+local max_seconds = 30
+
+local impatience = "the statement takes too long"
 
 local call = {findings = 0, number = 0, v = env.v}
 local said = {}
@@ -38,11 +43,18 @@ function call.run(text, name, target, sensible)
   local chunk = assert(load(text, "=fuzz", "t", env))
   listen(name)
   local began = os.clock()
+  local limit = deadline(patience)
+  -- a loop of a script, which has no time limit
+  debug.sethook(function()
+    if os.clock() - began > patience then error(impatience, 0) end
+  end, "", 1000000)
   local ok, message = pcall(chunk)
+  debug.sethook()
+  limit:close()
   if os.clock() - began > max_seconds then finding("slow", name) end
   clench.log.sink()
   if not ok then
-    local bad = judge.message(message)
+    local bad = message ~= impatience and judge.message(message)
     if bad then finding("message", name .. ": " .. bad) end
     return false, message
   end

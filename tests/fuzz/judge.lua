@@ -33,7 +33,7 @@ end
 local endless = {
   ["patch.radii"] = true, ["patch.relative_radii"] = true, ["robot.dof_limits"] = true, ["eigengrasps.limits"] = true,
   ["eigengrasps.range"] = true, ["robot.effort_ranges"] = true,
-  ["measures:quality"] = true, ["world:distance"] = true,
+  ["measures:quality"] = true, ["world_queries:distance"] = true, ["world_queries:penetration"] = true,
 }
 
 local function is_odd(value, may_be_infinite)

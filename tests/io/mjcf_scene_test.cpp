@@ -33,10 +33,13 @@ struct ToldWorld {
     return world.bodies.at(0);
   }
   double friction(const std::string& a, const std::string& b) const {
-    for (const FrictionSpec& f : world.friction)
-      if ((f.a == a && f.b == b) || (f.a == b && f.b == a)) return f.statics;
-    FAIL("no friction of " << a << " and " << b);
-    return -1;
+    const auto find = [&](const std::string& name) {
+      for (const OwnFriction& own : world.frictions)
+        if (material_name(own) == name) return own;
+      FAIL("no material " << name);
+      return OwnFriction{};
+    };
+    return combined(find(a), find(b));
   }
 };
 
@@ -131,7 +134,7 @@ TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
   CHECK(told.friction(material("a"), material("c")) == 0.1);
   CHECK(told.friction(material("d"), material("d")) == 0);
   CHECK(told.friction(material("d"), material("b")) == 0.7);
-  CHECK(told.world.larger_friction.size() == 5);
+  CHECK(told.world.frictions.size() == 5);
   const ToldWorld mixed(
       "<body name='x'><geom size='1' friction='0.2'/><geom size='1' friction='2'/>"
       "</body>");
@@ -362,22 +365,23 @@ TEST_CASE("keyframes that do not fit are refused, or told where bodies are missi
   CHECK(twice.warned("key: there is another one of the name 'k'; the first one counts"));
 }
 
-TEST_CASE("what a scene's bits and excludes keep apart never meets, nor what is fixed") {
+TEST_CASE("a scene's bits are kept, and excluded pairs are listed") {
   const ToldWorld told(
       "<geom size='1'/>" + arm + mug +
           "<body name='ghost'><freejoint/><geom size='1' contype='2' conaffinity='2'/></body>",
       "<contact><exclude body1='mug' body2='upper'/><exclude body1='mug' body2='no'/>"
       "<pair geom1='x' geom2='y'/></contact>");
-  const auto count = [&](WorldEntry::Kind a, WorldEntry::Kind b) {
-    return std::ranges::count_if(told.world.never_meet, [&](const auto& pair) {
-      return (pair[0].kind == a && pair[1].kind == b) || (pair[0].kind == b && pair[1].kind == a);
-    });
-  };
-  using Kind = WorldEntry::Kind;
-  // the arm's base with the obstacle, both its parts with the ghost; the mug with one of them
-  CHECK(count(Kind::body, Kind::robot) == 4);
-  // the ghost with obstacle and mug
-  CHECK(count(Kind::body, Kind::body) == 2);
+  // the mug with one part of the arm
+  CHECK(told.world.never_meet.size() == 1);
+  // of the obstacle, the arm's base and link, mug and ghost
+  REQUIRE(told.world.collision_bits.size() == 5);
+  int fixed = 0, other = 0;
+  for (const auto& [ref, bits] : told.world.collision_bits) {
+    fixed += bits.stands;
+    other += bits == CollisionBits{.type = 2, .affinity = 2};
+  }
+  CHECK(fixed == 2);
+  CHECK(other == 1);
   CHECK(told.noted("4 pairs of bodies never collide, as contype and conaffinity say"));
   CHECK(told.warned("exclude: no body 'no' is read; this is not used"));
   CHECK(told.warned("pairs of which a geom is not read are not used: 'x' and 'y'"));

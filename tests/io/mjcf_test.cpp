@@ -217,9 +217,6 @@ TEST_CASE("what would close a loop is told and left open") {
       model("<joint name='j' range='0 1'/>",
             "<equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>");
   CHECK(told.warned("equality: <connect> would close a loop of bodies; it is left open"));
-  CHECK(
-      told.noted("read as a robot, its links count as plastic; as a scene, by clench.load, they "
-                 "have the friction of their geoms"));
 }
 
 TEST_CASE("meshes are looked for in the folder that the compiler names") {

@@ -17,6 +17,21 @@ test("a search whose time ends before its first candidate says so", function(t)
   t.equal(#run.report.causes, 1)
 end)
 
+test("an error by a deadline has a kind of its own", function(t)
+  local deadline, is_stopped, is_timeout = require "clench.deadline", require "clench.is_stopped", require "clench.is_timeout"
+  local world = clench.world()
+  local limit = deadline(0)
+  local ok, problem = pcall(function() while true do world:collides() end end)
+  t.ok(not ok and limit:close())
+  t.equal(problem.kind, "timeout")
+  t.equal(problem.sentence, "out of time")
+  t.ok(is_stopped(problem) and is_timeout(problem))
+  t.ok(is_stopped {kind = "stopped"} and not is_timeout {kind = "stopped"})
+  for _, other in ipairs {"out of time", {kind = "input"}, setmetatable({}, {__index = {kind = "timeout"}})} do
+    t.ok(not is_stopped(other) and not is_timeout(other))
+  end
+end)
+
 test("a planner ends when its time is over, and restores the world", function(t)
   for _, planner in ipairs {"sample", "random", "anneal", "guided", "loop"} do
     local world = clench.world()

@@ -41,6 +41,58 @@ return world]])
   t.equal(table.concat(r.parsed.overlaps[40], " "), "c2 c3")
 end)
 
+test("the best epsilon is found among any number of measures", function(t)
+  local lines = {}
+  for line in io.lines "tests/data/seeds/grasps.jsonl" do lines[#lines + 1] = line end
+  local measures = {}
+  for i = 1, 400 do measures[i] = ('"m%d":%d'):format(i, i) end
+  measures[401] = '"epsilon":0.5'
+  lines[2] = lines[2]:gsub('"measures":%b{}', function() return '"measures":{' .. table.concat(measures, ",") .. "}" end)
+  local r = report.of(test.path(".jsonl", table.concat(lines, "\n") .. "\n"))
+  t.equal(r.error, nil)
+  t.ok(r.parsed.more.measures > 290)
+  t.equal(r.parsed.best_epsilon, 0.5)
+end)
+
+test("pairs that collide are asked for one after the other, up to a number", function(t)
+  local world = clench.world()
+  for i = 1, 4 do world:add_obstacle("models/objects/cube.iv", {name = "c" .. i}) end
+  local function names(...)
+    local out = {}
+    for i, pair in ipairs(world:colliding(...)) do out[i] = pair[1].name .. pair[2].name end
+    return table.concat(out, " ")
+  end
+  local all = "c1c2 c1c3 c1c4 c2c3 c2c4 c3c4"
+  t.equal(names(), all)
+  t.equal(names(nil, nil, {max = 4}), all:sub(1, 19))
+  t.equal(names(nil, nil, {max = 0}), "")
+  t.equal(names(nil, nil, {max = 7}), all)
+  t.equal(names(nil, nil, {}), all)
+  t.equal(names(nil, world.bodies[4]), "c1c4 c2c4 c3c4")
+  t.equal(names(world.bodies[2], nil, {max = 2}), "c2c1 c2c3")
+  t.fails(function() world:colliding(nil, nil, {max = -1}) end, "world:colliding: max: expected a number >= 0, got -1")
+  t.fails(function() world:colliding(nil, nil, {min = 1}) end, "unknown key 'min'")
+end)
+
+test("overlaps of thousands of bodies take one sweep", function(t)
+  local cell = {}
+  for i = 1, 6000 do
+    cell[i] = ("<body pos='%g %g 0'><freejoint/><geom type='box' size='.1 .1 .1'/></body>"):format(i % 80, i // 80)
+  end
+  cell[6001] = "<body name='last' pos='1 0 0'><freejoint/><geom type='box' size='.2 .2 .2'/></body>"
+  local path = test.path(".xml", "<mujoco><worldbody>" .. table.concat(cell) .. "</worldbody></mujoco>")
+  local began = clench.clock()
+  local world = clench.load(path)
+  local loading = clench.clock() - began
+  local r = report.of(path)
+  t.equal(r.error, nil)
+  t.equal(#r.parsed.overlaps, 1)
+  t.equal(r.parsed.overlaps[1][2], "last")
+  -- body by body it took 50 times as long as reading
+  t.ok(clench.clock() - began < 10 * loading + 5, "quadratic")
+  t.equal(#world.objects, 6001)
+end)
+
 test("what is wrong is one sentence, and the log is as it was", function(t)
   local r = report.of "no/such.wld"
   t.equal(r.parsed, nil)

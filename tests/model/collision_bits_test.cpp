@@ -42,19 +42,38 @@ TEST_CASE("bodies collide as their bits say, and pair by pair as a script says")
   world.set_collision(false, id[0], id[1]);
   CHECK(world.pairs_off() == before.pairs_off());
   CHECK(differences(world, before).empty());
+  // a pair that is switched on collides, whatever happens to others
+  world.set_collision(true, id[0], id[2]);
+  CHECK(world.may_collide(id[2], id[0]));
+  CHECK_FALSE(world.may_collide(id[1], id[2]));
+  world.set_collision(false, id[0], id[2]);
   CHECK(before.hash() != boxes(5).hash());
   // what is removed is in no pair
   world.remove(id[2]);
   CHECK(world.pairs_off() == Pairs{{id[0], id[1]}});
 }
 
-TEST_CASE("a world with bits is described by its pairs, and built again") {
-  World world = boxes(3);
-  for (const auto id : world.bodies()) world.set_collision_bits(id, {.stands = true});
+TEST_CASE("a world with bits is described by them, and built again") {
+  World world = boxes(4);
+  const auto id = world.bodies();
+  for (const auto body : id) world.set_collision_bits(body, {.type = 2, .stands = true});
+  world.set_collision(true, id[1], id[2]);
   const World again = build_world(describe_world(world));
-  CHECK(again.pairs_off().size() == 3);
+  CHECK(again.pairs_off().size() == 5);
+  CHECK(again.settings().pairs_off.empty());
+  CHECK(again.may_collide(again.bodies()[2], again.bodies()[1]));
   CHECK(differences(world, again).empty());
-  CHECK(again.settings().collision_bits.empty());
+  CHECK(world.hash() == again.hash());
+}
+
+TEST_CASE("worlds in which the same bodies may collide are alike, by bits or by pairs") {
+  World bits = boxes(3), pairs = boxes(3);
+  for (const auto id : bits.bodies()) bits.set_collision_bits(id, {.stands = true});
+  const auto id = pairs.bodies();
+  for (int i = 0; i < 3; ++i) pairs.set_collision(false, id[i], id[(i + 1) % 3]);
+  CHECK(differences(bits, pairs).empty());
+  pairs.set_collision(true, id[0], id[1]);
+  CHECK(differences(bits, pairs) == std::vector<std::string>{"which bodies may collide"});
 }
 
 TEST_CASE("thousands of bodies that never collide take little memory, and are not listed") {

@@ -1,5 +1,7 @@
 #include "clench/model/near_bodies.h"
 
+#include <algorithm>
+#include <ranges>
 #include <set>
 
 #include "clench/model/find.h"
@@ -45,6 +47,20 @@ World heap(Random& random, int count, double room) {
 }
 
 }  // namespace
+
+TEST_CASE("the first colliding pairs are the first of all, of few bodies and of many") {
+  Random random(7);
+  for (const int count : {40, 90}) {
+    World world = heap(random, count, 0.3);
+    world.set_collision(false, world.bodies()[0], world.bodies()[1]);
+    const auto all = colliding_pairs(world);
+    REQUIRE(all.size() > 10);
+    for (const size_t max : {size_t{0}, size_t{1}, size_t{7}, all.size(), all.size() + 1}) {
+      const auto first = first_colliding_pairs(world, max, &world.context());
+      CHECK(std::ranges::equal(first, all | std::views::take(max)));
+    }
+  }
+}
 
 TEST_CASE("the sweep finds all pairs within its reach, in the order of all pairs") {
   Random random(1);

@@ -68,16 +68,21 @@ RobotSpec read_robot_mjcf(const fs::path& path, FileCache& cache) {
   tell_world_geoms(model.worldbody(), cache);
   bool fixed_base = true;
   MjcfTree tree = read_one_robot(model, cache, fixed_base);
-  RobotSpec robot = model.make(std::move(tree), model.name(), nullptr, true, fixed_base).robot;
+  MjcfRobot made = model.make(std::move(tree), model.name(), nullptr, true, fixed_base);
+  made.materials.tell(cache);
   model.tell();
-  return robot;
+  return std::move(made.robot);
 }
 
 RobotSpec read_robot_mjcf(const fs::path& path, const std::string& body, FileCache& cache) {
   MjcfModel model(path, cache, "world");
   std::vector<std::string> names;
   for (const TopBody* tree : model.joint_trees()) {
-    if (tree->name == body) return model.scene_robot(*tree, true).robot;
+    if (tree->name == body) {
+      MjcfRobot made = model.scene_robot(*tree, true);
+      made.materials.tell(cache);
+      return std::move(made.robot);
+    }
     names.push_back(tree->name);
   }
   fail("{}: body: expected one that a tree of joints begins with, got {}{}",

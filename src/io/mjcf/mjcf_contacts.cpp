@@ -51,15 +51,19 @@ void MjcfNamedPairs::add(const std::string& a, const std::string& b) {
   if (++count_ <= max_named) first_.push_back(fmt::format("'{}' and '{}'", excerpt(a), excerpt(b)));
 }
 
-bool MjcfContacts::collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
-                           const std::string& name_a, const std::string& name_b) {
-  if (!listed && !clench::collide(a.type, a.affinity, b.type, b.affinity)) return false;
-  if (!listed && a.kinds.size() == 1 && b.kinds.size() == 1) return true;
+/// Number of pairs of geoms of two bodies that their bits keep apart.
+static size_t pairs_apart(const MjcfBits& a, const MjcfBits& b) {
   size_t apart = 0;
   for (const MjcfBits::Kind& x : a.kinds)
     for (const MjcfBits::Kind& y : b.kinds)
-      if (!clench::collide(x.type, x.affinity, y.type, y.affinity)) apart += x.count * y.count;
-  if (apart > (listed ? *listed : 0)) mixed_.add(name_a, name_b);
+      if (!collide(x.type, x.affinity, y.type, y.affinity)) apart += x.count * y.count;
+  return apart;
+}
+
+bool MjcfContacts::collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
+                           const std::string& name_a, const std::string& name_b) {
+  if (!listed && !clench::collide(a.type, a.affinity, b.type, b.affinity)) return false;
+  if (pairs_apart(a, b) > (listed ? *listed : 0)) mixed_.add(name_a, name_b);
   return true;
 }
 
@@ -86,6 +90,85 @@ MjcfListedBodies MjcfContacts::listed(
         if (i == j) continue;
         out[std::minmax(i, j)] += !clench::collide(g->type, g->affinity, h->type, h->affinity);
       }
+  return out;
+}
+
+// --- parts of a scene ---
+
+namespace {
+
+/// Parts of the same bits: there are few kinds, so that pairs are counted and not visited.
+struct PartGroup {
+  std::vector<size_t> parts;
+  std::map<std::pair<int, int>, size_t> owners;  // how many parts each has
+};
+
+std::vector<PartGroup> groups_of(const std::vector<MjcfPart>& parts) {
+  std::map<std::pair<std::vector<std::array<size_t, 3>>, bool>, PartGroup> by_bits;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].bits.kinds.empty()) continue;  // collides with nothing
+    std::vector<std::array<size_t, 3>> key;
+    for (const MjcfBits::Kind& kind : parts[i].bits.kinds)
+      key.push_back({kind.type, kind.affinity, kind.count});
+    PartGroup& group = by_bits[{std::move(key), parts[i].fixed}];
+    group.parts.push_back(i);
+    ++group.owners[parts[i].owner];
+  }
+  std::vector<PartGroup> out;
+  for (auto& [key, group] : by_bits) out.push_back(std::move(group));
+  return out;
+}
+
+/// Number of pairs of a part of each that are not of one owner.
+size_t pairs_between(const PartGroup& a, const PartGroup& b, bool same) {
+  size_t all = a.parts.size() * b.parts.size();
+  const PartGroup &less = a.owners.size() < b.owners.size() ? a : b, &more = &less == &a ? b : a;
+  for (const auto& [owner, count] : less.owners)
+    if (const auto found = more.owners.find(owner); found != more.owners.end())
+      all -= count * found->second;
+  return same ? all / 2 : all;
+}
+
+}  // namespace
+
+void MjcfContacts::name_mixed(const std::vector<MjcfPart>& parts, const std::vector<size_t>& a,
+                              const std::vector<size_t>& b, const MjcfListedBodies& listed) {
+  for (const size_t i : a) {
+    check_stop();
+    for (const size_t j : b) {
+      if (&a == &b && j <= i) continue;
+      if (parts[i].owner != parts[j].owner && !listed.contains(std::minmax(i, j)))
+        mixed_.add(parts[std::min(i, j)].name, parts[std::max(i, j)].name);
+    }
+  }
+}
+
+MjcfKeptApart MjcfContacts::kept_apart(const std::vector<MjcfPart>& parts,
+                                       const MjcfListedBodies& listed) {
+  MjcfKeptApart out;
+  const std::vector<PartGroup> groups = groups_of(parts);
+  for (size_t g = 0; g < groups.size(); ++g)
+    for (size_t h = g; h < groups.size(); ++h) {
+      check_stop();
+      const MjcfPart &a = parts[groups[g].parts.front()], &b = parts[groups[h].parts.front()];
+      const size_t count = pairs_between(groups[g], groups[h], g == h);
+      if (count == 0) continue;
+      const bool meet = clench::collide(a.bits.type, a.bits.affinity, b.bits.type, b.bits.affinity);
+      if (!meet)
+        out.by_bits += count;
+      else if (a.fixed && b.fixed)
+        out.fixed += count;
+      else if (pairs_apart(a.bits, b.bits) > 0)
+        name_mixed(parts, groups[g].parts, groups[h].parts, listed);
+    }
+  for (const auto& [pair, geoms_apart] : listed) {
+    const MjcfPart &a = parts[pair.first], &b = parts[pair.second];
+    if (a.owner == b.owner || (a.fixed && b.fixed)) continue;
+    collide(a.bits, b.bits, &geoms_apart, a.name, b.name);
+    if (clench::collide(a.bits.type, a.bits.affinity, b.bits.type, b.bits.affinity)) continue;
+    out.listed.push_back(pair);
+    --out.by_bits;
+  }
   return out;
 }
 

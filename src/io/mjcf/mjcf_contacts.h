@@ -22,7 +22,7 @@ struct MjcfBits {
     unsigned type = 0, affinity = 0;
     size_t count = 0;
   };
-  std::vector<Kind> kinds;          ///< of different bits
+  std::vector<Kind> kinds;          ///< of different bits, in their order
   unsigned type = 0, affinity = 0;  ///< bits of any of them
   explicit MjcfBits(const std::vector<MjcfGeom>& geoms);
 };
@@ -30,6 +30,20 @@ struct MjcfBits {
 /// Pairs of bodies, by their numbers in a list, the smaller first, of which a <pair> lists geoms;
 /// and how many such pairs of geoms their bits would keep apart.
 using MjcfListedBodies = std::map<std::pair<size_t, size_t>, size_t>;
+
+/// A body of a scene, or a part of a robot.
+struct MjcfPart {
+  MjcfBits bits;
+  bool fixed = false;              ///< to the world
+  std::pair<int, int> owner = {};  ///< parts of one robot have the same
+  std::string name;
+};
+
+/// Pairs of parts, not of one robot, that do not collide.
+struct MjcfKeptApart {
+  size_t by_bits = 0, fixed = 0;  ///< pairs of different bits; of fixed parts whose bits agree
+  std::vector<std::pair<size_t, size_t>> listed;  ///< of these, those of a <pair>, which collide
+};
 
 /// The first names of a list that may be long, and how many there are.
 class MjcfNamedPairs {
@@ -57,6 +71,8 @@ class MjcfContacts {
   ///         listed
   bool collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
                const std::string& name_a, const std::string& name_b);
+  /// Which parts do not collide? Remembers as collide() does.
+  MjcfKeptApart kept_apart(const std::vector<MjcfPart>& parts, const MjcfListedBodies& listed);
   /// Sets tree.model.never_meet and always_meet, whose excludes are there already: as MuJoCo, a
   /// link does not collide with what carries it, unless that is fixed to the world. `fixed_base`:
   /// is the first link? Shapes of links are known.
@@ -66,6 +82,9 @@ class MjcfContacts {
   void tell(const std::function<bool(const std::string&)>& is_read);
 
  private:
+  void name_mixed(const std::vector<MjcfPart>& parts, const std::vector<size_t>& a,
+                  const std::vector<size_t>& b, const MjcfListedBodies& listed);
+
   MjcfDocument& document_;
   const FileCache& cache_;
   std::vector<MjcfPair> pairs_;

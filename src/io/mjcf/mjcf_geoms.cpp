@@ -139,7 +139,8 @@ void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
                           values.element().place(), 2 * x, 2 * y, plane_thickness));
 }
 
-void MjcfGeoms::read_friction(const XmlValues& values, MjcfFriction& friction) {
+void MjcfGeoms::read_friction(const XmlValues& values, MjcfGeom& geom) {
+  OwnFriction& friction = geom.friction;
   if (values.has("friction"))
     friction.mu = document_.repairs().magnitude(values.leading_numbers("friction", 3)[0],
                                                 values.subject("friction"));
@@ -147,6 +148,7 @@ void MjcfGeoms::read_friction(const XmlValues& values, MjcfFriction& friction) {
     values.fail("friction", "{}", wrong);
   friction.priority = values.integer("priority", 0);
   friction.frictionless = values.integer("condim", 3) == 1;
+  geom.friction_given = values.has("friction") || values.has("priority") || friction.frictionless;
 }
 
 void MjcfGeoms::read_mass(const XmlValues& values, MjcfGeom& geom) {
@@ -163,19 +165,12 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
                                         const Pose& X_frame, bool of_world) {
   if (++count_ > max_pieces) element.fail("expected at most {} geoms", max_pieces);
   const XmlValues values = document_.values(element, child_class);
-  // a robot without a world has no friction table
-  UnusedXml& unused = document_.unused();
-  if (scene_)
-    values.tell_unused(
-        unused, {"name",      "class",    "type",     "size",    "pos",         "quat",
-                 "axisangle", "euler",    "xyaxes",   "zaxis",   "fromto",      "mesh",
-                 "fitscale",  "material", "rgba",     "contype", "conaffinity", "group",
-                 "mass",      "density",  "friction", "condim",  "priority",    "shellinertia"});
-  else
-    values.tell_unused(
-        unused, {"name",  "class",   "type",        "size",   "pos",  "quat",     "axisangle",
-                 "euler", "xyaxes",  "zaxis",       "fromto", "mesh", "fitscale", "material",
-                 "rgba",  "contype", "conaffinity", "group",  "mass", "density",  "shellinertia"});
+  values.tell_unused(
+      document_.unused(),
+      {"name",      "class",    "type",     "size",    "pos",         "quat",
+       "axisangle", "euler",    "xyaxes",   "zaxis",   "fromto",      "mesh",
+       "fitscale",  "material", "rgba",     "contype", "conaffinity", "group",
+       "mass",      "density",  "friction", "condim",  "priority",    "shellinertia"});
   const std::string type = values.word(
       "type",
       {"plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"},
@@ -191,7 +186,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
                     ? fmt::format("no obstacle is made of a {} here", type)
                     : fmt::format("a {} is no part of a {} here", type, scene_ ? "body" : "robot"));
   MjcfGeom geom;
-  read_friction(values, geom.friction);
+  read_friction(values, geom);
   geom.name = values.text("name", "");
   if (values.has("surfacevel"))
     cache_.warn(

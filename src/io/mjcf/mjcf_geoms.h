@@ -7,18 +7,9 @@
 
 #include "clench/io/mjcf/mjcf_meshes.h"
 #include "clench/io/tree/tree_links.h"
+#include "clench/spec/own_friction.h"
 
 namespace clench {
-
-/// Friction of a geom. In a contact the geom with the higher priority counts; with equal priorities,
-/// the larger coefficient, or 0 if both are frictionless.
-struct MjcfFriction {
-  double mu = 1;
-  int priority = 0;
-  bool frictionless = false;  ///< condim is 1
-
-  auto operator<=>(const MjcfFriction&) const = default;
-};
 
 struct MjcfGeom {
   GeometryPiece piece;
@@ -32,7 +23,8 @@ struct MjcfGeom {
   std::string name;      ///< empty: it has none
   bool paired = false;   ///< named by a <pair>, which defines what it collides with
 
-  MjcfFriction friction;
+  OwnFriction friction;         ///< frictionless: condim is 1
+  bool friction_given = false;  ///< by the geom or its class
 
   bool collides() const { return type != 0 || affinity != 0 || paired; }
 };
@@ -57,7 +49,7 @@ class MjcfGeoms {
   void set_solid(const std::string& type, std::vector<double> size, const XmlValues& values,
                  MjcfGeom& geom);
   void set_plane(const XmlValues& values, MjcfGeom& geom);
-  void read_friction(const XmlValues& values, MjcfFriction& friction);
+  void read_friction(const XmlValues& values, MjcfGeom& geom);
   void read_mass(const XmlValues& values, MjcfGeom& geom);
   std::optional<PieceColor> color(const XmlValues& geom, const std::string& fallback) const;
 

@@ -173,6 +173,22 @@ void MjcfModel::warn_of_starts(const TreeModel& tree) const {
   }
 }
 
+/// Links whose geoms give no friction are plastic, as those of other robots.
+void MjcfModel::set_materials(MjcfTree& tree, MjcfMaterials& materials) const {
+  bool all_given = true;
+  for (size_t i = 0; i < tree.geoms.size(); ++i) {
+    BodySpec& body = tree.model.links[i].body;
+    const bool given = is_friction_given(tree.geoms[i]);
+    if (given) body.material = materials.of(tree.geoms[i], body.name);
+    all_given = all_given && (given || !body.shape);
+  }
+  if (whole_ != std::string_view("world") && !all_given)
+    cache_.note(
+        fmt::format("{}: read as a robot, its links whose geoms give no friction count as plastic; "
+                    "as a scene, by clench.load, they have MuJoCo's friction of 1",
+                    document_.file()));
+}
+
 MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk,
                           bool tells, bool fixed_base) {
   TreeModel& model = tree.model;
@@ -195,13 +211,9 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name, const To
       for (const MjcfGeom& geom : geoms) names.insert(geom.name);
     contacts_.tell([&](const std::string& name) { return names.contains(name); });
   }
-  if (whole_ != std::string_view("world"))
-    cache_.note(
-        fmt::format("{}: read as a robot, its links count as plastic; as a scene, by clench.load, "
-                    "they have the friction of their geoms",
-                    document_.file()));
   resolve_leaders(model);
-  MjcfRobot out;
+  MjcfRobot out{{}, {}, {}, MjcfMaterials(document_.file())};
+  set_materials(tree, out.materials);
   out.tree.model.joints = model.joints;
   const bool several = joint_trees().size() > 1 && whole_ == std::string_view("world");
   out.robot = make_robot(
@@ -209,6 +221,7 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name, const To
       several ? fmt::format("{}: '{}'", document_.file(), excerpt(robot_name)) : document_.file(),
       cache_);
   out.robot.source = document_.path().generic_string();
+  out.robot.frictions = out.materials.list();
   tree.faults.tell(cache_);
   out.tree.geoms = std::move(tree.geoms);
   out.tree.slots = std::move(tree.slots);

@@ -7,6 +7,7 @@
 
 #include "clench/io/mjcf/mjcf_contacts.h"
 #include "clench/io/mjcf/mjcf_couplings.h"
+#include "clench/io/mjcf/mjcf_materials.h"
 #include "clench/io/mjcf/mjcf_tree.h"
 
 namespace clench {
@@ -16,6 +17,7 @@ struct MjcfRobot {
   RobotSpec robot;
   MjcfTree tree;  ///< its model is what remains: joints after couplings, no links
   std::map<std::string, int> parts;  ///< links of the robot by the names of bodies; -1: the base
+  MjcfMaterials materials;           ///< of links whose friction the file gives
 };
 
 class MjcfModel {
@@ -29,7 +31,7 @@ class MjcfModel {
   MjcfContacts& contacts() { return contacts_; }
   const std::string& name() const { return name_; }  ///< its own, else the file's stem
   const MjcfNames& names() const { return names_; }  ///< of all elements
-  /// Bodies directly in the world that joints hang on.
+  /// Bodies directly in the world that have joints, or carry some that do.
   std::vector<const TopBody*> joint_trees() const;
   /// A tree alone: as a base of its own where it has no joint itself, else below a frame.
   MjcfTree read_tree(const TopBody& body);
@@ -49,6 +51,7 @@ class MjcfModel {
   void leave_out(const MjcfNode& section);
   void warn_of_starts(const TreeModel& tree) const;
   void read_excludes(MjcfTree& tree);
+  void set_materials(MjcfTree& tree, MjcfMaterials& materials) const;
 
   FileCache& cache_;
   const char* whole_;

@@ -8,6 +8,7 @@
 #include "clench/base/watched.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/mjcf/mjcf_keyframes.h"
+#include "clench/io/mjcf/mjcf_materials.h"
 #include "clench/io/mjcf/mjcf_options.h"
 #include "clench/io/mjcf/mjcf_tree_weight.h"
 #include "clench/io/text/repair_names.h"
@@ -19,11 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// each takes some 100 bytes of memory in the world; where bits and fixed bodies keep more apart,
-// the world is given their bits
-constexpr size_t max_pairs_apart = 500'000, max_listed_apart = 100'000;
-// the friction of each pair of them is kept
-constexpr size_t max_frictions = 500;
+// each takes some 100 bytes of memory in the world
+constexpr size_t max_excluded = 500'000;
 constexpr size_t max_robots = 1000;
 
 /// A body or a part of a robot, as far as what meets what goes.
@@ -34,6 +32,11 @@ struct ScenePart {
   bool fixed = false;           // to the world
 };
 
+/// Equal for parts of one robot, and for nothing else.
+std::pair<int, int> part_owner(const PartRef& ref) {
+  return {static_cast<int>(ref.kind), ref.index};
+}
+
 std::array<int, 3> part_key(const PartRef& ref) {
   return {static_cast<int>(ref.kind), ref.index, ref.link};
 }
@@ -41,7 +44,7 @@ std::array<int, 3> part_key(const PartRef& ref) {
 class SceneReader {
  public:
   SceneReader(const fs::path& path, FileCache& cache)
-      : cache_(cache), model_(path, cache, "world") {}
+      : cache_(cache), model_(path, cache, "world"), materials_(model_.document().file()) {}
   WorldSpec read();
 
  private:
@@ -52,12 +55,11 @@ class SceneReader {
   void add_obstacles(const TopBody& body, SceneBody& scene);
   int add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
                 const std::vector<MjcfGeom>& geoms, const BodySpec* weighed);
-  std::string material(const std::vector<MjcfGeom>& geoms, const std::string& name);
   void dress_things();
-  void set_friction();
+  std::vector<OwnFriction> used_frictions(const RobotSpec& robot) const;
   [[noreturn]] void fail_empty();
   void exclude();
-  void never_meet();
+  void set_bits();
   void add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
                 bool fixed);
   void keep_apart(PartRef a, PartRef b);
@@ -75,64 +77,9 @@ class SceneReader {
   std::vector<PartRef> of_world_;  // geoms of the world itself
   std::set<std::string> geom_names_;
   std::vector<SceneBody> scene_;  // one per body directly in the world
-  std::map<MjcfFriction, std::string> materials_;
-  std::vector<std::string> mixed_;  // bodies whose geoms have different coefficients
+  MjcfMaterials materials_;
   int trees_ = 0;
 };
-
-// --- friction ---
-
-std::string material_name(const MjcfFriction& friction) {
-  std::string out = fmt::format("friction {}", friction.mu);
-  if (friction.frictionless) out += " frictionless";
-  if (friction.priority != 0) out += fmt::format(" priority {}", friction.priority);
-  return out;
-}
-
-/// Friction of two geoms in contact.
-double combined(const MjcfFriction& a, const MjcfFriction& b) {
-  const auto own = [](const MjcfFriction& f) { return f.frictionless ? 0 : f.mu; };
-  if (a.priority != b.priority) return own(a.priority > b.priority ? a : b);
-  return a.frictionless && b.frictionless ? 0 : std::max(a.mu, b.mu);
-}
-
-/// A body has one material: that of the geom whose friction prevails over the others'.
-std::string SceneReader::material(const std::vector<MjcfGeom>& geoms, const std::string& name) {
-  const MjcfGeom* first = nullptr;
-  bool mixed = false;
-  for (const MjcfGeom& geom : geoms) {
-    if (!geom.collides()) continue;
-    mixed = mixed || (first && geom.friction != first->friction);
-    const auto rank = [](const MjcfGeom& g) {
-      return std::tuple(g.friction.priority, !g.friction.frictionless, g.friction.mu);
-    };
-    if (!first || rank(geom) > rank(*first)) first = &geom;
-  }
-  if (mixed) mixed_.push_back(name);
-  const MjcfFriction friction = first ? first->friction : MjcfFriction{};
-  if (materials_.size() == max_frictions && !materials_.contains(friction))
-    fail("{}: geom: expected at most {} different frictions of bodies, got more",
-         model_.document().file(), max_frictions);
-  return materials_.try_emplace(friction, material_name(friction)).first->second;
-}
-
-void SceneReader::set_friction() {
-  for (const auto& [friction, name] : materials_) {
-    const double own = combined(friction, friction);
-    world_.friction.push_back({name, name, own, own});
-    world_.larger_friction.push_back(name);
-  }
-  for (auto a = materials_.begin(); a != materials_.end(); ++a)
-    for (auto b = materials_.begin(); b != a; ++b) {
-      const double mu = combined(a->first, b->first);
-      world_.friction.push_back({a->second, b->second, mu, mu});
-    }
-  if (!mixed_.empty())
-    cache_.warn(
-        fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
-                    "highest priority, then the largest counts for all: {}",
-                    model_.document().file(), some_names(mixed_)));
-}
 
 // --- bodies ---
 
@@ -162,7 +109,7 @@ int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB,
   PlacedBody placed;
   placed.role = role;
   placed.X_WB = X_WB;
-  placed.body.material = material(geoms, name);
+  placed.body.material = materials_.of(geoms, name);
   world_.bodies.push_back(std::move(placed));
   world_.order.push_back({WorldEntry::Kind::body, number});
   const PartRef ref{WorldEntry::Kind::body, number, -1};
@@ -246,8 +193,8 @@ void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
 void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
   const int number = static_cast<int>(world_.robots.size());
   if (world_.robots.size() == max_robots)
-    body.node->element.fail("expected at most {} bodies in the world that joints hang on",
-                            max_robots);
+    body.node->element.fail(
+        "expected at most {} trees of joints, each of which is a robot, got more", max_robots);
   MjcfRobot made = model_.scene_robot(body, trees_++ == 0);
   PlacedRobot placed;
   placed.X_WB = body.own_joints ? Pose{} : scene.X_WB;
@@ -261,7 +208,7 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
   for (const auto& [name, link] : made.parts) {
     const auto& geoms = made.tree.geoms[made.tree.links.at(name)];
     BodySpec& part = link < 0 ? robot.base : robot.links[link].body;
-    part.material = material(geoms, part.name);
+    part.material = materials_.of(geoms, part.name);
     const PartRef ref{WorldEntry::Kind::robot, number, link};
     add_part(ref, part.name, geoms, stands && (link < 0 || fixed[link]));
     by_name_[name] = {ref};
@@ -302,12 +249,22 @@ void SceneReader::dress_things() {
   }
 }
 
+/// Those of the scene that its parts have.
+std::vector<OwnFriction> SceneReader::used_frictions(const RobotSpec& robot) const {
+  std::set<std::string> materials = {robot.base.material};
+  for (const LinkSpec& link : robot.links) materials.insert(link.body.material);
+  std::vector<OwnFriction> out = world_.frictions;
+  std::erase_if(out,
+                [&](const OwnFriction& own) { return !materials.contains(material_name(own)); });
+  return out;
+}
+
 // --- collision filters ---
 
 void SceneReader::keep_apart(PartRef a, PartRef b) {
-  if (world_.never_meet.size() == max_pairs_apart)
-    fail("{}: expected at most {} pairs of bodies that never collide, got more",
-         model_.document().file(), max_pairs_apart);
+  if (world_.never_meet.size() == max_excluded)
+    fail("{}: expected at most {} pairs of excluded bodies, got more", model_.document().file(),
+         max_excluded);
   world_.never_meet.push_back({a, b});
 }
 
@@ -342,51 +299,28 @@ void SceneReader::exclude() {
   }
 }
 
-/// Excludes pairs of fixed parts, and pairs whose bits prevent collisions.
-void SceneReader::never_meet() {
-  size_t apart = 0;
-  MjcfContacts& contacts = model_.contacts();
-  const size_t excluded = world_.never_meet.size();
-  bool is_long = false;
-  std::vector<MjcfBits> bits, first_bits;
-  for (const ScenePart& part : parts_) {
-    bits.emplace_back(part.geoms);
-    first_bits.emplace_back(part.geoms.empty() ? part.geoms : std::vector{part.geoms.front()});
-  }
+/// Gives the parts their bits, unless all parts collide with each other anyway; pairs of geoms that
+/// a <pair> lists collide whatever their bits say.
+void SceneReader::set_bits() {
+  std::vector<MjcfPart> parts;
+  for (const ScenePart& part : parts_)
+    parts.push_back({MjcfBits(part.geoms), part.fixed, part_owner(part.ref), part.name});
+  const MjcfKeptApart apart = model_.contacts().kept_apart(parts, listed_);
+  if (apart.by_bits + apart.fixed == 0) return;
   for (size_t i = 0; i < parts_.size(); ++i) {
-    check_stop();
-    for (size_t j = i + 1; j < parts_.size(); ++j) {
-      const ScenePart &a = parts_[i], &b = parts_[j];
-      if (a.ref.kind == b.ref.kind && a.ref.index == b.ref.index) continue;  // of one robot
-      if (a.geoms.empty() || b.geoms.empty()) continue;
-      const bool fixed = a.fixed && b.fixed;
-      const auto found = listed_.empty() ? listed_.end() : listed_.find({i, j});
-      const size_t* listed = found == listed_.end() ? nullptr : &found->second;
-      const bool meet =
-          contacts.collide(fixed ? first_bits[i] : bits[i], fixed ? first_bits[j] : bits[j],
-                           fixed ? nullptr : listed, a.name, b.name) ||
-          listed;
-      if (meet && !fixed) continue;
-      apart += !meet;
-      // bits know of no <pair>
-      is_long =
-          is_long || (world_.never_meet.size() == excluded + max_listed_apart && listed_.empty());
-      if (!is_long) keep_apart(a.ref, b.ref);
-    }
+    const MjcfBits& bits = parts[i].bits;
+    if (!parts_[i].geoms.empty())
+      world_.collision_bits.emplace_back(parts_[i].ref,
+                                         CollisionBits{bits.type, bits.affinity, parts_[i].fixed});
   }
-  if (is_long) {
-    world_.never_meet.resize(excluded);
-    for (size_t i = 0; i < parts_.size(); ++i)
-      if (!parts_[i].geoms.empty())
-        world_.collision_bits.emplace_back(
-            parts_[i].ref, CollisionBits{bits[i].type, bits[i].affinity, parts_[i].fixed});
-  }
-  if (apart > 0)
+  for (const auto& [i, j] : apart.listed)
+    world_.always_meet.push_back({parts_[i].ref, parts_[j].ref});
+  if (apart.by_bits > 0)
     cache_.note(
         fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
                     "conaffinity say",
-                    model_.document().file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
-  contacts.tell([&](const std::string& name) { return geom_names_.contains(name); });
+                    model_.document().file(), apart.by_bits, apart.by_bits == 1 ? "" : "s",
+                    apart.by_bits == 1 ? "s" : ""));
 }
 
 void SceneReader::fail_empty() {
@@ -418,13 +352,16 @@ WorldSpec SceneReader::read() {
       for (const MjcfNode* node : model_.document().section(section))
         model_.document().unused().element(node->element);
   dress_things();
-  set_friction();
+  world_.frictions = materials_.list();
+  for (PlacedRobot& placed : world_.robots) placed.robot.frictions = used_frictions(placed.robot);
+  materials_.tell(cache_);
   read_mjcf_options(model_.document(), cache_, world_);
   std::vector<const std::vector<MjcfGeom>*> geoms;
   for (const ScenePart& part : parts_) geoms.push_back(&part.geoms);
   listed_ = model_.contacts().listed(geoms);
   exclude();
-  never_meet();
+  set_bits();
+  model_.contacts().tell([&](const std::string& name) { return geom_names_.contains(name); });
   read_mjcf_keyframes(model_.document(), scene_, worldbody.lacks_bodies, cache_, world_);
   model_.tell();
   return std::move(world_);

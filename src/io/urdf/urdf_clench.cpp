@@ -27,6 +27,7 @@ class ClenchReader {
   void read_dof(const XmlElement& element);
   void read_joint(const XmlElement& element);
   void read_link(const XmlElement& element);
+  std::string own_material(const XmlValues& values);
   void read_collision(const XmlElement& element);
   void read_tendon(const XmlElement& element);
   void read_actuator(const XmlElement& element);
@@ -173,10 +174,23 @@ void ClenchReader::read_joint(const XmlElement& element) {
   values.fail("name", "no joint {}{}", in_quotes(name), did_you_mean(name, known));
 }
 
+/// The material of the friction that a link brings along.
+std::string ClenchReader::own_material(const XmlValues& values) {
+  if (values.has("material"))
+    values.fail("friction", "expected a material or a friction, got both");
+  if (!values.has("friction")) values.fail("friction", "expected a coefficient, got none");
+  const OwnFriction own{.mu = checked(values, "friction", 1, friction_rule),
+                        .priority = values.integer("friction_priority", 0),
+                        .frictionless = values.boolean("frictionless", false)};
+  if (std::ranges::find(robot_.frictions, own) == robot_.frictions.end())
+    robot_.frictions.push_back(own);
+  return material_name(own);
+}
+
 void ClenchReader::read_link(const XmlElement& element) {
-  expect_only(element, {"name", "material", "elastic_modulus", "soft_layer", "poisson_ratio",
-                        "restitution", "tracker", "free_damping", "free_friction", "free_armature",
-                        "gravity_compensation"});
+  expect_only(element, {"name", "material", "friction", "friction_priority", "frictionless",
+                        "elastic_modulus", "soft_layer", "poisson_ratio", "restitution", "tracker",
+                        "free_damping", "free_friction", "free_armature", "gravity_compensation"});
   const XmlValues values(element);
   BodySpec& body = this->body(part(values, "name"));
   once(element, body.name);
@@ -184,6 +198,8 @@ void ClenchReader::read_link(const XmlElement& element) {
   if (std::ranges::find(material_names, body.material) == material_names.end())
     values.fail("material", "unknown material {}{}", in_quotes(body.material),
                 instead_of(body.material, {material_names.begin(), material_names.end()}));
+  for (const char* name : {"friction", "friction_priority", "frictionless"})
+    if (values.has(name)) body.material = own_material(values);
   if (values.has("elastic_modulus"))
     body.elastic_modulus = checked(values, "elastic_modulus", 0, elastic_modulus_rule);
   body.soft_layer = checked(values, "soft_layer", body.soft_layer, soft_layer_rule);

@@ -1,5 +1,7 @@
 #include "clench/script/host/natives.h"
 
+#include "clench/base/hash.h"
+#include "clench/base/printable.h"
 #include "clench/base/suggest.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/deadline.h"
@@ -43,6 +45,21 @@ static int suggest(lua_State* L) {
   return push(L, known.empty() ? "" : did_you_mean(string_at(L, 1), known));
 }
 
+// printable(text, kept): the text with one '?' for each character that a terminal or a page would
+// obey; `kept`: characters that stay, such as "\n\t"
+static int make_printable(lua_State* L) {
+  if (lua_type(L, 1) != LUA_TSTRING) check_string(L, 1, "text");  // text may have zero bytes
+  const auto kept = given(L, 2) ? string_at(L, 2) : std::string_view();
+  return push(L, printable(string_at(L, 1), kept));
+}
+
+// fingerprint(text): 16 hexadecimal digits, equal for equal texts on every machine
+static int fingerprint(lua_State* L) {
+  Hasher hasher;
+  hasher.add(string_at(L, 1));
+  return push(L, fmt::format("{:016x}", hasher.value()));
+}
+
 using DeadlinePtr = std::shared_ptr<Deadline>;
 
 // deadline:close(): ends it.   returns  has the time passed?
@@ -60,10 +77,14 @@ static int deadline(lua_State* L) {
 }
 
 void add_natives(lua_State* L) {
-  static constexpr luaL_Reg natives[] = {
-      {"clench.raise", guarded<raise>},       {"clench.call_script", guarded<call_script>},
-      {"clench.script_line", script_line},    {"clench.suggest", guarded<suggest>},
-      {"clench.deadline", guarded<deadline>}, {nullptr, nullptr}};
+  static constexpr luaL_Reg natives[] = {{"clench.raise", guarded<raise>},
+                                         {"clench.call_script", guarded<call_script>},
+                                         {"clench.script_line", script_line},
+                                         {"clench.suggest", guarded<suggest>},
+                                         {"clench.deadline", guarded<deadline>},
+                                         {"clench.printable", guarded<make_printable>},
+                                         {"clench.fingerprint", guarded<fingerprint>},
+                                         {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);
   lua_pop(L, 1);

@@ -192,7 +192,9 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
                      out_of_time ? "out of time"
                      : stopped   ? "interrupted"
                                  : message.text,
-                     stopped ? "stopped" : name_of(kind));
+                     out_of_time ? "timeout"
+                     : stopped   ? "stopped"
+                                 : name_of(kind));
   }
   return -1;
 }

@@ -176,8 +176,7 @@ Names pairs_of_mujoco(const mjModel& m) {
 /// Pairs that may collide in a world of ours in which nothing is switched off for overlapping.
 Names pairs_of_ours(const WorldSpec& spec) {
   World world;
-  for (const FrictionSpec& f : spec.friction)
-    world.set_friction(f.a, f.b, {f.statics, f.kinetic, f.restitution});
+  for (const OwnFriction& own : spec.frictions) world.add_friction(own);
   std::vector<Id<Body>> bodies(spec.bodies.size());
   std::vector<Id<Robot>> robots(spec.robots.size());
   std::map<Id<Body>, std::string> names;
@@ -203,6 +202,8 @@ Names pairs_of_ours(const WorldSpec& spec) {
                                               : world.robot(robots[ref.index]).body_of(ref.link);
   };
   for (const auto& [a, b] : spec.never_meet) world.set_collision(false, part(a), part(b));
+  for (const auto& [ref, bits] : spec.collision_bits) world.set_collision_bits(part(ref), bits);
+  for (const auto& [a, b] : spec.always_meet) world.set_collision(true, part(a), part(b));
   Names out;
   for (const auto& [a, name_a] : names)
     for (const auto& [b, name_b] : names)

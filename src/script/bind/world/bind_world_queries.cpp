@@ -1,4 +1,5 @@
 #include <limits>
+#include <optional>
 
 #include "clench/model/penetration.h"
 #include "clench/model/raycast.h"
@@ -7,6 +8,7 @@
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 
@@ -35,12 +37,30 @@ static int collides(lua_State* L) {
   return push(L, clench::collides(*world, check_bodies(L, 2, "entity", world), &world->context()));
 }
 
+// the option `max`; absent: all
+static std::optional<size_t> max_pairs(lua_State* L, int options_at) {
+  constexpr int all = -1;
+  Table options(L, options_at);
+  const bool limited = options.has("max");
+  const int max = options.integer("max", all);
+  if (limited && max < 0) fail("{}: max: expected a number >= 0, got {}", subject(L), max);
+  options.done();
+  if (!limited) return {};
+  return static_cast<size_t>(max);
+}
+
 static int colliding(lua_State* L) {
   const auto& world = self<WorldHandle>(L).world;
-  if (!given(L, 2)) return push_pairs(L, world, colliding_pairs(*world, &world->context()));
-  const auto a = check_bodies(L, 2, "a", world);
+  const std::optional<size_t> max = max_pairs(L, 4);
+  if (!given(L, 2) && !given(L, 3))
+    return push_pairs(L, world,
+                      max ? first_colliding_pairs(*world, *max, &world->context())
+                          : colliding_pairs(*world, &world->context()));
+  const auto a = given(L, 2) ? check_bodies(L, 2, "a", world) : world->bodies();
   const auto b = given(L, 3) ? check_bodies(L, 3, "b", world) : world->bodies();
-  return push_pairs(L, world, colliding_pairs(*world, a, b, &world->context()));
+  auto pairs = colliding_pairs(*world, a, b, &world->context());
+  if (max && *max < pairs.size()) pairs.resize(*max);
+  return push_pairs(L, world, pairs);
 }
 
 static int measure_distance(lua_State* L) {
@@ -99,8 +119,10 @@ Does anything collide that may, or one entity with anything? The fastest test: i
 Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 @param a? body|robot
 @param b? body|robot
+@param options? {max?: integer}  max: at most so many pairs, the first ones in the order in which bodies were made; all by default
 @return body[][]  pairs
-> #world:colliding()  --> 0)"},
+> #world:colliding()  --> 0
+> #world:colliding(nil, nil, {max = 10})  --> 0)"},
     {"distance", guarded<measure_distance>, R"(
 Least distance of two things, 0 when they collide, with the closest points in the world frame.
 @param a body|robot

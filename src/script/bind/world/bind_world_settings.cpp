@@ -33,6 +33,19 @@ static int set_collision(lua_State* L) {
   return 0;
 }
 
+static int set_collision_bits(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  const auto bodies = check_bodies(L, 2, "entity", world);
+  Table options(L, 3);
+  CollisionBits bits;
+  bits.type = static_cast<unsigned>(options.integer("type", 1));
+  bits.affinity = static_cast<unsigned>(options.integer("affinity", 1));
+  bits.stands = options.boolean("fixed", false);
+  options.done();
+  for (const auto body : bodies) world->set_collision_bits(body, bits);
+  return 0;
+}
+
 // --- friction ---
 
 // a slip makes a new material, too; numbered ones are meant
@@ -208,6 +221,15 @@ Switches collision on or off: for the whole world, for one entity against everyt
 @param a? body|robot
 @param b? body|robot
 > world:set_collision(false, hand, flask)
+> #world:contacts(hand, flask)  --> 0)"},
+    {"set_collision_bits", guarded<set_collision_bits>, R"(
+Gives bodies bits, as `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the
+affinity of the other share a bit. Bodies that are fixed do not collide with each other. `world:set_collision(true, a, b)` makes a pair
+collide whatever its bits say.
+@param entity body|robot
+@param bits? {type?: integer, affinity?: integer, fixed?: boolean}  type and affinity: 1 by default; fixed: does it stand in the world? false by default
+> world:set_collision_bits(flask, {type = 2, affinity = 2})
+> world:set_collision_bits(hand, {type = 4})
 > #world:contacts(hand, flask)  --> 0)"},
     {"set_friction", guarded<set_friction>, R"(
 Sets the Coulomb coefficients of a pair of materials; new names become materials.

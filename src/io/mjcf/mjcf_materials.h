@@ -1,0 +1,33 @@
+// Materials of bodies, by the friction of their geoms.
+#pragma once
+#include <set>
+#include <string>
+#include <vector>
+
+#include "clench/io/mjcf/mjcf_geoms.h"
+
+namespace clench {
+
+class MjcfMaterials {
+ public:
+  /// file  for messages
+  explicit MjcfMaterials(std::string file) : file_(std::move(file)) {}
+
+  /// Material of a body, which has one: that of the geom, among those that collide, whose friction
+  /// prevails over the others'.
+  std::string of(const std::vector<MjcfGeom>& geoms, const std::string& body);
+  /// All that were used.
+  std::vector<OwnFriction> list() const { return {frictions_.begin(), frictions_.end()}; }
+  /// Warns, once, of bodies whose geoms differ.
+  void tell(const FileCache& cache) const;
+
+ private:
+  std::string file_;
+  std::set<OwnFriction> frictions_;
+  std::vector<std::string> mixed_;  // bodies whose geoms have different coefficients
+};
+
+/// Does the file give the friction of any geom that collides?
+bool is_friction_given(const std::vector<MjcfGeom>& geoms);
+
+}  // namespace clench
