@@ -176,14 +176,18 @@ local function holding(self, width)
   return a.closed + part * (b.closed - a.closed), clench.pose {xyz = shift} * a.X_FH, a.pad
 end
 
+local surface_points = 4096  -- that starts are chosen from
+
+local function any_of(list, random) return list[random:integer(1, #list)] end
+
 local function across(direction, random)
   local side = direction:cross(random:direction())
   return side:norm() > 1e-3 and side / side:norm() or nil
 end
 
 --- Before a point of the surface, along its normal or tilted.
-local function before_surface(hand, object, random, standoff)
-  local at = object.mesh:sample(random, 1)[1]
+local function before_surface(hand, surface, random, standoff)
+  local at = any_of(surface, random)
   local direction = -at.normal
   local axis = across(direction, random)
   if axis then direction = clench.pose {axis = axis, angle = random:normal() * 0.4}:rotate(direction) end
@@ -210,30 +214,44 @@ local function gets_there(hand, object, direction, pose, dofs)
 end
 
 -- A point of the surface. Two fingers carry what lies aside of them by friction alone: of two points they take the one nearer to the centre of mass.
-local function surface_point(hand, object, random)
-  local a = object.mesh:sample(random, 1)[1]
+local function surface_point(hand, object, surface, random)
+  local a = any_of(surface, random)
   if not hand.is_two_fingered then return a end
-  local b = object.mesh:sample(random, 1)[1]
+  local b = any_of(surface, random)
   return (a.point - object.com):norm() <= (b.point - object.com):norm() and a or b
+end
+
+local sides = 4  -- from which a hand tries to get to two points
+
+-- A side across the line from which jaws get to the points, as deep as a random number says, or else with little more than the ends of their pads.
+-- returns  the direction of approach, and how far the middle between the pads goes beyond that between the points; nil: there is none
+local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
+  for _ = 1, sides do
+    local direction, part = across(line, random), random:uniform(-0.7, 0.7)
+    for _, deeper in ipairs(direction and {part * pad, -0.7 * pad} or {}) do
+      local pose = opposition.frame(middle + direction * deeper, direction, line) * X_FH
+      if gets_there(hand, object, direction, pose, dofs) then return direction, deeper end
+    end
+  end
 end
 
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 ---@param checked boolean  for jaws: only where the hand gets to the points
-local function about_two_points(hand, world, object, random, options, checked)
+local function about_two_points(hand, world, object, surface, random, options, checked)
   local width = math.min(options.width, hand.aperture - starts.clearance)
-  local middle, line, apart = facing.pair(world, object, surface_point(hand, object, random), random, options.friction, width)
-  local direction = middle and across(line, random)
-  if not direction then return end
+  local middle, line, apart = facing.pair(world, object, surface_point(hand, object, surface, random), random, options.friction, width)
+  if not middle then return end
   local closed, X_FH, pad = holding(hand, apart + starts.clearance)
   local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(max_closed, closed))
-  local deeper
-  if hand.is_two_fingered then
-    deeper = random:uniform(-0.7, 0.7) * pad
-    if checked and not gets_there(hand, object, direction, opposition.frame(middle + direction * deeper, direction, line) * X_FH, dofs) then return end
-    if random:uniform() < 0.3 then deeper = to_palm end
+  local direction, deeper
+  if hand.is_two_fingered and checked then
+    direction, deeper = free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   else
-    deeper = random:uniform(-0.01, 0.02)
+    direction = across(line, random)
+    deeper = hand.is_two_fingered and random:uniform(-0.7, 0.7) * pad or random:uniform(-0.01, 0.02)
   end
+  if not direction then return end
+  if hand.is_two_fingered and random:uniform() < 0.3 then deeper = to_palm end
   local start = middle - direction * options.standoff
   return {pose = opposition.frame(start, direction, line) * X_FH, dofs = dofs, reach = options.standoff + deeper}
 end
@@ -246,15 +264,16 @@ local max_tries = 200  -- until two points face each other
 ---@return fun(number: integer): table?
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
+  local surface = object.mesh:sample(clench.random(job.seed, 0), surface_points)
   return function(number)
     local paired = hand.has_thumb and (options.kind == "antipodal" or number % (hand.is_two_fingered and 8 or 2) ~= 1)
     for try = 1, max_tries do
       local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
-        state = about_two_points(hand, world, object, random, options, try < max_tries)
+        state = about_two_points(hand, world, object, surface, random, options, try < max_tries)
       else
-        state = before_surface(hand, object, random, options.standoff)
+        state = before_surface(hand, surface, random, options.standoff)
       end
       if state then return state end
       -- an object without such pairs, or with none that the hand gets to, is approached along its normals
