@@ -3,6 +3,7 @@
 local facing = require "clench.plan.facing"
 local opposition = require "clench.plan.opposition"
 local pads = require "clench.plan.pads"
+local supports = require "clench.plan.supports"
 local starts = {}
 
 local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
@@ -180,15 +181,32 @@ local surface_points = 4096  -- that starts are chosen from
 
 local function any_of(list, random) return list[random:integer(1, #list)] end
 
-local function across(direction, random)
-  local side = direction:cross(random:direction())
-  return side:norm() > 1e-3 and side / side:norm() or nil
+local function unit(v)
+  local size = v:norm()
+  return size > 1e-3 and v / size or nil
+end
+
+local function across(direction, random) return unit(direction:cross(random:direction())) end
+
+local from_below = 0.3  -- cosine: an approach that comes more nearly out of what the object stands on is none
+
+--- Across a line, from any side; of an object that stands on something not from below, and as often as not straight down.
+local function approach_across(hand, line, random)
+  local up = hand.up
+  if not up then return across(line, random) end
+  if random:uniform() < 0.5 then
+    local down = unit(line * up:dot(line) - up)
+    if down then return down end
+  end
+  local direction = across(line, random)
+  return direction and direction:dot(up) > 0 and -direction or direction
 end
 
 --- Before a point of the surface, along its normal or tilted.
 local function before_surface(hand, surface, random, standoff)
   local at = any_of(surface, random)
   local direction = -at.normal
+  if hand.up and direction:dot(hand.up) > from_below then return end
   local axis = across(direction, random)
   if axis then direction = clench.pose {axis = axis, angle = random:normal() * 0.4}:rotate(direction) end
   local side = across(direction, random)
@@ -213,22 +231,37 @@ local function gets_there(hand, object, direction, pose, dofs)
   return free
 end
 
--- A point of the surface. Two fingers carry what lies aside of them by friction alone: of two points they take the one nearer to the centre of mass.
+local most_points = 6  -- of which two fingers take the one nearest to the centre of mass
+
+-- A point of the surface. Two fingers carry what lies aside of them by friction alone: of some points they take the one nearest to the centre of mass.
 local function surface_point(hand, object, surface, random)
-  local a = any_of(surface, random)
-  if not hand.is_two_fingered then return a end
-  local b = any_of(surface, random)
-  return (a.point - object.com):norm() <= (b.point - object.com):norm() and a or b
+  local nearest = any_of(surface, random)
+  for _ = 2, hand.is_two_fingered and random:integer(2, most_points) or 1 do
+    local other = any_of(surface, random)
+    if (other.point - object.com):norm() < (nearest.point - object.com):norm() then nearest = other end
+  end
+  return nearest
 end
 
-local sides = 4  -- from which a hand tries to get to two points
+local sides = 4          -- from which a hand tries to get to two points
+local shallow = -0.85    -- of half a pad: where little more than its end gets to them
+local pad_room = 0.006   -- that a finger takes beside the points [m]
+
+-- Is there room beside a point of the surface for a finger?
+local function has_room(world, object, middle, line, apart)
+  for _, sign in ipairs {-1, 1} do
+    local hit = world:raycast(object.pose * (middle + line * (sign * (apart / 2 + 1e-4))), object.pose:rotate(line * sign), pad_room)
+    if hit and hit.body ~= object then return false end
+  end
+  return true
+end
 
 -- A side across the line from which jaws get to the points, as deep as a random number says, or else with little more than the ends of their pads.
 -- returns  the direction of approach, and how far the middle between the pads goes beyond that between the points; nil: there is none
 local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   for _ = 1, sides do
-    local direction, part = across(line, random), random:uniform(-0.7, 0.7)
-    for _, deeper in ipairs(direction and {part * pad, -0.7 * pad} or {}) do
+    local direction, part = approach_across(hand, line, random), random:uniform(-0.7, 0.7)
+    for _, deeper in ipairs(direction and {part * pad, shallow * pad} or {}) do
       local pose = opposition.frame(middle + direction * deeper, direction, line) * X_FH
       if gets_there(hand, object, direction, pose, dofs) then return direction, deeper end
     end
@@ -240,20 +273,27 @@ end
 local function about_two_points(hand, world, object, surface, random, options, checked)
   local width = math.min(options.width, hand.aperture - starts.clearance)
   local middle, line, apart = facing.pair(world, object, surface_point(hand, object, surface, random), random, options.friction, width)
-  if not middle then return end
+  if not middle or hand.up and not has_room(world, object, middle, line, apart) then return end
   local closed, X_FH, pad = holding(hand, apart + starts.clearance)
   local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(max_closed, closed))
   local direction, deeper
   if hand.is_two_fingered and checked then
     direction, deeper = free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   else
-    direction = across(line, random)
+    direction = approach_across(hand, line, random)
     deeper = hand.is_two_fingered and random:uniform(-0.7, 0.7) * pad or random:uniform(-0.01, 0.02)
   end
   if not direction then return end
   if hand.is_two_fingered and random:uniform() < 0.3 then deeper = to_palm end
   local start = middle - direction * options.standoff
   return {pose = opposition.frame(start, direction, line) * X_FH, dofs = dofs, reach = options.standoff + deeper}
+end
+
+-- the direction away from what an object stands on, in its frame; nil: it stands on nothing, or between things
+local function up_of(on, object)
+  local sum = clench.vec3(0, 0, 0)
+  for _, normal in ipairs(on.normals) do sum = sum + normal / #on.normals end
+  return sum:norm() > 0.7 and object.pose:inverse():rotate(sum / sum:norm()) or nil
 end
 
 local max_tries = 200  -- until two points face each other
@@ -264,6 +304,7 @@ local max_tries = 200  -- until two points face each other
 ---@return fun(number: integer): table?
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
+  hand.up = up_of(supports.of(job.hand, object), object)
   local surface = object.mesh:sample(clench.random(job.seed, 0), surface_points)
   return function(number)
     local paired = hand.has_thumb and (options.kind == "antipodal" or number % (hand.is_two_fingered and 8 or 2) ~= 1)

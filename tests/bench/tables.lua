@@ -1,7 +1,7 @@
 -- Grasps of objects at rest on a table: five hands, eleven objects of ours and of shared data, verified grasps in 8 s of one core.
---   clench run tests/bench/tables.lua [--seconds S] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--lists FOLDER]
+--   clench run tests/bench/tables.lua [--seconds S] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]
 --   --hands, --objects  a part of the table
---   --lists             writes the world and the grasps of each pair
+--   --scenes            writes each pair and its grasps for bench_mujoco
 -- Aim: five verified grasps on nine of ten pairs whose narrowest graspable width fits the hand.
 package.path = "tests/bench/?.lua;" .. package.path
 local clench = require "clench"
@@ -9,7 +9,7 @@ local table_scene = require "table_scene"
 local facing, starts = require "clench.plan.facing", require "clench.plan.starts"
 local aim, part_with = 5, 0.9
 
-local usage = "usage: tables.lua [--seconds S] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--lists FOLDER]"
+local usage = "usage: tables.lua [--seconds S] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]"
 local options = {seconds = 8}
 do
   local i = 1
@@ -17,7 +17,7 @@ do
     local name = arg[i]:match "^%-%-(%a+)$"
     if name == "check" then
       options.check = true
-    elseif ({seconds = true, hands = true, objects = true, csv = true, lists = true})[name] and arg[i + 1] then
+    elseif ({seconds = true, hands = true, objects = true, csv = true, scenes = true})[name] and arg[i + 1] then
       i = i + 1
       options[name] = name == "seconds" and tonumber(arg[i]) or arg[i]
     else
@@ -72,7 +72,9 @@ for _, hand_name in ipairs(hands) do
                          ms = 1000 * took / math.max(1, report.candidates), verified = verified}
       print(("%-18s %-12s %6.1f %6.1f %10d %8.1f %8d  %s"):format(hand_name, object_name, 1000 * (width or 0), 1000 * (opens or 0), report.candidates,
         rows[#rows].ms, verified, best_reason(report.rejected)))
-      if options.lists then table_scene.save(scene, run.grasps, ("%s/%s_%s"):format(options.lists, hand_name, object_name)) end
+      if options.scenes and verified > 0 then
+        table_scene.save(scene, run.grasps, ("%s/%s_%s.json"):format(options.scenes, hand_name, object_name))
+      end
     end
   end
 end
