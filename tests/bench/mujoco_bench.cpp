@@ -1,5 +1,5 @@
 // Grasps that were verified, shaken and lifted again in MuJoCo.
-//   bench_mujoco [--each] [--limit COUNT] FILE...   FILE: as tests/bench/verdicts.lua and tables.lua write it
+//   bench_mujoco [--each] [--brief] [--limit COUNT] FILE...   FILE: as tests/bench/verdicts.lua and tables.lua write it
 #include <cstdio>
 #include <iostream>
 
@@ -22,8 +22,7 @@ struct Tally {
   }
 };
 
-Tally judge(const GripScene& scene, size_t limit, bool each) {
-  const GripOptions options;
+Tally judge(const GripScene& scene, size_t limit, bool each, const GripOptions& options) {
   Tally out;
   for (size_t g = 0; g < std::min(limit, scene.grasps.size()); ++g) {
     const StoredGrasp& grasp = scene.grasps[g];
@@ -50,18 +49,21 @@ Tally judge(const GripScene& scene, size_t limit, bool each) {
 int main(int argc, char** argv) {
   bool each = false;
   size_t limit = 1000000;
+  GripOptions options;
   std::vector<std::string> files;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--each")
       each = true;
+    else if (word == "--brief")
+      options.settle = 0.2, options.seconds = 0.1;
     else if (word == "--limit" && i + 1 < argc)
       limit = std::stoul(argv[++i]);
     else
       files.push_back(word);
   }
   if (files.empty()) {
-    std::cerr << "usage: bench_mujoco [--each] [--limit COUNT] FILE...\n";
+    std::cerr << "usage: bench_mujoco [--each] [--brief] [--limit COUNT] FILE...\n";
     return 2;
   }
   try {
@@ -69,7 +71,7 @@ int main(int argc, char** argv) {
     Tally all;
     for (const std::string& file : files) {
       const GripScene scene = read_grip_scene(file);
-      const Tally tally = judge(scene, limit, each);
+      const Tally tally = judge(scene, limit, each, options);
       tally.print(scene.hand_name + ", " + scene.object_name);
       all.add(tally);
     }

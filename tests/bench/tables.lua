@@ -1,6 +1,7 @@
 -- Grasps of objects at rest on a table: five hands, eleven objects of ours and of shared data, verified grasps in 8 s of one core.
---   clench run tests/bench/tables.lua [--seconds S] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]
+--   clench run tests/bench/tables.lua [--seconds S | --candidates N] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]
 --   --hands, --objects  a part of the table
+--   --candidates        so many of each pair, instead of a time
 --   --scenes            writes each pair and its grasps for bench_mujoco
 -- Aim: five verified grasps on nine of ten pairs whose narrowest graspable width fits the hand.
 package.path = "tests/bench/?.lua;" .. package.path
@@ -9,7 +10,7 @@ local table_scene = require "table_scene"
 local facing, starts = require "clench.plan.facing", require "clench.plan.starts"
 local aim, part_with = 5, 0.9
 
-local usage = "usage: tables.lua [--seconds S] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]"
+local usage = "usage: tables.lua [--seconds S | --candidates N] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]"
 local options = {seconds = 8}
 do
   local i = 1
@@ -17,9 +18,9 @@ do
     local name = arg[i]:match "^%-%-(%a+)$"
     if name == "check" then
       options.check = true
-    elseif ({seconds = true, hands = true, objects = true, csv = true, scenes = true})[name] and arg[i + 1] then
+    elseif ({seconds = true, candidates = true, hands = true, objects = true, csv = true, scenes = true})[name] and arg[i + 1] then
       i = i + 1
-      options[name] = name == "seconds" and tonumber(arg[i]) or arg[i]
+      options[name] = (name == "seconds" or name == "candidates") and tonumber(arg[i]) or arg[i]
     else
       error(usage .. ", got " .. arg[i], 0)
     end
@@ -61,7 +62,8 @@ for _, hand_name in ipairs(hands) do
       local width = facing.narrowest(scene.world, scene.object, 400, 0.5)
       local fits = width and opens and width <= opens - starts.clearance or false
       local began = os.clock()
-      local run = clench.plan.sample {hand = scene.hand, object = scene.object, seconds = options.seconds, count = 100000, seed = 1}
+      local run = clench.plan.sample {hand = scene.hand, object = scene.object, seconds = not options.candidates and options.seconds or nil,
+                                      candidates = options.candidates, count = 100000, seed = 1}
       local took = os.clock() - began
       local verified, report = #run.grasps, run.report
       if fits then

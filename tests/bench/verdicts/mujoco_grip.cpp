@@ -246,7 +246,7 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
                            const GripOptions& options) {
   if (!scene.table) throw std::runtime_error("the scene has no table");
   MujocoGrip grip(scene, grasp, options, true);
-  const double height = 0.1, speed = 0.1;  // [m], [m/s]
+  const double height = 0.1, seconds = 1.5;  // [m], [s]
   const auto run = [&](double seconds, auto before) {
     const int steps = static_cast<int>(std::lround(seconds / time_step));
     for (int i = 1; i <= steps; ++i) {
@@ -257,7 +257,11 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
   run(options.grip_seconds, [](double part) { return part; });
   run(0.5, [](double) { return 1.0; });
   const Isometry3d gripped = grip.in_hand();
-  run(height / speed, [&](double part) { return grip.raise_to(part * height, speed), 1.0; });
+  // as a cubic, which neither starts nor ends with a blow
+  run(seconds, [&](double s) {
+    grip.raise_to(height * s * s * (3 - 2 * s), height * 6 * s * (1 - s) / seconds);
+    return 1.0;
+  });
   grip.raise_to(height, 0);
   run(1, [](double) { return 1.0; });
   const Isometry3d now = grip.in_hand();
