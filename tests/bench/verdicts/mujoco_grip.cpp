@@ -36,7 +36,8 @@ class GripFile {
     text_ << "<mujoco><compiler angle=\"radian\" balanceinertia=\"true\" boundmass=\"1e-6\" "
              "boundinertia=\"1e-9\"/><option timestep=\""
           << time_step << "\" gravity=\"" << row(down)
-          << "\" cone=\"elliptic\" impratio=\"10\" integrator=\"implicit\"/><size "
+          << "\" cone=\"elliptic\" impratio=\"10\" integrator=\"implicit\">"
+             "<flag multiccd=\"enable\"/></option><size "
              "njmax=\"4000\" nconmax=\"1000\"/><asset>"
           << assets_.str() << "</asset><worldbody>" << bodies.str() << "</worldbody><equality>"
           << couplings.str() << "</equality><actuator>" << actuators.str()
