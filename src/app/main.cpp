@@ -96,6 +96,14 @@ static const CLI::Validator positive(
     },
     "POSITIVE");
 
+static const CLI::Validator not_negative(
+    [](std::string& text) -> std::string {
+      const auto x = parse_number(text);
+      if (x && std::isfinite(*x) && *x >= 0) return {};
+      return fmt::format("expected a number >= 0, got '{}'", text);
+    },
+    "");
+
 static const CLI::Validator mass(
     [](std::string& text) -> std::string {
       const auto x = parse_number(text);
@@ -159,7 +167,18 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
   several("--obstacle-pose", "the same of each obstacle, in their order")->type_name("POSE");
   add("--mass", "of the object, instead of its file's [kg]")->type_name("KG")->check(mass);
-  add("--count", "the best so many are kept; default: 20, or all of --seconds")
+  add("--friction", "coefficient of friction between hand and object; default: of their materials")
+      ->type_name("MU")
+      ->check(positive);
+  add("--material", "of the object, instead of its file's: rubber, wood, metal ...")
+      ->type_name("NAME");
+  add("--close", "DOFs that close the hand, by number or name, each with its sign: 1,-2,thumb")
+      ->type_name("DOFS");
+  add("--approach", "of the hand, in its base: direction, and point [m]")
+      ->type_name("DX,DY,DZ[,X,Y,Z]");
+  add("--count",
+      "the first so many; with --seconds: the best so many of that time; default: 20, or all of "
+      "--seconds")
       ->type_name("N")
       ->check(whole_number(1, 1000000));
   add("--seconds", "search no longer than this")->type_name("S")->check(positive);
@@ -170,6 +189,12 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
   add("--threads", "default: all cores; the grasps are the same")
       ->type_name("N")
       ->check(whole_number(1, 1024));
+  add("--distance",
+      "grasps nearer to each other than this part of the object's radius, of half a turn and of "
+      "the "
+      "DOFs' ranges are alike; default: 0.1")
+      ->type_name("PART")
+      ->check(not_negative);
   add("--contacts", "fingertip: with the last links alone; power: with the palm, too; default: any")
       ->type_name("KIND")
       ->check(CLI::IsMember({"fingertip", "power", "any"}));

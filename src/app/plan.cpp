@@ -1,5 +1,6 @@
 // `clench plan`: what it does and says is in stdlib/host/plan.lua.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -63,6 +64,8 @@ int plan_grasps(const PlanOptions& options) {
               [](int) {});  // a closed output pipe must not prevent files from being written
   Words words = words_of(options.reading);
   words.insert(words.end(), options.words.begin(), options.words.end());
+  // without a terminal progress is a line now and then
+  if (!options.quiet && !isatty(STDERR_FILENO)) words.insert(words.end(), {"lines", "yes"});
   return run_plan(state, words);
 }
 

@@ -25,12 +25,27 @@ NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
   return groups;
 }
 
+// The different ones among numbers below `limit`, ascending. Many are marked in a table of all.
+static std::vector<int> distinct_numbers(const std::vector<int>& numbers, int limit) {
+  constexpr size_t many = 8;
+  if (many * numbers.size() < static_cast<size_t>(limit)) {
+    std::vector<int> out = numbers;
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+  std::vector<char> used(limit, 0);
+  for (const int number : numbers) used[number] = 1;
+  std::vector<int> out;
+  for (int number = 0; number < limit; ++number)
+    if (used[number]) out.push_back(number);
+  return out;
+}
+
 // Vertices by slot -> numbers of their positions, as these stand in order. Few vertices are
 // compared by place, those that differ by index.
 static int number_positions(const std::vector<Vector3d>& vertices, std::vector<int>& slots) {
-  std::vector<int> distinct = slots;
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  const std::vector<int> distinct = distinct_numbers(slots, static_cast<int>(vertices.size()));
   std::vector<int> order(distinct.size()), number(distinct.size());
   std::iota(order.begin(), order.end(), 0);
   const auto less = [&](int i, int j) {

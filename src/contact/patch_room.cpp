@@ -12,7 +12,9 @@ using Eigen::Vector2d;
 // of a width: so nearly across an axis that it counts as that
 static constexpr double across_slack = 1e-6;
 
-static void add_widths(const PatchSheet& sheet, double mirror, PatchRoom& out) {
+PatchRoom patch_room(const PatchSheet& sheet, bool is_a) {
+  PatchRoom out;
+  const double mirror = is_a ? -1 : 1;
   std::vector<Vector2d> points;
   for (const int t : sheet.triangles())
     for (const auto& p : sheet.corners(t)) points.emplace_back(p.x(), mirror * p.y());
@@ -27,12 +29,13 @@ static void add_widths(const PatchSheet& sheet, double mirror, PatchRoom& out) {
     }
     out.directions.push_back(across), out.half_widths.push_back((high - low) / 2);
   }
+  return out;
 }
 
-PatchRoom patch_room(const PatchSheet& a, const PatchSheet& b) {
-  PatchRoom out;
-  add_widths(a, -1, out), add_widths(b, 1, out);
-  return out;
+PatchRoom operator+(PatchRoom one, const PatchRoom& other) {
+  one.directions.insert(one.directions.end(), other.directions.begin(), other.directions.end());
+  one.half_widths.insert(one.half_widths.end(), other.half_widths.begin(), other.half_widths.end());
+  return one;
 }
 
 std::array<double, 2> make_room(const PatchRoom& room, const Eigen::Matrix2d& axes,

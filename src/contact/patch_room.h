@@ -4,15 +4,18 @@
 
 namespace clench {
 
-/// Half of how wide both surfaces are along unit directions of the tangent plane as b sees it,
-/// across the sides of their hulls: in others they are no narrower than these make them.
+/// Half of how wide surfaces are along unit directions of the tangent plane as b sees it, across
+/// the sides of their hulls: in others they are no narrower than these make them.
 struct PatchRoom {
   std::vector<Eigen::Vector2d> directions;
   std::vector<double> half_widths;  ///< [m]
 };
 
-/// a, b  as patch_rings has them
-PatchRoom patch_room(const PatchSheet& a, const PatchSheet& b);
+/// Of one surface, as patch_rings has it.
+/// is_a  it is that of a, which sees the plane from the other side
+PatchRoom patch_room(const PatchSheet& sheet, bool is_a);
+/// Of two surfaces together.
+PatchRoom operator+(PatchRoom one, const PatchRoom& other);
 
 /// The ellipse may lie anywhere on the surfaces, so in no direction is it wider than they are: it
 /// shrinks as it is until it finds room, and then grows again along either axis as far as there is

@@ -29,27 +29,44 @@ struct Neighbourhood {
   std::vector<double> reaches;
 };
 
-void make_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+// Triangles with a point in the ball of a site, ascending: of those in one ball around all of them.
+std::vector<int> within_reaches(const Shape& shape, const std::vector<Vector3d>& sites_B,
+                                const std::vector<double>& reaches) {
+  double farthest = 0;
+  for (size_t i = 0; i < sites_B.size(); ++i)
+    farthest = std::max(farthest, (sites_B[i] - sites_B[0]).norm() + reaches[i]);
+  if (sites_B.size() == 1) return region(shape, sites_B[0], reaches[0]);
+  std::vector<int> out = region(shape, sites_B[0], (1 + 1e-12) * farthest);
+  std::erase_if(out, [&](int triangle) {
+    const Corners corners = shape.mesh().corners(triangle);
+    for (size_t i = 0; i < sites_B.size(); ++i)
+      for (const Vector3d& corner : corners)
+        if ((corner - sites_B[i]).squaredNorm() < (1 - 1e-9) * reaches[i] * reaches[i])
+          return false;
+    for (size_t i = 0; i < sites_B.size(); ++i)
+      if (point_triangle(sites_B[i], corners).distance < reaches[i]) return false;
+    return true;
+  });
+  return out;
 }
 
 Neighbourhood find_neighbourhood(const Shape& shape, const Pose& X_BP,
                                  std::span<const Vector3d> sites, double radius) {
   Neighbourhood out;
-  const auto add = [](std::vector<int>& to, const std::vector<int>& more) {
-    to.insert(to.end(), more.begin(), more.end());
-  };
+  std::vector<Vector3d> sites_B;
   int nearest = -1;
   for (const Vector3d& site : sites) {
     const Vector3d p_B = X_BP * site;
     const ClosestPoint closest = closest_point(shape, p_B, nearest);
     nearest = closest.triangle;
+    sites_B.push_back(p_B);
     out.reaches.push_back(PatchSheet::reach * radius + closest.distance);
-    add(out.triangles, region(shape, p_B, out.reaches.back()));
-    add(out.seeds, region(shape, p_B, closest.distance + seed_distance * radius));
+    const auto more = region(shape, p_B, closest.distance + seed_distance * radius);
+    out.seeds.insert(out.seeds.end(), more.begin(), more.end());
   }
-  make_unique(out.triangles), make_unique(out.seeds);
+  std::sort(out.seeds.begin(), out.seeds.end());
+  out.seeds.erase(std::unique(out.seeds.begin(), out.seeds.end()), out.seeds.end());
+  if (!sites_B.empty()) out.triangles = within_reaches(shape, sites_B, out.reaches);
   return out;
 }
 

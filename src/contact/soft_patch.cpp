@@ -242,7 +242,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   patch.max_radius = options.max_radius;
   const PatchRings rings = patch_rings(sheets[0], sheets[1], reach, shallowest(patch));
   patch.gap = rings.gap;
-  patch.room = patch_room(sheets[0], sheets[1]);
+  patch.rooms = {patch_room(sheets[0], true), patch_room(sheets[1], false)};
   const Matrix2d form = fit_surfaces(sheets, rings, frames, reach, options.fit, patch);
   if (options.radius && std::min(rings.shares[0], rings.shares[1]) < min_share)
     fail(
@@ -269,15 +269,25 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
 static std::array<double, 2> within_room(const SoftPatch& patch,
                                          const std::array<double, 2>& semi_axes) {
   const Matrix2d axes = directions_in_plane(patch);
-  if (make_room(patch.room, axes, semi_axes, patch.directed) == semi_axes) return semi_axes;
+  const auto room_on = [&](const PatchRoom& room) {
+    return make_room(room, axes, semi_axes, patch.directed);
+  };
+  if (room_on(patch.rooms[0] + patch.rooms[1]) == semi_axes) return semi_axes;
   // perhaps no more is known: across to the other side, but no body is wider than its sphere
   const SoftSite& site = patch.site;
   const PatchFrames frames(site);
   const double widest = 2.2 * std::max(semi_axes[0], semi_axes[1]);
   const double bodies = 2.1 * std::min(site.a->radius(), site.b->radius());
   const double radius = std::max(patch.radius, std::min(widest, bodies)) + frames.spread;
-  return make_room(patch_room(sheet_of(site, frames, 0, radius), sheet_of(site, frames, 1, radius)),
-                   axes, semi_axes, patch.directed);
+  const auto wide_room = [&](int body) {
+    return patch_room(sheet_of(site, frames, body, radius), body == 0);
+  };
+  // of the smaller mesh first: where that is the narrower one, what is known of the other will do
+  const int small = site.a->mesh().triangles.size() <= site.b->mesh().triangles.size() ? 0 : 1;
+  const PatchRoom first = wide_room(small);
+  const auto alone = room_on(first);
+  if (room_on(first + patch.rooms[1 - small]) == alone) return alone;
+  return room_on(first + wide_room(1 - small));
 }
 
 // indentation by a pressure [m/Pa]

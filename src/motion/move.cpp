@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 
 #include "clench/base/error.h"
@@ -100,6 +101,32 @@ std::vector<Id<Body>> carried_bodies(const World& world, Id<Robot> robot) {
   return out;
 }
 
+// Pose of a body that overlaps what it stands on by no more than the contact threshold, raised
+// against gravity until there is a gap of a quarter of the threshold and more. Leaves the body
+// where it is.
+// returns  nothing where it collides at no height, or still collides one threshold higher
+std::optional<Pose> raised_from_support(World& world, Id<Body> body, const Pose& X_WB) {
+  const std::array one{body};
+  const Pose start = world.pose(body);
+  const auto is_free = [&](const Pose& X) {
+    world.set_pose(body, X);
+    return !collides(world, one, &world.context());
+  };
+  const double weight = world.gravity().norm();
+  const Eigen::Vector3d up =
+      weight > 0 ? Eigen::Vector3d(-world.gravity() / weight) : Eigen::Vector3d::UnitZ();
+  std::optional<Pose> raised;
+  if (!is_free(X_WB))
+    for (int quarter = 1; quarter <= 4 && !raised; ++quarter) {
+      const Eigen::Vector3d step = 0.25 * world.contact_threshold() * up;
+      const Pose free{X_WB.rotation, X_WB.position + quarter * step};
+      const Pose higher{X_WB.rotation, X_WB.position + (quarter + 1) * step};
+      if (is_free(free) && is_free(higher)) raised = higher;
+    }
+  world.set_pose(body, start);
+  return raised;
+}
+
 }  // namespace
 
 MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
@@ -107,6 +134,12 @@ MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
   world.set_pose(body, X_WB);  // refuses a part of a robot and a pose that is not finite
   world.set_pose(body, from);
   Way way{from, X_WB, {body}, [&](const Pose& X) { world.set_pose(body, X); }};
+  // one that stands on something slides and leaves as if there were a gap, at both ends
+  if (const auto raised = raised_from_support(world, body, from)) {
+    way.from = *raised;
+    way.to = raised_from_support(world, body, X_WB).value_or(X_WB);
+    way.place(way.from);
+  }
   refuse_collision(world, way.moving, fmt::format("moving '{}'", excerpt(world.body(body).name)));
   return move(world, way);
 }

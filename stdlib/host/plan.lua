@@ -12,6 +12,7 @@ local plan_list = require "clench.host.plan_list"
 local recorded = require "clench.plan.recorded"
 local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
+local given_of = require "clench.plan.given"
 local fail = require "clench.host.usage"
 
 local plan = {}
@@ -19,18 +20,24 @@ local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
 local function visible(text) return printable(in_utf8(text), "\n") end
 
--- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
-local function pose_of(option, text)
+-- numbers between commas; {} where there is anything else
+local function numbers_of(text)
   local numbers, count = {}, 0
   for word in (text .. ","):gmatch "([^,]*)," do
     count = count + 1
     numbers[count] = word:match "^%s*[-+.%d][-+.%deE]*%s*$" and tonumber(word)
   end
-  if count ~= #numbers or count ~= 3 and count ~= 6 then
+  return count == #numbers and numbers or {}
+end
+
+-- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
+local function pose_of(option, text)
+  local numbers = numbers_of(text)
+  if #numbers ~= 3 and #numbers ~= 6 then
     fail("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'", option, text)
   end
   local pose = {xyz = {numbers[1], numbers[2], numbers[3]}}
-  if count == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
+  if #numbers == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
   return pose
 end
 
@@ -48,6 +55,28 @@ local function read_words(...)
   return given
 end
 
+-- "1,-2,thumb": DOFs by number or name, with the direction in which each closes
+local function closing_of(text)
+  local close = {}
+  for word in (text .. ","):gmatch "([^,]*)," do
+    local sign, name = word:match "^%s*([-+]?)(.-)%s*$"
+    if name == "" then fail("--close: expected DOFs by number or name, as in 1,-2,thumb, got '%s'", text) end
+    close[math.tointeger(tonumber(name)) or name] = sign == "-" and -1 or 1
+  end
+  return close
+end
+
+-- "DX,DY,DZ[,X,Y,Z]"
+local function approach_of(text)
+  local x = numbers_of(text)
+  if #x ~= 3 and #x ~= 6 then fail("--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in metres, got '%s'", text) end
+  return {direction = {x[1], x[2], x[3]}, point = #x == 6 and {x[4], x[5], x[6]} or nil}
+end
+
+local function set_friction(world, hand, object, mu)
+  for _, body in ipairs(hand.bodies) do world:set_friction(body.material, object.material, {static = mu, kinetic = mu}) end
+end
+
 local function load_world(given, said)
   local world = clench.world()
   local function body(option, pose)
@@ -57,13 +86,16 @@ local function load_world(given, said)
   end
   local of_robot = reading("robot", said)
   of_robot.unit = nil  -- robots' files have units of their own
+  of_robot.close = given.close and closing_of(given.close)
+  of_robot.approach = given.approach and approach_of(given.approach)
   local hand = world:add_robot(given.hand, of_robot)
   local options = body("--pose", given.pose)
-  options.mass = tonumber(given.mass)
+  options.mass, options.material = tonumber(given.mass), given.material
   local object = world:add_object(given.object, options)
   for i, path in ipairs(given.obstacle) do
     world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))
   end
+  if given.friction then set_friction(world, hand, object, tonumber(given.friction)) end
   if not object.mesh then fail("%s: an object without a surface cannot be grasped", given.object) end
   return world, hand, object
 end
@@ -75,6 +107,19 @@ local function check_words(given)
   if given["keep-lost"] and not given.verify then fail "--keep-lost says what becomes of grasps that --verify loses, and there is no --verify" end
 end
 
+local line_every = 10  -- where there is no terminal [s]
+
+-- Lines of progress on stderr where it is no terminal; a hint is written at once.
+local function progress_lines()
+  local next_line, hinted = line_every, false
+  return function(state)
+    if state.elapsed < next_line and (hinted or not state.hint) then return end
+    hinted = hinted or state.hint ~= nil
+    next_line = math.max(next_line, state.elapsed - state.elapsed % line_every + line_every)
+    io.stderr:write(("clench plan: %.0f s: %s\n"):format(state.elapsed, visible(batch.text(state))))
+  end
+end
+
 local function run_search(given)
   local seconds = tonumber(given.seconds)
   local list = job.list
@@ -83,7 +128,8 @@ local function run_search(given)
   local options = {
     hand = job.hand, object = job.object, count = count, seconds = seconds,
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
-    contacts = given.contacts, max_effort = tonumber(given["max-effort"]),
+    contacts = given.contacts, max_effort = tonumber(given["max-effort"]), distance = tonumber(given.distance),
+    keep_searching = seconds ~= nil, on_progress = given.lines and progress_lines() or nil,
     verify = given["no-verify"] == nil and {shake = given.verify ~= nil, keep_lost = given["keep-lost"] ~= nil,
                                                force_ratio = tonumber(given["force-ratio"])},
     on_grasp = function(grasp)
@@ -92,6 +138,7 @@ local function run_search(given)
     end,
   }
   if list then recorded[options] = list:journal() end
+  given_of[options] = given
   job.run = clench.plan.sample(options)
 end
 
@@ -178,6 +225,18 @@ function plan.save()
   return problem and "1" or "0"
 end
 
+-- the options that were given, seed and version
+local function options_line()
+  local given, parts = job.given, {}
+  for _, name in ipairs(identity.sorted_names(given)) do
+    for _, value in ipairs(type(given[name]) == "table" and given[name] or {given[name]}) do
+      parts[#parts + 1] = "--" .. name .. (value == "yes" and "" or " " .. value)
+    end
+  end
+  return ("%s, %s%s, seed %s, clench %s"):format(given.hand, given.object, #parts > 0 and ", " .. table.concat(parts, " ") or "",
+    given.seed or "1", clench.version)
+end
+
 local function show()
   local run = job.run
   local grasps, words = run.grasps, tostring(run.report)
@@ -187,7 +246,8 @@ local function show()
   if #grasps > 0 then print_table(report_rows(job.hand, job.object, grasps)) end
   print(visible(words))
   if job.note then print(visible(job.note)) end
-  local subtitle = ("%s, %s, seed %s"):format(job.given.hand, job.given.object, job.given.seed or "1")
+  local subtitle = options_line()
+  print(visible(subtitle))
   job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
   return #grasps
 end

@@ -4,9 +4,9 @@ local in_utf8 = require "clench.in_utf8"
 local identity = {}
 
 -- grasps do not depend on these
-local about_the_run = {"count", "format", "o", "overwrite", "report", "resume", "seconds", "sheet", "threads"}
+local about_the_run = {"count", "format", "lines", "o", "overwrite", "report", "resume", "seconds", "sheet", "threads"}
 -- covered by the fingerprint of the scene; compared only for the message
-local about_the_scene = {"hand", "object", "obstacle", "pose", "obstacle-pose", "mass"}
+local about_the_scene = {"hand", "object", "obstacle", "pose", "obstacle-pose", "mass", "material", "friction", "close", "approach"}
 local defaults = {contacts = "any", ["force-ratio"] = "10", seed = "1"}
 
 local function set_of(names)
@@ -54,6 +54,20 @@ end
 local function mechanics_of(hand)
   return {dof_info = hand.dof_info, effort_ranges = hand.effort_ranges, actuators = hand.actuators, joint_tendons = hand.joint_tendons,
           chains = chains_of(hand)}
+end
+
+--- Names of the options that were given and on which grasps depend, in order.
+---@param given table<string, string|string[]>
+---@return string[]
+function identity.sorted_names(given)
+  local names = {}
+  for name in pairs(given) do
+    if name ~= "hand" and name ~= "object" and name ~= "seed" and (name == "count" or name == "seconds" or not is_about_the_run[name]) then
+      names[#names + 1] = name
+    end
+  end
+  table.sort(names)
+  return names
 end
 
 --- The identity of the search for grasps in this world.

@@ -32,11 +32,31 @@ end
 
 local nothing_recorded = {known = {}, is_ended = function() return false end, note = function() end}
 
+local causes_shown = 2
+
+--- "640 candidates, 3 grasps; no force closure 310, too weak against loads 120"
+---@param state {candidates: integer, grasps: integer, rejected: table<string, integer>, hint?: string}
+---@return string
+function batch.text(state)
+  local causes = {}
+  for why in pairs(state.rejected) do
+    if why ~= "no time left" then causes[#causes + 1] = why end
+  end
+  table.sort(causes, function(a, b)
+    if state.rejected[a] ~= state.rejected[b] then return state.rejected[a] > state.rejected[b] end
+    return a < b
+  end)
+  for i, why in ipairs(causes) do causes[i] = ("%s %d"):format(why, state.rejected[why]) end
+  local text = ("%d candidates, %d grasps"):format(state.candidates, state.grasps)
+  if #causes > 0 then text = text .. "; " .. table.concat(causes, ", ", 1, math.min(causes_shown, #causes)) end
+  return state.hint and text .. "; " .. state.hint or text
+end
+
 --- Tries starts in rounds whose results do not depend on the number of threads.
 ---@param job table  of clench.plan.job
 ---@param stats table  of clench.plan.report; sets `complete`: false if the time, a signal or a cancellation ended the search
 ---@param next_state? fun(number: integer): table?  returns nil after the last start; absent: the search ended before its starts were prepared
----@param options {planner: string, limit: integer, count?: integer, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp), journal?: table}  journal: of clench.plan.journal; starts that it records are not tried again
+---@param options {planner: string, limit: integer, count?: integer, keep_searching?: boolean, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp), on_progress?: fun(state: table), hint?: (fun(found: integer): string?), journal?: table}  keep_searching: `count` ends nothing; hint: asked between rounds; journal: of clench.plan.journal; starts that it records are not tried again
 ---@return grasp[]  may be more than `count`: rounds are completed, and similar grasps count once
 function batch.try(job, stats, next_state, options)
   stats.candidates, stats.rejected = 0, {}
@@ -52,11 +72,15 @@ function batch.try(job, stats, next_state, options)
   local function tally_of(is_near) return is_near and tally.near or tally.elsewhere end
   local bar <close> = clench.progress(options.limit, job.subject)
   local tried = 0
-  -- progress towards the limit of starts or towards `count` grasps, whichever is further
+  local count = not options.keep_searching and options.count or nil
+  -- progress towards the limit of starts, towards `count` grasps, or towards the end of the time, whichever is furthest
   local function show()
     tried = tried + chunk
-    local part = math.min(1, math.max(tried / options.limit, options.count and unlike / options.count or 0))
-    bar:step(math.max(0, part * options.limit - bar.done), ("%d grasps"):format(#found))
+    local in_time = job.seconds and job:elapsed() / job.seconds or 0
+    local part = math.min(1, math.max(tried / options.limit, count and unlike / count or 0, in_time))
+    local state = {candidates = math.min(tried, number), grasps = #found, rejected = stats.rejected, elapsed = job:elapsed(), hint = stats.hint}
+    bar:step(math.max(0, part * options.limit - bar.done), batch.text(state))
+    if options.on_progress then call_script(job.subject .. ": on_progress", options.on_progress, state) end
   end
 
   local journal = options.journal or nothing_recorded
@@ -162,17 +186,20 @@ function batch.try(job, stats, next_state, options)
     take_known(#pieces)
   end
 
-  local function is_enough() return options.count and unlike >= options.count end
+  local function is_enough() return count and unlike >= count end
   -- rounds with recorded pieces are completed
   local function goes_on()
     return next_state and job:goes_on() and not journal:is_ended() and not exhausted and (not is_enough() or next(journal.known) ~= nil)
   end
 
   local ended = job:search_in_time(function()
-    while goes_on() do run_round() end
+    while goes_on() do
+      run_round()
+      if options.hint and not stats.hint then stats.hint = options.hint(#found) end
+    end
     return true
   end)
-  stats.candidates = number
+  stats.candidates, stats.hint = number, nil
   if number == 0 then stats.late_start = job:late_start() end
   stats.complete = ended == true and not job.stopped and not job.cancelled and not journal:is_ended() and not out_of_time
     and (exhausted or is_enough() or false)

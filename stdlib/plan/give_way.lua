@@ -21,9 +21,9 @@ local max_way, max_shifts = 0.05, 4  -- how far a hand gives way to the side [m]
 local aside = 0.2                    -- cosine: a normal that says from which side an object is touched
 
 -- On which sides is the object touched: by the thumb, which stands towards `axis`, and by the others?
-local function sides(hand, object, axis)
+local function sides(contacts, axis)
   local thumb, others = false, false
-  for _, contact in ipairs(hand.world:contacts(hand, object)) do
+  for _, contact in ipairs(contacts) do
     local push = contact.normal:dot(axis)
     thumb, others = thumb or push < -aside, others or push > aside
   end
@@ -34,7 +34,7 @@ end
 function give_way.touches_one_side(hand, object)
   local axis = opposition.thumb(hand)
   if not axis then return false end
-  local thumb, others = sides(hand, object, axis)
+  local thumb, others = sides(hand.world:contacts(hand, object), axis)
   return thumb ~= others
 end
 
@@ -47,30 +47,41 @@ local function closed_by(hand, dofs)
   return closed
 end
 
--- Closes at a pose from `dofs`, and shifts the hand by half of what is left on the other side while one side alone touches.
--- returns  how far it closed, and the pose; nil: something is in the way, or only one side is ever touched
+-- How far the hand can go until it touches the object with its other side [m]; nil: it does not, or touches something else before.
+local function gap_beyond(hand, object, way)
+  local X_WH = hand.pose
+  local move = hand:move_to(clench.pose {xyz = way * max_way} * X_WH)
+  hand.pose = X_WH
+  for _, pair in ipairs(move.stopped_by) do
+    if pair[2] == object then return move.fraction * max_way end
+  end
+end
+
+-- Closes at a pose from `dofs`, and shifts the hand by half of what is left on the other side while one side alone touches. The object stays,
+-- whatever it stands on.
+-- returns  how far it closed, the pose, and the contacts; nil: something is in the way, or only one side is ever touched
 local function close_between(hand, object, pose, dofs)
   hand:set_posture(pose, dofs)
-  local world, X_WO, axis = hand.world, object.pose, opposition.thumb(hand)
+  local world, axis = hand.world, opposition.thumb(hand)
   if not axis or world:collides(hand) then return end
   for _ = 0, max_shifts do
     hand:autograsp()
-    local thumb, others = sides(hand, object, axis)
-    if thumb and others then return closed_by(hand, dofs), hand.pose end
+    local contacts = world:contacts(hand, object)
+    local thumb, others = sides(contacts, axis)
+    if thumb and others then return closed_by(hand, dofs), hand.pose, contacts end
     if not thumb and not others then return end
-    local way = axis * (others and 1 or -1)
-    local move = object:move_to(clench.pose {xyz = way * max_way} * X_WO)
-    object.pose = X_WO
-    if not move.touched then return end
-    hand.pose = clench.pose {xyz = way * (-move.fraction * max_way / 2)} * hand.pose
+    local way = axis * (others and -1 or 1)
+    local gap = gap_beyond(hand, object, way)
+    if not gap then return end
+    hand.pose = clench.pose {xyz = way * (gap / 2)} * hand.pose
     if world:collides(hand) then return end
   end
 end
 
-local function middle_of_contacts(hand, object)
-  local contacts, sum = hand.world:contacts(hand, object), clench.vec3(0, 0, 0)
+local function middle_of(contacts)
+  local sum = clench.vec3(0, 0, 0)
   for _, contact in ipairs(contacts) do sum = sum + contact.point end
-  return #contacts > 0 and sum / #contacts or hand.approach.point
+  return sum / #contacts
 end
 
 --- Lets the hand give way to the side, around an object that stays, to where both sides touch.
@@ -101,24 +112,34 @@ function give_way.are_jaws(hand)
 end
 
 local turns = {0.06, 0.02, 0.007, 0.0025}  -- that are tried, one after the other: at last edges of a pad of 20 mm are level within half the contact threshold [rad]
+local min_rate = 2e-4  -- by which a turn brings jaws closer, where it is worth a try [m per rad]
+
+-- How fast jaws that touch on both sides come closer as they turn about an axis through `middle`, the hand giving way to the side meanwhile
+-- [m per rad]: each contact lets its jaw recede along the normal, and not advance.
+local function closing_rate(contacts, across, middle, axis)
+  local thumb, others = math.huge, math.huge
+  for _, contact in ipairs(contacts) do
+    local push = contact.normal:dot(across)
+    local rate = -axis:cross(contact.point - middle):dot(contact.normal) / math.abs(push)
+    if push < -aside then thumb = math.min(thumb, rate) elseif push > aside then others = math.min(others, rate) end
+  end
+  return (thumb + others) / 2
+end
 
 --- The same, and lets it turn about the approach and across it as long as the jaws come closer by that.
 function give_way.turn(hand, object, pose, dofs)
-  local best, at = close_between(hand, object, pose, dofs)
+  local best, at, contacts = close_between(hand, object, pose, dofs)
   if not best then return end
-  local middle = middle_of_contacts(hand, object)
+  local middle = middle_of(contacts)
   local z, x = hand.approach.direction, opposition.thumb(hand)
-  local axes = {z, z:cross(x)}
   for _, angle in ipairs(turns) do
-    for _, axis in ipairs(axes) do
-      for _, sign in ipairs {1, -1} do
+    for _, axis in ipairs {z, z:cross(x)} do
+      local forth, back = closing_rate(contacts, x, middle, axis), closing_rate(contacts, x, middle, -axis)
+      if math.max(forth, back) > min_rate then
         local about = clench.pose {xyz = middle}
-        local turned = about * clench.pose {axis = axis, angle = sign * angle} * about:inverse() * at
-        local closed, shifted = close_between(hand, object, turned, dofs)
-        if closed and closed > best + 1e-7 then
-          best, at = closed, shifted
-          break
-        end
+        local turn = clench.pose {axis = axis, angle = forth >= back and angle or -angle}
+        local closed, shifted, after = close_between(hand, object, about * turn * about:inverse() * at, dofs)
+        if closed and closed > best + 1e-7 then best, at, contacts = closed, shifted, after end
       end
     end
   end

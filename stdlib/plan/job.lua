@@ -12,6 +12,7 @@ local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
 local running = require "clench.plan.running"
 local script_line = require "clench.script_line"
+local supports = require "clench.plan.supports"
 local touch = require "clench.plan.touch"
 local Job = {}
 Job.__index = Job
@@ -191,12 +192,13 @@ local function freed(world, name)
   return free
 end
 
--- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway; false: none
-local function overlaps(world, thing, moved)
+-- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway, and what an object stands on; false: none
+local function overlaps(world, thing, moved, stands_on)
   local names = {}
   for _, pair in ipairs(world:colliding(thing)) do
     local a, b = pair[1].robot, pair[2].robot
-    if not (a and moved[a.name] or b and moved[b.name]) then
+    local stands = stands_on and (stands_on[pair[1].name] or stands_on[pair[2].name])
+    if not (stands or a and moved[a.name] or b and moved[b.name]) then
       names[#names + 1] = ("%s and %s"):format(pair[1].name, pair[2].name)
     end
   end
@@ -211,7 +213,9 @@ local function warn_of_overlaps(subject, world, hand, object)
       subject, hand.parent.name, of_arm))
   end
   if hand.parent then moved[hand.parent.name] = true end
-  local of_object = overlaps(world, object, moved)
+  local stands_on = {}
+  for _, body in ipairs(supports.of(hand, object).touched) do stands_on[body.name] = true end
+  local of_object = overlaps(world, object, moved, stands_on)
   if of_object then
     clench.log.warning(script_line() .. ("%s: the object overlaps something before anything moves, which is held against no grasp: %s"):format(
       subject, of_object))

@@ -47,11 +47,12 @@ function Report:__tostring()
   tell_candidates(lines, self)
   if self.shaken then add(lines, "%d of %d grasps that were shaken survived", self.survived, self.shaken) end
   if self.found > self.grasps + self.alike then
-    add(lines, "of %d that were found the best %d are kept", self.found, self.grasps)
+    add(lines, "of %d that were found %d are kept, good ones from all sides", self.found, self.grasps)
   end
   if self.out_of_reach > 0 then add(lines, "%d more are out of the arm's reach", self.out_of_reach) end
   if self.alike > 0 then add(lines, "%d more were like one of these", self.alike) end
   if self.one_thread then add(lines, "an energy of the script ran on one thread") end
+  for _, line in ipairs(self.assumptions and self.assumptions.lines or {}) do lines[#lines + 1] = line end
   local unlimited = drives.unlimited_text(self.unlimited_efforts)
   if unlimited then lines[#lines + 1] = unlimited end
   if self.stopped then lines[#lines + 1] = "interrupted: these are the grasps until then" end
@@ -89,8 +90,10 @@ end
 
 local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in which the line to the one opposite lies
 
--- does nothing of the object fit between the pads of thumb and fingers?
-local function too_wide(job)
+local report = {}
+
+--- The sentence that nothing of the object fits between the pads of thumb and fingers; nil: something does.
+function report.too_wide(job)
   if job.in_place or nothing_closes(job) then return end  -- in place: the world is the script's own
   local hand, object = job.hand, job.object
   local open = starts.aperture(hand)
@@ -155,23 +158,25 @@ end
 
 ---@param job table
 ---@param told table  planner, grasps, alike, and counts
-return function(job, told)
+function report.new(job, told)
   told.trace = told.trace or {}
   told.unlimited_efforts = job.unlimited_efforts
   told.causes = {}
   told.one_thread = job.in_place and job.threads > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
   if told.grasps == 0 and told.stopped then
-    told.causes[1] = nothing_presses(job, told) or too_weak(told)
+    told.causes[1] = nothing_presses(job, told) or told.short or too_weak(told)
   elseif told.grasps == 0 and told.late_start then
     told.causes[1] = told.late_start
   elseif told.grasps == 0 then
-    for _, cause in ipairs {nothing_closes(job) or false, nothing_presses(job, told) or false, told.no_start or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, too_wide(job) or false, too_weak(told) or false,
+    for _, cause in ipairs {nothing_closes(job) or false, nothing_presses(job, told) or false, told.no_start or false, arm_causes(told) or false, touch_causes(told) or false, self_collision(job) or false, out_of_reach(job, told) or false, report.too_wide(job) or false, told.short or false, too_weak(told) or false,
                             search_causes(told) or false, rejected_most(told) or false} do
       if cause then told.causes[#told.causes + 1] = cause end
     end
     if #told.causes == 0 then told.causes[1] = "none that is known; try more steps or another seed" end
   end
-  told.verify, told.best_load, told.no_start, told.late_start = nil, nil, nil, nil
+  told.verify, told.best_load, told.no_start, told.late_start, told.short = nil, nil, nil, nil, nil
   return setmetatable(told, Report)
 end
+
+return report

@@ -3,6 +3,7 @@ local class = require "clench.class"
 local report = require "clench.plan.report"
 local reach = require "clench.plan.reach"
 local distinct = require "clench.plan.distinct"
+local spread = require "clench.plan.spread"
 
 local Run = class "run"
 function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring(self.report)) end
@@ -10,17 +11,19 @@ function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring
 ---@param job table
 ---@param found grasp[]  in the order in which they count
 ---@param told table  of plan.report
----@param options {count?: integer, distance?: number}
+---@param options {count?: integer, distance?: number, spread?: boolean}  spread: of more than `count`, those from all sides
 return function(job, found, told, options)
   told.out_of_reach = 0
   if job.arm then found, told.out_of_reach = reach.filter(job, found) end
   local is_new = distinct(job.hand, job.object, options.distance or 0)
-  local grasps, alike = clench.grasps(), 0
+  local unlike, alike = {}, 0
   for _, grasp in ipairs(found) do
-    if options.count and #grasps >= options.count then break end
-    if is_new(grasp) then grasps:add(grasp) else alike = alike + 1 end
+    if options.count and not options.spread and #unlike >= options.count then break end
+    if is_new(grasp) then unlike[#unlike + 1] = grasp else alike = alike + 1 end
   end
+  local grasps = clench.grasps()
+  for _, grasp in ipairs(options.spread and spread(job.hand, unlike, options.count) or unlike) do grasps:add(grasp) end
   told.grasps, told.alike, told.found = #grasps, alike, #found
   told.seconds, told.stopped = job:elapsed(), job.stopped or job.cancelled
-  return setmetatable({grasps = grasps, report = report(job, told)}, Run)
+  return setmetatable({grasps = grasps, report = report.new(job, told)}, Run)
 end

@@ -1,11 +1,31 @@
 --- What plan.sample and plan.random share: random starts, tried over threads.
+local assumptions = require "clench.plan.assumptions"
+local diagnosis = require "clench.plan.diagnosis"
 local drives = require "clench.drives"
+local given_of = require "clench.plan.given"
 local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
 local recorded = require "clench.plan.recorded"
+local report = require "clench.plan.report"
 local script_line = require "clench.script_line"
 local starts = require "clench.plan.starts"
+
+local diagnosis_after, diagnosis_time = 3, 1  -- of a search that has found nothing, and of looking for what is short [s]
+
+local function diagnose(job, own, next_state, assumed)
+  local seconds = math.min(diagnosis_time, math.max(0.2, (job.seconds or math.huge) / 10))
+  return diagnosis.text(diagnosis.of(job, next_state, own, seconds), assumed)
+end
+
+-- Reports once what is short, while a search finds nothing.
+local function watch(job, own, next_state, assumed)
+  return function(found)
+    if own.diagnosis or found > 0 or not own.verify or job:elapsed() < diagnosis_after then return nil end
+    own.diagnosis = diagnose(job, own, next_state, assumed) or ""
+    return own.diagnosis ~= "" and own.diagnosis or nil
+  end
+end
 
 ---@param name string  "sample"
 ---@param options table
@@ -18,11 +38,14 @@ return function(name, options, read_more)
     own.standoff = read:positive("standoff", 0.15, 10)
     own.distance = read:not_negative("distance", 0.1)
     own.on_grasp = read:callback "on_grasp"
+    own.on_progress = read:callback "on_progress"
+    own.keep_searching = read:flag "keep_searching"
     if read_more then read_more(read, own, job) end
   end)
   local no_force = own.verify and drives.no_force(job.hand)
   if no_force then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, no_force)) end
   own.approach = 2 * own.standoff
+  local assumed = assumptions.of(job.hand, job.object, own.verify, given_of[options] or {})
   local told = {planner = "plan." .. name}
   local journal = recorded[options]
   own.journal = journal
@@ -30,9 +53,18 @@ return function(name, options, read_more)
   if no_force and own.verify.min_load > 0 and drives.is_inert(job.hand) then
     told.verify, told.candidates, told.rejected = own.verify, 0, {}
   else
-    found = batch.try(job, told, job:prepare(starts.random, own), own)
+    local hopeless = report.too_wide(job)
+    if hopeless then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, hopeless)) end
+    local next_state = job:prepare(starts.random, own)
+    own.hint = next_state and watch(job, own, next_state, assumed)
+    found = batch.try(job, told, next_state, own)
+    if #found == 0 and next_state and own.verify and not own.diagnosis and told.candidates > 0 and not job.stopped then
+      own.diagnosis = job:interruptible(function() return diagnose(job, own, next_state, assumed) end)
+    end
+    told.short = own.diagnosis ~= "" and own.diagnosis or nil
     if journal then journal:add_listed(found) end
   end
   job:finish()
-  return new_run(job, batch.sort(found), told, {count = math.max(own.count, journal and journal.keep or 0), distance = own.distance})
+  told.assumptions = assumed
+  return new_run(job, batch.sort(found), told, {count = math.max(own.count, journal and journal.keep or 0), distance = own.distance, spread = true})
 end

@@ -3,6 +3,7 @@
 local facing = require "clench.plan.facing"
 local opposition = require "clench.plan.opposition"
 local pads = require "clench.plan.pads"
+local supports = require "clench.plan.supports"
 local starts = {}
 
 local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
@@ -176,15 +177,36 @@ local function holding(self, width)
   return a.closed + part * (b.closed - a.closed), clench.pose {xyz = shift} * a.X_FH, a.pad
 end
 
-local function across(direction, random)
-  local side = direction:cross(random:direction())
-  return side:norm() > 1e-3 and side / side:norm() or nil
+local surface_points = 4096  -- that starts are chosen from
+
+local function any_of(list, random) return list[random:integer(1, #list)] end
+
+local function unit(v)
+  local size = v:norm()
+  return size > 1e-3 and v / size or nil
+end
+
+local function across(direction, random) return unit(direction:cross(random:direction())) end
+
+local from_below = 0.3  -- cosine: an approach that comes more nearly out of what the object stands on is none
+
+--- Across a line, from any side; of an object that stands on something not from below, and as often as not straight down.
+local function approach_across(hand, line, random)
+  local up = hand.up
+  if not up then return across(line, random) end
+  if random:uniform() < 0.5 then
+    local down = unit(line * up:dot(line) - up)
+    if down then return down end
+  end
+  local direction = across(line, random)
+  return direction and direction:dot(up) > 0 and -direction or direction
 end
 
 --- Before a point of the surface, along its normal or tilted.
-local function before_surface(hand, object, random, standoff)
-  local at = object.mesh:sample(random, 1)[1]
+local function before_surface(hand, surface, random, standoff)
+  local at = any_of(surface, random)
   local direction = -at.normal
+  if hand.up and direction:dot(hand.up) > from_below then return end
   local axis = across(direction, random)
   if axis then direction = clench.pose {axis = axis, angle = random:normal() * 0.4}:rotate(direction) end
   local side = across(direction, random)
@@ -209,33 +231,69 @@ local function gets_there(hand, object, direction, pose, dofs)
   return free
 end
 
--- A point of the surface. Two fingers carry what lies aside of them by friction alone: of two points they take the one nearer to the centre of mass.
-local function surface_point(hand, object, random)
-  local a = object.mesh:sample(random, 1)[1]
-  if not hand.is_two_fingered then return a end
-  local b = object.mesh:sample(random, 1)[1]
-  return (a.point - object.com):norm() <= (b.point - object.com):norm() and a or b
+local most_points = 6  -- of which two fingers take the one nearest to the centre of mass
+
+-- A point of the surface. Two fingers carry what lies aside of them by friction alone: of some points they take the one nearest to the centre of mass.
+local function surface_point(hand, object, surface, random)
+  local nearest = any_of(surface, random)
+  for _ = 2, hand.is_two_fingered and random:integer(2, most_points) or 1 do
+    local other = any_of(surface, random)
+    if (other.point - object.com):norm() < (nearest.point - object.com):norm() then nearest = other end
+  end
+  return nearest
+end
+
+local sides = 4          -- from which a hand tries to get to two points
+local shallow = -0.85    -- of half a pad: where little more than its end gets to them
+local pad_room = 0.006   -- that a finger takes beside the points [m]
+
+-- Is there room beside a point of the surface for a finger?
+local function has_room(world, object, middle, line, apart)
+  for _, sign in ipairs {-1, 1} do
+    local hit = world:raycast(object.pose * (middle + line * (sign * (apart / 2 + 1e-4))), object.pose:rotate(line * sign), pad_room)
+    if hit and hit.body ~= object then return false end
+  end
+  return true
+end
+
+-- A side across the line from which jaws get to the points, as deep as a random number says, or else with little more than the ends of their pads.
+-- returns  the direction of approach, and how far the middle between the pads goes beyond that between the points; nil: there is none
+local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
+  for _ = 1, sides do
+    local direction, part = approach_across(hand, line, random), random:uniform(-0.7, 0.7)
+    for _, deeper in ipairs(direction and {part * pad, shallow * pad} or {}) do
+      local pose = opposition.frame(middle + direction * deeper, direction, line) * X_FH
+      if gets_there(hand, object, direction, pose, dofs) then return direction, deeper end
+    end
+  end
 end
 
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 ---@param checked boolean  for jaws: only where the hand gets to the points
-local function about_two_points(hand, world, object, random, options, checked)
+local function about_two_points(hand, world, object, surface, random, options, checked)
   local width = math.min(options.width, hand.aperture - starts.clearance)
-  local middle, line, apart = facing.pair(world, object, surface_point(hand, object, random), random, options.friction, width)
-  local direction = middle and across(line, random)
-  if not direction then return end
+  local middle, line, apart = facing.pair(world, object, surface_point(hand, object, surface, random), random, options.friction, width)
+  if not middle or hand.up and not has_room(world, object, middle, line, apart) then return end
   local closed, X_FH, pad = holding(hand, apart + starts.clearance)
   local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(max_closed, closed))
-  local deeper
-  if hand.is_two_fingered then
-    deeper = random:uniform(-0.7, 0.7) * pad
-    if checked and not gets_there(hand, object, direction, opposition.frame(middle + direction * deeper, direction, line) * X_FH, dofs) then return end
-    if random:uniform() < 0.3 then deeper = to_palm end
+  local direction, deeper
+  if hand.is_two_fingered and checked then
+    direction, deeper = free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   else
-    deeper = random:uniform(-0.01, 0.02)
+    direction = approach_across(hand, line, random)
+    deeper = hand.is_two_fingered and random:uniform(-0.7, 0.7) * pad or random:uniform(-0.01, 0.02)
   end
+  if not direction then return end
+  if hand.is_two_fingered and random:uniform() < 0.3 then deeper = to_palm end
   local start = middle - direction * options.standoff
   return {pose = opposition.frame(start, direction, line) * X_FH, dofs = dofs, reach = options.standoff + deeper}
+end
+
+-- the direction away from what an object stands on, in its frame; nil: it stands on nothing, or between things
+local function up_of(on, object)
+  local sum = clench.vec3(0, 0, 0)
+  for _, normal in ipairs(on.normals) do sum = sum + normal / #on.normals end
+  return sum:norm() > 0.7 and object.pose:inverse():rotate(sum / sum:norm()) or nil
 end
 
 local max_tries = 200  -- until two points face each other
@@ -246,15 +304,17 @@ local max_tries = 200  -- until two points face each other
 ---@return fun(number: integer): table?
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
+  hand.up = up_of(supports.of(job.hand, object), object)
+  local surface = object.mesh:sample(clench.random(job.seed, 0), surface_points)
   return function(number)
     local paired = hand.has_thumb and (options.kind == "antipodal" or number % (hand.is_two_fingered and 8 or 2) ~= 1)
     for try = 1, max_tries do
       local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
-        state = about_two_points(hand, world, object, random, options, try < max_tries)
+        state = about_two_points(hand, world, object, surface, random, options, try < max_tries)
       else
-        state = before_surface(hand, object, random, options.standoff)
+        state = before_surface(hand, surface, random, options.standoff)
       end
       if state then return state end
       -- an object without such pairs, or with none that the hand gets to, is approached along its normals

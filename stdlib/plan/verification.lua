@@ -1,6 +1,7 @@
 --- Does a grasp hold when it is not met exactly, and against loads? What is asked of a grasp that is called verified.
 local give_way = require "clench.plan.give_way"
 local share_friction = require "clench.study.motion.share_friction"
+local supports = require "clench.plan.supports"
 local verification = {}
 
 verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
@@ -16,8 +17,25 @@ verification.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.v
 
 local function moved(pose, way) return clench.pose {xyz = way} * pose end
 
--- Closes on an object that lies free: while one side alone touches it, it gives way by half of what is left on the other.
-local function close_on_free(hand, object, way, options)
+-- Moves the object away from what pushes it, along its supports, by half of what is left until the hand touches its other side.
+-- returns  whether it has moved
+local function give(hand, object, home, way, held_up)
+  local X_WO = object.pose
+  way = held_up:slide(X_WO.position - home.position, way)
+  if way:norm() < 1e-9 then return false end
+  local move = object:move_to(moved(X_WO, way))
+  local is_stopped_by_hand = false
+  for _, pair in ipairs(move.stopped_by) do is_stopped_by_hand = is_stopped_by_hand or pair[2].robot == hand end
+  object.pose = is_stopped_by_hand and moved(X_WO, way * (move.fraction / 2)) or X_WO
+  if is_stopped_by_hand and held_up:entered_by(object) then
+    object.pose = X_WO
+    return false
+  end
+  return is_stopped_by_hand
+end
+
+-- Closes on an object that lies free: while one side alone touches it, it gives way.
+local function close_on_free(hand, object, home, reach, held_up, options)
   local grasp
   for _ = 1, 3 do
     hand:autograsp()
@@ -25,53 +43,64 @@ local function close_on_free(hand, object, way, options)
     if #grasp.points == 0 or grasp:quality "epsilon" > 0 then break end
     local push = clench.vec3(0, 0, 0)
     for _, contact in ipairs(hand.world:contacts(hand, object)) do push = push + contact.normal end
-    -- nor does it give way where it was displaced into what it stands on
-    if push:norm() < 0.5 or hand.world:collides(object) then break end
-    push = push / push:norm()
-    local X_WO = object.pose
-    local move = object:move_to(moved(X_WO, push * way))
-    object.pose = move.touched and moved(X_WO, push * (move.fraction * way / 2)) or X_WO
-    if not move.touched then break end
+    if push:norm() < 0.5 or not give(hand, object, home, push / push:norm() * reach, held_up) then break end
   end
   return grasp
 end
 
--- Jaws that one motor closes draw what lies free between them, and turn it.
+-- Jaws that one motor closes draw what lies free between them, and turn it: here they are turned about it instead, as seen from the object.
 local function close_around_free(hand, object, dofs, options)
-  local X_WH, X_WO = hand.pose, object.pose
-  local after = give_way.turn(hand, object, X_WH, dofs)
-  hand:set_posture(X_WH, dofs)
-  if after then
-    object.pose = X_WH * after:inverse() * X_WO
-    if hand.world:collides(object) then object.pose = X_WO end
-  end
+  local X_WH = hand.pose
+  hand:set_posture(give_way.turn(hand, object, X_WH, dofs) or X_WH, dofs)
   hand:autograsp()
   return clench.grasp(hand, object, options)
 end
 
+-- does the object collide with anything but the hand?
+local function is_in_something(hand, object)
+  for _, pair in ipairs(hand.world:colliding(object)) do
+    if pair[1].robot ~= hand and pair[2].robot ~= hand then return true end
+  end
+  return false
+end
+
+-- Displaces the object relative to the open hand: the object where its surroundings permit that, otherwise the hand the other way.
+-- returns  whether the hand is free of collision there, or a step back
+local function displace(hand, object, at, direction, displacement, held_up)
+  local X_WH, X_WO, way = at.hand, at.object, direction * displacement
+  object.pose = moved(X_WO, way)
+  hand:set_posture(X_WH, at.dofs)
+  if not held_up:permit(direction) or is_in_something(hand, object) then
+    object.pose, X_WH = X_WO, moved(X_WH, -way)
+    hand:set_posture(X_WH, at.dofs)
+  end
+  if hand.world:collides(hand) then
+    -- the object is met earlier: the hand stays back by as much as it was displaced
+    hand:set_posture(moved(X_WH, hand.approach.direction * (-2 * displacement)), at.dofs)
+  end
+  return not hand.world:collides(hand)
+end
+
 --- The least epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of
---- the grasp and the DOFs before it closed; 0 where something is in the way. An object that one side alone touches gives
---- way; between jaws that one motor closes it turns as well. Looks no further once it is not above `enough`.
+--- the grasp and the DOFs before it closed; 0 where something is in the way. Displacements are of the object relative to the hand: where the
+--- object stands on something and cannot be moved into it, the hand is moved the other way. An object that one side alone touches gives
+--- way, along its supports; between jaws that one motor closes it turns as well. Looks no further once it is not above `enough`.
 function verification.perturbed_epsilon(hand, object, grasp, displacement, enough, options)
   local world = hand.world
   local here <close> = world:snapshot()
-  local X_WH, dofs, X_WO = object.pose * grasp.pose, grasp.pregrasp.dofs, object.pose
+  local at = {object = object.pose, hand = object.pose * grasp.pose, dofs = grasp.pregrasp.dofs}
   local least, jaws = math.huge, give_way.are_jaws(hand)
+  local held_up = supports.of(hand, object)
+  held_up:release(object)
   for _, direction in ipairs(verification.directions) do
-    object.pose = moved(X_WO, direction * displacement)
-    hand:set_posture(X_WH, dofs)
     local epsilon = 0
-    if hand.world:collides(hand) then
-      -- the object is met earlier: the hand stays back by as much as it was displaced
-      hand:set_posture(moved(X_WH, hand.approach.direction * (-2 * displacement)), dofs)
-    end
-    if not world:collides(hand) then
-      local stands = hand.pose
-      local again = close_on_free(hand, object, 4 * displacement, options)
+    if displace(hand, object, at, direction, displacement, held_up) then
+      local X_WH, X_WO = hand.pose, object.pose
+      local again = close_on_free(hand, object, at.object, 4 * displacement, held_up, options)
       if jaws and (#again.points == 0 or again:quality "epsilon" <= enough) then
-        object.pose = moved(X_WO, direction * displacement)
-        hand:set_posture(stands, dofs)
-        again = close_around_free(hand, object, dofs, options)
+        object.pose = X_WO
+        hand:set_posture(X_WH, at.dofs)
+        again = close_around_free(hand, object, at.dofs, options)
       end
       epsilon = #again.points > 0 and again:quality "epsilon" or 0
     end

@@ -321,3 +321,32 @@ TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost
   CHECK(alone.code == 2);
   CHECK(has(alone.out, "--keep-lost says what becomes of grasps that --verify loses"));
 }
+
+TEST_CASE(
+    "plan takes friction, material and how the hand closes, and states them with their source") {
+  const auto by_material = run(barrett + "--count 1 --no-verify --material rubber");
+  CHECK(has(by_material.out, "on rubber"));
+  CHECK(has(by_material.out, "of the object: --material"));
+  const auto plain = run(barrett + "--count 1 --no-verify --friction 0.5 --distance 0.2 --seed 4");
+  CHECK(has(plain.out, "friction 0.5 between hand and object (--friction)"));
+  CHECK(has(plain.out, "--count 1 --distance 0.2 --friction 0.5 --no-verify, seed 4, clench "));
+  const auto closing =
+      run(barrett + "--count 1 --no-verify --close 2,3,4 --approach 0,0,1,0,0,0.1");
+  CHECK(closing.code == 0);
+  CHECK(has(closing.out, "--approach 0,0,1,0,0,0.1 --close 2,3,4"));
+}
+
+TEST_CASE("plan names what is wrong with --friction, --close, --approach and --distance") {
+  const auto said = [](const std::string& options, const std::string& sentence) {
+    const auto result = run(barrett + options);
+    CHECK(result.code != 0);
+    CHECK(has(result.out, sentence));
+    CHECK(result.out.find("candidates") == std::string::npos);
+  };
+  said("--friction -1", "--friction: expected a number above 0, got '-1'");
+  said("--distance x", "--distance: expected a number >= 0, got 'x'");
+  said("--close 1,,2", "--close: expected DOFs by number or name, as in 1,-2,thumb, got '1,,2'");
+  said("--close thmb", "thmb");
+  said("--approach 0,0", "--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in metres");
+  said("--material rbber --friction", "--friction");
+}

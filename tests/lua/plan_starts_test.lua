@@ -68,16 +68,18 @@ test("jaws that meet a bar off the middle give way to the side, and hold it from
 end)
 
 test("sampling begins near grasps that held", function(t)
-  local world = clench.world()
-  local hand, banana = world:add_robot "models/hands/barrett/barrett.cfg", world:add_object("models/objects/banana.iv", {pose = {xyz = {0, 0, 2}}})
-  local run = clench.plan.sample {hand = hand, object = banana, candidates = 320, refine = 0, verify = false, count = 1000, distance = 0}
-  -- starts number 3 and 4 of each four, from the second round on, are such: they hold more often
   local near, elsewhere = 0, 0
-  for _, grasp in ipairs(run.grasps) do
-    local number = grasp.info.number
-    if number > 64 then
-      if number % 4 >= 2 then near = near + 1 else elsewhere = elsewhere + 1 end
+  for seed = 1, 6 do
+    local world = clench.world()
+    local hand, banana = world:add_robot "models/hands/barrett/barrett.cfg", world:add_object("models/objects/banana.iv", {pose = {xyz = {0, 0, 2}}})
+    local run = clench.plan.sample {hand = hand, object = banana, candidates = 320, refine = 0, verify = false, count = 1000, distance = 0, seed = seed}
+    -- starts number 3 and 4 of each four, from the second round on, are such: they hold more often
+    for _, grasp in ipairs(run.grasps) do
+      local number = grasp.info.number
+      if number > 64 then
+        if number % 4 >= 2 then near = near + 1 else elsewhere = elsewhere + 1 end
+      end
     end
   end
-  t.ok(near > 1.3 * elsewhere, near .. " " .. elsewhere)
+  t.ok(near > 1.25 * elsewhere, near .. " " .. elsewhere)
 end)

@@ -149,3 +149,39 @@ TEST_CASE("bad numbers are refused") {
       move_body(world, a, Pose::translation({NAN, 0, 0})),
       "body 'a': expected a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
 }
+
+TEST_CASE("a body that overlaps its support within the threshold slides and leaves") {
+  for (const double overlap : {0.0, 1e-17, 2e-5, 0.9e-4}) {
+    World world;
+    add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});
+    const auto block = add(world, "block", box(0.02, 0.02, 0.02), {0, 0, 0.01 - overlap});
+    const Pose start = world.pose(block);
+    const auto slid = move_body(world, block, Pose::translation({0.1, 0, start.position.z()}));
+    CHECK(slid.fraction == 1);
+    CHECK(world.pose(block).position.x() == 0.1);
+    const double gap = world.pose(block).position.z() - 0.01;
+    CHECK(gap > 0);
+    CHECK(gap <= 1.25 * world.contact_threshold() - overlap + 1e-12);
+    world.set_pose(block, start);
+    const Pose above = Pose::translation({0, 0, 0.2});
+    CHECK(move_body(world, block, above).fraction == 1);
+    CHECK(world.pose(block) == above);
+    world.set_pose(block, start);
+    CHECK(move_body(world, block, Pose::translation({0, 0, -0.2})).fraction == 0);
+  }
+}
+
+TEST_CASE("a body that overlaps a wall, or its support by more than the threshold, may not move") {
+  World world;
+  add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});
+  const auto block = add(world, "block", box(0.02, 0.02, 0.02), {0, 0, 0.01 - 1.3e-4});
+  const Pose above = Pose::translation({0, 0, 0.2});
+  CHECK_THROWS_WITH_AS(move_body(world, block, above),
+                       "moving 'block': the motion starts in collision: block and table", Error);
+  add(world, "wall", box(0.02, 1, 1), {0.02 - 1e-5, 0, 0.6});
+  world.set_pose(block, Pose::translation({0, 0, 0.3}));
+  const Pose start = world.pose(block);
+  CHECK_THROWS_WITH_AS(move_body(world, block, above),
+                       "moving 'block': the motion starts in collision: block and wall", Error);
+  CHECK(world.pose(block) == start);
+}

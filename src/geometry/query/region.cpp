@@ -7,18 +7,28 @@
 
 namespace clench {
 
+// Is a corner clearly within the radius, so that the rest of the triangle need not be looked at?
+static bool has_corner_within(const Corners& corners, const Eigen::Vector3d& p, double radius) {
+  if (radius <= 0) return false;
+  const double clearly = (1 - 1e-9) * radius * radius;
+  for (const Eigen::Vector3d& corner : corners)
+    if ((corner - p).squaredNorm() < clearly) return true;
+  return false;
+}
+
 std::vector<int> region(const Shape& shape, const Eigen::Vector3d& p, double radius) {
   if (!p.allFinite() || std::isnan(radius))
     fail("region: point and radius must be numbers [m], got ({}, {}, {}), {}", p.x(), p.y(), p.z(),
          radius);
   std::vector<int> out;
   const Eigen::Vector3d from = p - Eigen::Vector3d::Map(shape.tree().centre());
-  for_near_triangles(shape.tree(), from.data(), rounding_of(shape.bounds(), p), radius, false,
-                     [&](int triangle) {
-                       if (point_triangle(p, shape.mesh().corners(triangle)).distance < radius)
-                         out.push_back(triangle);
-                       return false;
-                     });
+  for_near_triangles(
+      shape.tree(), from.data(), rounding_of(shape.bounds(), p), radius, false, [&](int triangle) {
+        const Corners corners = shape.mesh().corners(triangle);
+        if (has_corner_within(corners, p, radius) || point_triangle(p, corners).distance < radius)
+          out.push_back(triangle);
+        return false;
+      });
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -13,18 +13,30 @@
 
 namespace clench {
 
-// contacts that share a site have one patch
+namespace {
+
+// the patch of a site, and its torsion radius for the force that was last asked for
+struct Torsion {
+  SoftPatch patch;
+  double force = -1, radius = 0;  // [N], [m]
+};
+
+}  // namespace
+
+// Contacts that share a site have one patch, and under the same force one torsion radius.
 static void add_torsion(Grasp& grasp, const GraspOptions& options) {
-  std::map<const SoftSite*, SoftPatch> known;
+  std::map<const SoftSite*, Torsion> known;
   for (size_t i = 0; i < grasp.contacts.size(); ++i) {
     const SoftSite* const site = grasp.contacts[i].site.get();
     if (!site) continue;
     const auto [found, is_new] = known.try_emplace(site);
-    SoftPatch& patch = found->second;
-    if (is_new) patch = soft_patch(*site);
-    grasp.points[i].torsion_radius =
-        torsion_radius(patch, options.normal_force.of(static_cast<int>(i)), options.modulus);
-    grasp.contacts_at_edges += patch.at_edge;
+    Torsion& torsion = found->second;
+    if (is_new) torsion.patch = soft_patch(*site);
+    const double force = options.normal_force.of(static_cast<int>(i));
+    if (is_new || force != torsion.force)
+      torsion.force = force, torsion.radius = torsion_radius(torsion.patch, force, options.modulus);
+    grasp.points[i].torsion_radius = torsion.radius;
+    grasp.contacts_at_edges += torsion.patch.at_edge;
   }
 }
 

@@ -46,12 +46,15 @@ GripScene read_grip_scene(const std::string& path) {
   file >> all;
   GripScene out{.hand_name = all.at("hand_name"),
                 .object_name = all.at("object_name"),
+                .table = {},
                 .links = {},
                 .dofs = {},
                 .object = body_of(all.at("object")),
                 .mu = all.at("mu"),
                 .force = all.at("force"),
                 .grasps = {}};
+  if (all.contains("table"))
+    out.table = {vector_of(all.at("table").at("point")), vector_of(all.at("table").at("up"))};
   out.object.pieces = convex_pieces(surface_of(all.at("object").at("mesh")));
   for (const json& v : all.at("hand").at("links")) {
     GripLink link{.body = body_of(v), .parent = v.at("parent"), .pose = pose_of(v.at("pose"))};
@@ -79,6 +82,7 @@ GripScene read_grip_scene(const std::string& path) {
                       .torques = {},
                       .epsilon = v.at("epsilon"),
                       .load = v.at("load"),
+                      .torsion_radius = v.value("torsion_radius", 0.0),
                       .verified = v.at("verified"),
                       .held = v.at("held"),
                       .survived = v.at("survived")};

@@ -40,13 +40,21 @@ struct StoredGrasp {
   std::vector<double> dofs,
       torques;  // torques: of the motors, beside what holds the posture; empty: none found
   double epsilon = 0, load = 0;
+  // radius of the patches of soft fingers, mean of all contacts: friction resists torques about the
+  // normal up to mu times the force times this [m]
+  double torsion_radius = 0;
   bool verified = false;  // by `clench plan --verify`
   int held = 0;           // in how many of the six directions study.shake held it
   bool survived = false;
 };
 
+struct GripTable {
+  Eigen::Vector3d point, up;  // of its top, in the object's frame [m]; up: unit
+};
+
 struct GripScene {
   std::string hand_name, object_name;
+  std::optional<GripTable> table;  // that the object rests on
   std::vector<GripLink> links;
   std::vector<GripDof> dofs;
   GripBody object;

@@ -1,0 +1,109 @@
+--- Assumptions under which grasps are judged: friction, mass, normal forces and efforts, each with its source.
+local name_list = require "clench.name_list"
+local assumptions = {}
+
+local longest = 1 << 20  -- of a file that is searched for a statement [bytes]
+
+local function file_name(path) return path:match "[^/]*$" end
+
+-- Does a file state something, by one of these words?
+local function states(path, words)
+  local file = path ~= "" and io.open(path, "rb")
+  if not file then return false end
+  local text = (file:read(longest) or ""):lower()
+  file:close()
+  for _, word in ipairs(words) do
+    if text:find(word, 1, true) then return true end
+  end
+  return false
+end
+
+local material_words, mass_words = {"material", "friction"}, {"mass", "weight", "density"}
+
+-- files of meshes state neither materials nor masses
+local of_meshes = {obj = true, stl = true, ply = true, off = true, glb = true, gltf = true, dae = true}
+
+-- "its file", or that it is assumed
+local function source_of(thing, words)
+  if thing.source == "" then return "set by the script" end
+  local extension = thing.source:match "%.(%w+)$"
+  if extension and of_meshes[extension:lower()] then words = {} end
+  if extension == "urdf" and words == material_words then words = {"<clench"} end
+  if states(thing.source, words) then return "from its file" end
+  return ("assumed, as %s states none"):format(file_name(thing.source))
+end
+
+-- coefficients of the hand's materials on the object's, the lowest first
+local function frictions(hand, object)
+  local world, seen, list = hand.world, {}, {}
+  for _, body in ipairs(hand.bodies) do
+    if body.mesh and not seen[body.material] then
+      seen[body.material] = true
+      list[#list + 1] = {mu = world:friction(body.material, object.material), material = body.material}
+    end
+  end
+  table.sort(list, function(a, b)
+    if a.mu ~= b.mu then return a.mu < b.mu end
+    return a.material < b.material
+  end)
+  return list
+end
+
+local function friction_line(hand, object, given)
+  local list, parts = frictions(hand, object), {}
+  if #list == 0 then return nil, "friction: none, as the hand has no surface" end
+  if given.friction then return list[1].mu, ("friction %.3g between hand and object (--friction)"):format(list[1].mu) end
+  for i, pair in ipairs(list) do parts[i] = ("%.3g of %s on %s"):format(pair.mu, pair.material, object.material) end
+  local of_object = given.material and "--material" or source_of(object, material_words)
+  return list[1].mu, ("friction %s (material of the hand: %s; of the object: %s)"):format(name_list(parts),
+    source_of(hand, material_words), of_object)
+end
+
+local function mass_line(object, given)
+  return object.mass, ("mass %.4g kg (%s)"):format(object.mass, given.mass and "--mass" or source_of(object, mass_words))
+end
+
+-- "0.5 to 2 N or N m", of the motors that close
+local function limits_of(hand)
+  local low, high, free = math.huge, 0, 0
+  for i, info in ipairs(hand.dof_info) do
+    if info.default_velocity ~= 0 and info.driven then
+      local range = hand.effort_ranges[i]
+      local most = math.max(math.abs(range[1]), math.abs(range[2]))
+      if most == math.huge then free = free + 1 else low, high = math.min(low, most), math.max(high, most) end
+    end
+  end
+  return low, high, free
+end
+
+local function effort_line(hand, given)
+  local low, high, free = limits_of(hand)
+  if high == 0 then return free > 0 and "efforts: unlimited (none given)" or "efforts: none, as no motor closes the hand" end
+  local text = low == high and ("%.4g N or N m"):format(high) or ("%.4g to %.4g N or N m"):format(low, high)
+  local source = given["max-effort"] and "from its file, --max-effort where that gives none" or "from its file"
+  local unlimited = free > 0 and ("; %d motors unlimited (none given)"):format(free) or ""
+  return ("efforts of closing motors at most %s (%s)%s"):format(text, source, unlimited)
+end
+
+local function force_line(verify, given)
+  if not verify then return nil, "normal forces: not asked for, as nothing is verified" end
+  return verify.force_ratio, ("normal forces of at most %.4g times the weight in all (%s)"):format(verify.force_ratio,
+    given["force-ratio"] and "--force-ratio" or "by default")
+end
+
+--- The assumptions of a search.
+---@param hand robot
+---@param object body
+---@param verify table?  of plan.sample, as it was read
+---@param given table<string, string>  options of the command line by name; {} for a script
+---@return {friction?: number, mass: number, force_ratio?: number, lines: string[]}  friction: the lowest
+function assumptions.of(hand, object, verify, given)
+  local out = {lines = {}}
+  out.friction, out.lines[1] = friction_line(hand, object, given)
+  out.mass, out.lines[2] = mass_line(object, given)
+  out.force_ratio, out.lines[3] = force_line(verify, given)
+  out.lines[4] = effort_line(hand, given)
+  return out
+end
+
+return assumptions

@@ -1,0 +1,31 @@
+--- A choice of grasps from all sides: those from directions that are not yet among the chosen come before better ones from a direction that is.
+
+local apart = math.cos(math.rad(30))  -- of approach directions that count as different
+
+---@param hand robot
+---@param grasps grasp[]  best first
+---@param count integer  how many are chosen
+---@return grasp[]  best first
+return function(hand, grasps, count)
+  if #grasps <= count then return grasps end
+  local in_base = hand.pose:inverse():rotate(hand.approach.direction)
+  local directions, chosen, left = {}, {}, {}
+  for i, grasp in ipairs(grasps) do directions[i], left[i] = grasp.pose:rotate(in_base), i end
+  -- rounds: in each, of every direction the best that is left
+  while #chosen < count do
+    local of_round, rest = {}, {}
+    for _, i in ipairs(left) do
+      local is_new = #chosen < count
+      for _, other in ipairs(of_round) do is_new = is_new and directions[i]:dot(other) < apart end
+      if is_new then
+        of_round[#of_round + 1], chosen[#chosen + 1] = directions[i], i
+      else
+        rest[#rest + 1] = i
+      end
+    end
+    left = rest
+  end
+  table.sort(chosen)
+  for k, i in ipairs(chosen) do chosen[k] = grasps[i] end
+  return chosen
+end

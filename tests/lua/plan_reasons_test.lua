@@ -1,0 +1,125 @@
+-- What a search says of itself: its assumptions, what is short, its progress, and from which sides its grasps come.
+local test, clench = require "test", require "clench"
+local assumptions = require "clench.plan.assumptions"
+local batch = require "clench.plan.batch"
+local diagnosis = require "clench.plan.diagnosis"
+local spread = require "clench.plan.spread"
+
+local function scene(mu, mass, hand_file)
+  local world = clench.world()
+  local hand = world:add_robot(hand_file or "models/hands/parallel_jaw/parallel_jaw.cfg")
+  local box = world:add_object(clench.shapes.box {0.03, 0.05, 0.12}, {name = "box", pose = {xyz = {0, 0, 1}}, mass = mass or 0.1, material = "wood"})
+  for _, body in ipairs(hand.bodies) do world:set_friction(body.material, "wood", {static = mu, kinetic = mu}) end
+  return hand, box
+end
+
+local function sample(hand, box, more)
+  local options = {hand = hand, object = box, candidates = 64, refine = 0, seed = 2}
+  for key, value in pairs(more or {}) do options[key] = value end
+  return clench.plan.sample(options)
+end
+
+test("a search that lacks friction says so, and how many would hold with more", function(t)
+  local run = sample(scene(0.08))
+  t.equal(#run.grasps, 0)
+  local words = tostring(run.report)
+  local looked_at, held, friction = words:match "why: of (%d+) closed candidates that hold too little, .-(%d+) with a friction of ([%d.]+) instead of 0.08 %(%-%-friction%)"
+  t.ok(held, words)
+  t.ok(tonumber(held) >= 1 and tonumber(held) <= tonumber(looked_at), words)
+  -- what it says is so
+  t.ok(#sample(scene(tonumber(friction))).grasps > 0)
+end)
+
+test("a search that lacks normal force names the force ratio", function(t)
+  local hand, box = scene(0.6)
+  local run = sample(hand, box, {verify = {force_ratio = 3, lift = 0}})
+  t.equal(#run.grasps, 0)
+  local words = tostring(run.report)
+  t.ok(words:find("normal forces of %d+ instead of 3 weights %(%-%-force%-ratio%)"), words)
+  t.ok(words:find("normal forces of at most 3 times the weight in all", 1, true), words)
+end)
+
+test("a search with grasps says nothing of what is short", function(t)
+  local run = sample(scene(0.6))
+  t.ok(#run.grasps > 0)
+  t.equal(#run.report.causes, 0)
+end)
+
+test("what would help is told by the least that is enough", function(t)
+  local assumed = {friction = 0.4, force_ratio = 10}
+  local function text(counts) return diagnosis.text(counts, assumed) end
+  t.equal(text {looked_at = 0, friction = {0, 0}, force_ratio = {0, 0}, effort = {0}}, nil)
+  t.equal(text {looked_at = 20, friction = {3, 9}, force_ratio = {0, 2}, effort = {0}},
+          "of 20 closed candidates that hold too little, 3 with a friction of 0.8 instead of 0.4 (--friction), " ..
+          "2 with normal forces of 40 instead of 10 weights (--force-ratio) would hold")
+  t.ok(text({looked_at = 5, friction = {0, 0}, force_ratio = {0, 0}, effort = {0}}):find "none would hold with 4 times the friction")
+end)
+
+test("assumptions name values and sources", function(t)
+  local hand, box = scene(0.4)
+  local verify = {force_ratio = 10}
+  local of = assumptions.of(hand, box, verify, {})
+  t.close(of.friction, 0.4, 1e-12)
+  t.close(of.mass, 0.1, 1e-12)
+  t.ok(of.lines[1]:find("^friction 0.4 of %w+ on wood"), of.lines[1])
+  t.ok(of.lines[1]:find("of the object: set by the script", 1, true), of.lines[1])
+  t.equal(of.lines[2], "mass 0.1 kg (set by the script)")
+  t.equal(of.lines[3], "normal forces of at most 10 times the weight in all (by default)")
+  t.ok(of.lines[4]:find("^efforts of closing motors at most 140 N or N m %(from its file%)"), of.lines[4])
+  of = assumptions.of(hand, box, verify, {friction = "0.4", mass = "0.1", ["force-ratio"] = "10"})
+  t.equal(of.lines[1], "friction 0.4 between hand and object (--friction)")
+  t.equal(of.lines[2], "mass 0.1 kg (--mass)")
+  t.ok(of.lines[3]:find("(--force-ratio)", 1, true))
+  local path = test.path ".obj"
+  box.mesh:save(path)
+  local world = clench.world()
+  local from_file = world:add_object(path, {unit = "m"})
+  of = assumptions.of(world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg", from_file, verify, {})
+  t.ok(of.lines[2]:find("assumed, as .-%.obj states none"), of.lines[2])
+end)
+
+test("progress tells candidates, grasps and the main causes, and a hint", function(t)
+  t.equal(batch.text {candidates = 64, grasps = 2, rejected = {a = 3, b = 9, c = 9, ["no time left"] = 50}}, "64 candidates, 2 grasps; b 9, c 9")
+  t.equal(batch.text {candidates = 2, grasps = 0, rejected = {}, hint = "more"}, "2 candidates, 0 grasps; more")
+  local states = {}
+  local hand, box = scene(0.6)
+  local run = sample(hand, box, {on_progress = function(state) states[#states + 1] = {state.candidates, state.grasps} end})
+  t.equal(states[#states][1], 64)
+  t.ok(states[#states][2] >= #run.grasps)
+  for i = 2, #states do t.ok(states[i][1] >= states[i - 1][1] and states[i][2] >= states[i - 1][2]) end
+end)
+
+test("a search goes on beyond count where it is asked to, and keeps the count", function(t)
+  local hand, box = scene(0.6)
+  local first = sample(hand, box, {candidates = 256, count = 3})
+  t.equal(first.report.candidates, 64)
+  local all = sample(hand, box, {candidates = 256, count = 3, keep_searching = true})
+  t.equal(all.report.candidates, 256)
+  t.equal(#all.grasps, 3)
+  t.ok(all.grasps[1].epsilon >= first.grasps[1].epsilon)
+end)
+
+test("of more grasps than asked for those from other sides come first", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/barrett/barrett.cfg"
+  local ball = world:add_object(clench.shapes.sphere {0.035}, {name = "ball", mass = 0.1, pose = {xyz = {0, 0, 1}}})
+  local run = clench.plan.sample {hand = hand, object = ball, candidates = 512, count = 400, refine = 0, verify = false}
+  local all, in_base = {}, hand.pose:inverse():rotate(hand.approach.direction)
+  for i, grasp in ipairs(run.grasps) do all[i] = grasp end
+  local function sides(list)
+    local kinds = {}
+    for _, grasp in ipairs(list) do
+      local direction, is_new = grasp.pose:rotate(in_base), true
+      for _, other in ipairs(kinds) do is_new = is_new and direction:dot(other) < math.cos(math.rad(30)) end
+      if is_new then kinds[#kinds + 1] = direction end
+    end
+    return #kinds
+  end
+  t.ok(#all > 20, #all)
+  local chosen = spread(hand, all, 8)
+  t.equal(#chosen, 8)
+  t.equal(sides(chosen), math.min(8, sides(all)))
+  t.equal(chosen[1], all[1])
+  for i = 2, 8 do t.ok(chosen[i - 1].epsilon >= chosen[i].epsilon) end
+  t.equal(#spread(hand, all, #all + 1), #all)
+end)
