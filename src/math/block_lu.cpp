@@ -62,7 +62,6 @@ void BlockLu::lay_out() {
     }
   }
   values_.assign(size, 0);
-  pivots_.assign(first_.back(), 0);
   targets_.clear(), first_target_.assign(count, 0);
   for (const int k : order_) {
     first_target_[k] = static_cast<int>(targets_.size());
@@ -81,11 +80,13 @@ int BlockLu::place(int i, int j) const {
   return upper ? found->upper : found->lower;
 }
 
-// The textbook's, with row exchanges: it has some six rows.
-bool BlockLu::factor_diagonal(int group) {
-  const int n = sizes_[group];
-  double* a = &values_[diagonal_[group]];
-  int* exchanged = &pivots_[first_[group]];
+namespace {
+
+// Replaces a, n x n by columns, by its inverse, with row exchanges: Gauss and Jordan's method.
+// Size  n where it is known, so that all loops are of known length; else Eigen::Dynamic
+template <int Size>
+bool invert(int rows, double* a, int* exchanged) {
+  const int n = Size == Eigen::Dynamic ? rows : Size;
   for (int k = 0; k < n; ++k) {
     int best = k;
     for (int i = k + 1; i < n; ++i)
@@ -95,27 +96,23 @@ bool BlockLu::factor_diagonal(int group) {
       for (int j = 0; j < n; ++j) std::swap(a[n * j + k], a[n * j + best]);
     const double pivot = a[n * k + k];
     if (pivot == 0 || !std::isfinite(pivot)) return false;
-    for (int i = k + 1; i < n; ++i) a[n * k + i] /= pivot;
-    for (int j = k + 1; j < n; ++j) {
-      const double x = a[n * j + k];
-      for (int i = k + 1; i < n; ++i) a[n * j + i] -= a[n * k + i] * x;
+    const double inverse = 1 / pivot;
+    double* own = a + n * k;
+    for (int i = 0; i < n; ++i) own[i] *= -inverse;
+    own[k] = inverse;
+    for (int j = 0; j < n; ++j) {
+      if (j == k) continue;
+      double* other = a + n * j;
+      const double x = other[k];
+      other[k] = 0;
+      for (int i = 0; i < n; ++i) other[i] += own[i] * x;
     }
   }
+  // exchanged rows of a matrix are exchanged columns of its inverse
+  for (int k = n - 1; k >= 0; --k)
+    if (exchanged[k] != k)
+      for (int i = 0; i < n; ++i) std::swap(a[n * k + i], a[n * exchanged[k] + i]);
   return true;
-}
-
-namespace {
-
-// x = (LU)^-1 x for a column of n, with the row exchanges
-void solve_block(int n, const double* lu, const int* exchanged, double* x) {
-  for (int k = 0; k < n; ++k)
-    if (exchanged[k] != k) std::swap(x[k], x[exchanged[k]]);
-  for (int k = 0; k < n; ++k)
-    for (int i = k + 1; i < n; ++i) x[i] -= lu[n * k + i] * x[k];
-  for (int k = n - 1; k >= 0; --k) {
-    x[k] /= lu[n * k + k];
-    for (int i = 0; i < k; ++i) x[i] -= lu[n * k + i] * x[k];
-  }
 }
 
 }  // namespace
@@ -123,15 +120,18 @@ void solve_block(int n, const double* lu, const int* exchanged, double* x) {
 // Size: of all groups; Eigen::Dynamic: of any size
 template <int Size>
 bool BlockLu::eliminate(int group) {
-  if (!factor_diagonal(group)) return false;
-  using Block = Eigen::Map<Eigen::Matrix<double, Size, Size>>;
+  exchanged_.resize(sizes_[group]);
+  if (!invert<Size>(sizes_[group], &values_[diagonal_[group]], exchanged_.data())) return false;
+  using Matrix = Eigen::Matrix<double, Size, Size>;
+  using Block = Eigen::Map<Matrix>;
   const int n = sizes_[group];
-  const double* lu = &values_[diagonal_[group]];
-  const int* exchanged = &pivots_[first_[group]];
+  const Block inverse(&values_[diagonal_[group]], n, n);
   const auto& later = later_[group];
-  for (const Later& j : later)
-    for (int c = 0; c < sizes_[j.group]; ++c)
-      solve_block(n, lu, exchanged, &values_[j.upper + n * c]);
+  for (const Later& j : later) {
+    Block right(&values_[j.upper], n, sizes_[j.group]);
+    const Matrix solved = inverse.lazyProduct(right);
+    right = solved;
+  }
   const int* target = targets_.data() + first_target_[group];
   for (const Later& i : later) {
     const Block left(&values_[i.lower], sizes_[i.group], n);
@@ -153,21 +153,32 @@ bool BlockLu::factor() {
   return true;
 }
 
+namespace {
+
+// y -= a x, by columns
+void subtract_product(int rows, int columns, const double* a, const double* x, double* y) {
+  for (int j = 0; j < columns; ++j)
+    for (int i = 0; i < rows; ++i) y[i] -= a[rows * j + i] * x[j];
+}
+
+}  // namespace
+
 void BlockLu::solve(Eigen::VectorXd& x) const {
-  using Block = Eigen::Map<const Eigen::MatrixXd>;
+  Eigen::VectorXd solved;
   for (const int k : order_) {
     const int n = sizes_[k];
-    solve_block(n, &values_[diagonal_[k]], &pivots_[first_[k]], &x[first_[k]]);
+    double* own = &x[first_[k]];
+    solved.setZero(n);
+    subtract_product(n, n, &values_[diagonal_[k]], own, solved.data());
+    for (int i = 0; i < n; ++i) own[i] = -solved[i];
     for (const Later& i : later_[k])
-      x.segment(first_[i.group], sizes_[i.group]) -=
-          Block(&values_[i.lower], sizes_[i.group], n).lazyProduct(x.segment(first_[k], n));
+      subtract_product(sizes_[i.group], n, &values_[i.lower], own, &x[first_[i.group]]);
   }
   for (size_t p = order_.size(); p-- > 0;) {
     const int k = order_[p];
     for (const Later& j : later_[k])
-      x.segment(first_[k], sizes_[k]) -=
-          Block(&values_[j.upper], sizes_[k], sizes_[j.group])
-              .lazyProduct(x.segment(first_[j.group], sizes_[j.group]));
+      subtract_product(sizes_[k], sizes_[j.group], &values_[j.upper], &x[first_[j.group]],
+                       &x[first_[k]]);
   }
 }
 

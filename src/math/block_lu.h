@@ -38,7 +38,6 @@ class BlockLu {
   void lay_out();
   template <int Size>
   bool eliminate(int group);
-  bool factor_diagonal(int group);
 
   std::vector<int> sizes_, first_;  // first_: unknown of each group
   std::vector<int> order_, position_;
@@ -48,7 +47,7 @@ class BlockLu {
   std::vector<int> targets_,
       first_target_;  // of each elimination: blocks that it changes, by group
   std::vector<double> values_;
-  std::vector<int> pivots_;  // row exchanges of the diagonal blocks
+  std::vector<int> exchanged_;  // rows of one diagonal block
   bool all_six_ = false;
 };
 

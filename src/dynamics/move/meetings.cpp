@@ -112,7 +112,7 @@ double Meetings::free_until(const Manifold& m, int looks) {
   const auto [first, second] = ordered(m.a, m.b);
   const auto is_free = [&](double s) {
     check_stop();
-    mover_.place(s);
+    mover_.place_pair(s, m.a, m.b);
     if (has_ball(world_, m)) return ball_distance(world_, m, world_.contact_threshold()) > 0;
     return distance(*world_.body(m.a).shape, *world_.body(m.b).shape,
                     relative_pose(world_, m.a, m.b), world_.contact_threshold(),
@@ -128,7 +128,7 @@ double Meetings::free_until(const Manifold& m, int looks) {
   } else {
     free = dt_;
   }
-  mover_.place(dt_);
+  mover_.place_pair(dt_, m.a, m.b);
   return free;
 }
 

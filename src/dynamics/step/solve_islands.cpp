@@ -20,8 +20,8 @@ static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
 // Islands of so many trees and rows are solved by their trees; others by the matrix of their rows,
 // which takes the square of their number of memory and its cube of time. Where the first fails the
 // second is tried up to its own number of rows.
-static constexpr size_t many_trees = 6;
-static constexpr Eigen::Index many_rows = 60, max_dense_rows = 240;
+static constexpr size_t heap_trees = 6;
+static constexpr Eigen::Index heap_rows = 60, max_dense_rows = 240;
 
 bool IslandSolver::rests(const System& system, const StepProblem& problem,
                          const Island& island) const {
@@ -193,7 +193,7 @@ void IslandSolver::solve_island(const System& system, const StepProblem& problem
   FrictionSolution solution;
   const bool held = at_rest && holds(problem, island, options, solution);
   if (!held) {
-    const bool heap = island.trees.size() >= many_trees && problem_.q.size() >= many_rows &&
+    const bool heap = island.trees.size() >= heap_trees && problem_.q.size() >= heap_rows &&
                       options.cone == FrictionCone::round;
     solution = heap ? solve_heap(system, problem, island, options, progress)
                     : solve_dense(problem, island, options, progress);
