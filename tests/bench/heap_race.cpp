@@ -57,7 +57,7 @@ std::vector<HeapFigures> race_heaps(const std::vector<EngineKind>& engines, doub
   std::vector<HeapFigures> out;
   for (const int count : brief ? std::vector{20} : std::vector{20, 50, 100})
     for (const EngineKind& kind : engines)
-      out.push_back(run_heap(kind, bin_of_boxes(count), count, brief ? 20 : 3000, h));
+      out.push_back(run_heap(kind, bin_of_boxes(count), count, brief ? 20 : 2000, h));
   const int steps = brief ? 10 : 1000;
   for (const EngineKind& kind : engines) {
     const DynamicScene house = card_house(brief ? 2 : 6, kind.gap);

@@ -93,8 +93,11 @@ FrictionSolution TreeFrictionSolver::solve(const TreeFriction& problem, const Ve
     bool best;  // from the best impulses so far, or from none
     double damping, rho;
   };
-  for (const Start& start : {Start{true, 1e-3, 3}, Start{false, 0.1, 1}, Start{false, 1e-3, 3},
-                             Start{true, 0.1, 0.3}, Start{false, 1e-2, 10}}) {
+  constexpr Start starts[] = {{true, 1e-3, 3},  {false, 0.1, 1},   {false, 1e-3, 3},
+                              {true, 0.1, 0.3}, {false, 1e-2, 10}, {true, 1e-2, 5},
+                              {false, 1, 1},    {true, 1, 3},      {false, 1e-2, 0.3},
+                              {true, 1e-4, 2},  {false, 1, 5},     {true, 0.1, 8}};
+  for (const Start& start : starts) {
     if (solution.solved || !options.restarts) break;
     solution.fell_back = true;
     r_ = start.best ? solution.r : VectorXd::Zero(problem.rows());
