@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bench/dynamic_scene.h"
+#include "clench/model/world.h"
 
 namespace clench::bench {
 
@@ -27,6 +28,9 @@ enum class OdeMethod { quick_step, world_step };
 /// meshes  the same triangles as ours, in place of its primitives
 EngineKind ode_engine(OdeMethod method, bool meshes);
 EngineKind bullet_engine();
+
+/// The world that our engine moves.
+const World& world_of(const DynamicEngine& ours);
 
 /// Our engine on more than a scene: its contacts.
 struct GripForces {

@@ -9,6 +9,7 @@
 #include <ctime>
 
 #include "bench/dynamic_engine.h"
+#include "bench/heap_race.h"
 #include "bench/report.h"
 #include "clench/dynamics/control/closing.h"
 #include "clench/dynamics/stepper.h"
@@ -188,6 +189,31 @@ void measure_bin(const std::vector<EngineKind>& peers, bool brief, Table& table)
   }
 }
 
+void measure_heaps(const std::vector<EngineKind>& engines, bool brief, Table& table,
+                   std::vector<Aim>& aims) {
+  const std::vector<HeapFigures> all = race_heaps(engines, h, brief);
+  double ours = NAN, ode = NAN;
+  for (const HeapFigures& f : all) {
+    const std::string scene = fmt::format("{}, {} bodies", f.scene, f.bodies);
+    table.add("time of all steps [s]", scene, f.engine, f.seconds);
+    table.add("largest penetration [m]", scene, f.engine, f.penetration);
+    if (f.scene != "bin of boxes") table.add("sinks [m]", scene, f.engine, f.fallen);
+    if (f.engine != "ours") {
+      if (f.bodies == 100) ode = f.seconds;
+      continue;
+    }
+    table.add("largest residual [m/s]", scene, f.engine, f.residual);
+    if (f.bodies == 100) ours = f.seconds;
+    if (f.scene == "bin of boxes") continue;
+    aims.push_back({f.scene + " sinks [m]", seen(f.fallen), 1e-4, true});
+  }
+  if (brief) return;
+  for (const EngineKind& kind : engines)
+    table.add("time grows with the power of bodies", "bin of boxes", kind.name,
+              growth_exponent(all, kind.name));
+  table.add("ODE quick step / ours, time", "bin of boxes, 100 bodies", "ours", ode / ours);
+}
+
 void measure_hand(const std::vector<EngineKind>& peers, bool brief, Table& table,
                   std::vector<Aim>& aims) {
   const Length length = brief ? Length{20, 20, 10} : Length{500, 2000, 100};
@@ -353,6 +379,7 @@ int main(int argc, char** argv) {
   on_meshes.push_back(ode_engine(OdeMethod::world_step, true));
   measure_stack(engines, brief, table, aims);
   measure_bin(engines, brief, table);
+  measure_heaps({our_engine(), ode_engine(OdeMethod::quick_step, false)}, brief, table, aims);
   measure_hand(engines, brief, table, aims);
   measure_slope(on_meshes, brief, table, aims);
   measure_grips(engines, brief, table, aims, report);

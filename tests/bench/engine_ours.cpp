@@ -95,6 +95,8 @@ EngineKind our_engine() {
           [](const DynamicScene& scene, double h) { return std::make_unique<Ours>(scene, h); }};
 }
 
+const World& world_of(const DynamicEngine& ours) { return dynamic_cast<const Ours&>(ours).world(); }
+
 GripForces our_grip(const DynamicScene& scene, double h, double seconds) {
   Ours engine(scene, h);
   engine.step(static_cast<int>(0.5 / h));

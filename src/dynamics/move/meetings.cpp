@@ -112,7 +112,7 @@ double Meetings::advance_round(double end) {
 double Meetings::free_until(const Manifold& m, int looks) {
   const auto is_free = [&](double s) {
     check_stop();
-    mover_.place(s);
+    mover_.place_pair(s, m.a, m.b);
     return pair_gap(world_, m, world_.contact_threshold()) > 0;
   };
   double free = 0, met = dt_;
@@ -124,7 +124,7 @@ double Meetings::free_until(const Manifold& m, int looks) {
   } else {
     free = dt_;
   }
-  mover_.place(dt_);
+  mover_.place_pair(dt_, m.a, m.b);
   return free;
 }
 

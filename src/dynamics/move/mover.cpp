@@ -57,6 +57,24 @@ Mover::Mover(World& world, const System& system) : world_(world) {
     }
   find_floating(system);
   find_carriers(system);
+  find_movers(system);
+}
+
+// Which bodies are placed by themselves, and which by what carries them.
+void Mover::find_movers(const System& system) {
+  part_of_.assign(system.places.size(), stands);
+  for (const Articulation& tree : system.trees)
+    for (const TreeBody& body : tree.bodies) part_of_[body.body.index] = by_others;
+  for (const Welded& weld : welded_) part_of_[weld.body.index] = by_others;
+  for (size_t i = 0; i < parts_.size(); ++i)
+    part_of_[parts_[i].body.index] = parts_[i].carrier ? by_others : static_cast<int>(i);
+}
+
+void Mover::place_pair(double s, Id<Body> a, Id<Body> b) {
+  const int first = part_of_[a.index], second = part_of_[b.index];
+  if (first == by_others || second == by_others) return place(s);
+  for (const int i : {first, second})
+    if (i != stands) world_.drift(parts_[i].body, moved(parts_[i], s, parts_[i].after));
 }
 
 void Mover::find_floating(const System& system) {

@@ -16,7 +16,10 @@ class Mover {
 
   /// Puts everything where it is s after the start [s].
   void place(double s);
-  /// The same; then free bodies and robots that float have the velocity that keeps their momentum.
+  /// Puts two bodies where they are s after the start, while everything else may stay; all must be
+  /// placed again at the time of the last place() before others look at them.
+  void place_pair(double s, Id<Body> a, Id<Body> b);
+  /// The same as place(); then free bodies and robots that float have the velocity that keeps their momentum.
   void finish(double s);
 
  private:
@@ -53,10 +56,14 @@ class Mover {
   Pose moved(const Part& part, double s, Twist& after) const;
   Pose carried(const Part& part, double s) const;
   void place_welded();
+  void find_movers(const System& system);
 
   World& world_;
-  double placed_ = -1;       // where everything is [s]; negative: nobody has been asked to move
-  std::vector<Part> parts_;  // what is carried by others of them after these
+  double placed_ = -1;  // where everything is [s]; negative: nobody has been asked to move
+  // by the index of the body's id: its part, or one of those below
+  static constexpr int stands = -1, by_others = -2;
+  std::vector<int> part_of_;
+  std::vector<Part> parts_;         // what is carried by others of them after these
   std::vector<RobotStart> robots_;  // carriers before what they carry
   std::vector<Floating> floating_;
   struct Welded {

@@ -51,18 +51,20 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r,
-                             const Eigen::VectorXd& u, double tolerance) {
+// admittance  of a block
+template <class Problem, class Admittance>
+static FrictionFault fault_of(const Problem& problem, const Eigen::VectorXd& r,
+                              const Eigen::VectorXd& u, double tolerance, Admittance admittance) {
   // |W_ij| <= sqrt(W_ii W_jj): what the sums of u are sums of
   double size = 0;
   for (const auto& block : problem.blocks) {
     double sum = 0;
     for (int k = 0; k < block.size(); ++k) sum += std::abs(r[block.row + k]);
-    if (sum > 0) size += std::sqrt(std::max(0.0, block_admittance(problem, block))) * sum;
+    if (sum > 0) size += std::sqrt(std::max(0.0, admittance(block))) * sum;
   }
   FrictionFault worst;
   for (const auto& block : problem.blocks) {
-    const double d = block_admittance(problem, block);
+    const double d = admittance(block);
     const double fault = block_fault(block, d, &r[block.row], &u[block.row]);
     // 0, or no number
     double none = 0 * d;
@@ -76,6 +78,19 @@ FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::Vector
     worst.excess = std::max(worst.excess, fault / (tolerance + rounding));
   }
   return worst;
+}
+
+FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r,
+                             const Eigen::VectorXd& u, double tolerance) {
+  return fault_of(problem, r, u, tolerance, [&](const FrictionProblem::Block& block) {
+    return block_admittance(problem, block);
+  });
+}
+
+FrictionFault friction_fault(const TreeFriction& problem, const Eigen::VectorXd& r,
+                             const Eigen::VectorXd& u, double tolerance) {
+  return fault_of(problem, r, u, tolerance,
+                  [](const TreeFriction::Block& block) { return block.d; });
 }
 
 double friction_residual(const FrictionProblem& problem, const Eigen::VectorXd& r) {

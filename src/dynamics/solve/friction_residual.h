@@ -1,6 +1,7 @@
 // How far impulses are from the laws of contact and friction.
 #pragma once
 #include "clench/dynamics/solve/friction_problem.h"
+#include "clench/dynamics/solve/tree_friction.h"
 
 namespace clench {
 
@@ -29,6 +30,8 @@ struct FrictionFault {
 };
 /// u  W r + q
 FrictionFault friction_fault(const FrictionProblem& problem, const Eigen::VectorXd& r,
+                             const Eigen::VectorXd& u, double tolerance);
+FrictionFault friction_fault(const TreeFriction& problem, const Eigen::VectorXd& r,
                              const Eigen::VectorXd& u, double tolerance);
 
 /// The largest fault of any block [m/s, rad/s]; infinite where a number of the problem or of r is

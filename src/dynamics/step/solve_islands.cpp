@@ -17,6 +17,12 @@ static constexpr double tolerance = 1e-12, failed_above = 1e-9;
 static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
 static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
 
+// Islands of so many trees and rows are solved by their trees; others by the matrix of their rows,
+// which takes the square of their number of memory and its cube of time. Where the first fails the
+// second is tried up to its own number of rows.
+static constexpr size_t heap_trees = 6;
+static constexpr Eigen::Index heap_rows = 60, max_dense_rows = 240;
+
 bool IslandSolver::rests(const System& system, const StepProblem& problem,
                          const Island& island) const {
   return std::ranges::all_of(island.trees, [&](int t) {
@@ -106,6 +112,30 @@ void IslandSolver::assemble(const StepProblem& problem, const Island& island) {
   }
 }
 
+// The island by its trees: the columns of its blocks.
+void IslandSolver::gather_trees(const System& system, const StepProblem& problem,
+                                const Island& island) {
+  trees_.clear();
+  local_tree_.resize(system.trees.size());
+  for (const int t : island.trees) {
+    local_tree_[t] = trees_.trees();
+    trees_.add_tree(system.trees[t].size());
+  }
+  for (size_t i = 0; i < island.blocks.size(); ++i) {
+    const StepBlock& from = problem.blocks[island.blocks[i]];
+    TreeFriction::Block block;
+    static_cast<FrictionProblem::Block&>(block) = problem_.blocks[i];
+    block.compliance = problem.compliance[from.law.row];
+    trees_.blocks.push_back(block);
+    for (int side = 0; side < 2; ++side)
+      if (const int t = from.tree[side]; t >= 0)
+        trees_.add_side(local_tree_[t],
+                        problem.columns[t].Y.middleCols(from.column[side], block.size()));
+  }
+  trees_.q = problem_.q;
+  trees_.finish();
+}
+
 // Removes from q the velocities that stabilization asks for: they may contradict limits and locks,
 // whereas not approaching never does.
 // returns  were there any?
@@ -118,6 +148,43 @@ bool IslandSolver::leave_out_push(const StepProblem& problem) {
   return any;
 }
 
+FrictionSolution IslandSolver::solve_dense(const StepProblem& problem, const Island& island,
+                                           const FrictionOptions& options,
+                                           const Progress& progress) {
+  assemble(problem, island);
+  FrictionSolution solution = solver_.solve(problem_, warm_start_, options, progress);
+  if (solution.solved || !leave_out_push(problem)) return solution;
+  const int iterations = solution.iterations;
+  solution = solver_.solve(problem_, warm_start_, options, progress);
+  solution.iterations += iterations;
+  solution.fell_back = true;
+  return solution;
+}
+
+// In a heap demands of stabilization contradict each other often: they are given up soon.
+FrictionSolution IslandSolver::solve_heap(const System& system, const StepProblem& problem,
+                                          const Island& island, const FrictionOptions& options,
+                                          const Progress& progress) {
+  gather_trees(system, problem, island);
+  const bool pushes = std::ranges::any_of(rows_, [&](int row) { return problem.push[row] != 0; });
+  TreeFrictionOptions by_trees{.tolerance = *options.tolerance, .restarts = !pushes};
+  FrictionSolution solution = tree_solver_.solve(trees_, warm_start_, by_trees, progress);
+  int iterations = solution.iterations;
+  if (!solution.solved && leave_out_push(problem)) {
+    trees_.q = problem_.q;
+    by_trees.restarts = true;
+    solution = tree_solver_.solve(trees_, solution.r, by_trees, progress);
+    solution.iterations = iterations += solution.iterations;
+    solution.fell_back = true;
+  }
+  if (solution.solved || problem_.q.size() > max_dense_rows) return solution;
+  assemble(problem, island);
+  solution = solver_.solve(problem_, warm_start_, options, progress);
+  solution.iterations += iterations;
+  solution.fell_back = true;
+  return solution;
+}
+
 void IslandSolver::solve_island(const System& system, const StepProblem& problem,
                                 const Island& island, const FrictionOptions& options,
                                 const Progress& progress, StepSolution& out) {
@@ -126,14 +193,10 @@ void IslandSolver::solve_island(const System& system, const StepProblem& problem
   FrictionSolution solution;
   const bool held = at_rest && holds(problem, island, options, solution);
   if (!held) {
-    assemble(problem, island);
-    solution = solver_.solve(problem_, warm_start_, options, progress);
-    if (!solution.solved && leave_out_push(problem)) {
-      const int iterations = solution.iterations;
-      solution = solver_.solve(problem_, warm_start_, options, progress);
-      solution.iterations += iterations;
-      solution.fell_back = true;
-    }
+    const bool heap = island.trees.size() >= heap_trees && problem_.q.size() >= heap_rows &&
+                      options.cone == FrictionCone::round;
+    solution = heap ? solve_heap(system, problem, island, options, progress)
+                    : solve_dense(problem, island, options, progress);
   }
   for (const int row : rows_) out.r[row] = solution.r[local_[row]];
   if (at_rest && solution.iterations == 0)

@@ -1,10 +1,12 @@
 // Solves the islands of a step, one after another.
 #pragma once
 #include "clench/dynamics/solve/solve_friction.h"
+#include "clench/dynamics/solve/solve_trees.h"
 #include "clench/dynamics/step/step_problem.h"
 
 namespace clench {
 
+/// Small islands are solved by the matrix of their rows, large ones by their trees.
 /// Keeps its memory from step to step, and nothing else: the same problem gives the same bits.
 class IslandSolver {
  public:
@@ -20,6 +22,12 @@ class IslandSolver {
              FrictionSolution& solution);
   bool leave_out_push(const StepProblem& problem);
   void assemble(const StepProblem& problem, const Island& island);
+  void gather_trees(const System& system, const StepProblem& problem, const Island& island);
+  FrictionSolution solve_dense(const StepProblem& problem, const Island& island,
+                               const FrictionOptions& options, const Progress& progress);
+  FrictionSolution solve_heap(const System& system, const StepProblem& problem,
+                              const Island& island, const FrictionOptions& options,
+                              const Progress& progress);
   void solve_island(const System& system, const StepProblem& problem, const Island& island,
                     const FrictionOptions& options, const Progress& progress, StepSolution& out);
 
@@ -29,6 +37,9 @@ class IslandSolver {
   Eigen::VectorXd warm_start_;
   FrictionProblem problem_;
   FrictionSolver solver_;
+  TreeFriction trees_;
+  TreeFrictionSolver tree_solver_;
+  std::vector<int> local_tree_;  // by tree of the step: its number in its island
 };
 
 }  // namespace clench

@@ -1,0 +1,80 @@
+#include "bench/heap_race.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "bench/heap_scenes.h"
+#include "clench/geometry/query/penetration.h"
+
+namespace clench::bench {
+
+namespace {
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+// The same measure for all engines: of the triangles, where the engine has put them.
+double deepest(const DynamicEngine& engine, const DynamicScene& scene) {
+  const int count = static_cast<int>(scene.parts.size());
+  std::vector<std::shared_ptr<const Shape>> shapes;
+  for (const Part& part : scene.parts) shapes.push_back(Shape::make(mesh_of(part), "part"));
+  double depth = 0;
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j) {
+      if (scene.parts[i].mass == 0 && scene.parts[j].mass == 0) continue;
+      const Pose X_WA = engine.pose(i), X_AB = X_WA.inverse() * engine.pose(j);
+      const Shape &a = *shapes[i], &b = *shapes[j];
+      if ((X_AB * b.centre() - a.centre()).norm() > a.radius() + b.radius()) continue;
+      depth = std::max(depth, penetration(a, b, X_AB).depth);
+    }
+  return depth;
+}
+
+HeapFigures run_heap(const EngineKind& kind, const DynamicScene& scene, int bodies, int steps,
+                     double h) {
+  constexpr int looks = 5;
+  HeapFigures out{.scene = scene.name, .engine = kind.name, .bodies = bodies, .residual = NAN};
+  const auto engine = kind.make(scene, h);
+  for (int look = 0; look < looks; ++look) {
+    const double start = thread_seconds();
+    engine->step(steps / looks);
+    out.seconds += thread_seconds() - start;
+    out.penetration = std::max(out.penetration, deepest(*engine, scene));
+  }
+  out.fallen =
+      scene.parts[scene.watched].X_W.position.z() - engine->pose(scene.watched).position.z();
+  if (kind.name == "ours") out.residual = world_of(*engine).dynamics()->report.max_residual;
+  return out;
+}
+
+}  // namespace
+
+std::vector<HeapFigures> race_heaps(const std::vector<EngineKind>& engines, double h, bool brief) {
+  std::vector<HeapFigures> out;
+  for (const int count : brief ? std::vector{20} : std::vector{20, 50, 100})
+    for (const EngineKind& kind : engines)
+      out.push_back(run_heap(kind, bin_of_boxes(count), count, brief ? 20 : 2000, h));
+  const int steps = brief ? 10 : 1000;
+  for (const EngineKind& kind : engines) {
+    const DynamicScene house = card_house(brief ? 2 : 6, kind.gap);
+    out.push_back(run_heap(kind, house, static_cast<int>(house.parts.size()) - 1, steps, h));
+    const DynamicScene tower = plank_tower(brief ? 3 : 15, kind.gap);
+    out.push_back(run_heap(kind, tower, static_cast<int>(tower.parts.size()) - 1, steps, h));
+  }
+  return out;
+}
+
+double growth_exponent(const std::vector<HeapFigures>& figures, const std::string& engine) {
+  const HeapFigures *first = nullptr, *last = nullptr;
+  for (const HeapFigures& f : figures)
+    if (f.engine == engine && f.scene == "bin of boxes") (first ? last : first) = &f;
+  if (!last) return NAN;
+  return std::log(last->seconds / first->seconds) /
+         std::log(static_cast<double>(last->bodies) / first->bodies);
+}
+
+}  // namespace clench::bench

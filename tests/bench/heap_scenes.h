@@ -1,0 +1,16 @@
+// Heaps and structures of the dynamics bench: many bodies that touch one another.
+#pragma once
+#include "bench/dynamic_scene.h"
+
+namespace clench::bench {
+
+/// Boxes of many sizes that fall turned, four abreast, into a bin of 30 cm.
+DynamicScene bin_of_boxes(int count);
+/// Leaning pairs of cards, one pair fewer in each storey, with a plank across each storey.
+DynamicScene card_house(int storeys, double gap);
+/// Layers of three planks, each layer across the one below.
+DynamicScene plank_tower(int layers, double gap);
+/// Boxes side by side on the ground, side x side of them.
+DynamicScene layer_of_boxes(int side, double gap);
+
+}  // namespace clench::bench
