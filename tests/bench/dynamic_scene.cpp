@@ -139,6 +139,7 @@ static Mesh lathe(const std::vector<std::pair<double, double>>& rings) {
 }
 
 Mesh mesh_of(const Part& part) {
+  if (part.form == Form::mesh) return *part.mesh;
   if (part.form == Form::box) return test::box(part.size.x(), part.size.y(), part.size.z());
   const double r = part.size.x(), half = part.size.z() / 2;
   std::vector<std::pair<double, double>> rings;

@@ -1,5 +1,6 @@
 // Scenes of the dynamics bench as plain values, of which each engine makes its own.
 #pragma once
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -9,14 +10,16 @@
 
 namespace clench::bench {
 
-enum class Form { box, cylinder, capsule };  ///< round ones about z
+enum class Form { box, cylinder, capsule, mesh };  ///< round ones about z
 
 struct Part {
   Form form = Form::box;
   Eigen::Vector3d size =
-      {};  ///< edges of a box; else radius, radius, length (of a capsule without its caps) [m]
+      {};  ///< edges of a box or of what bounds a mesh; else radius, radius, length (of a capsule
+           ///< without its caps) [m]
   double mass = 0;  ///< [kg]; 0: it stands
   Pose X_W = {};
+  std::shared_ptr<const Mesh> mesh = {};  ///< with its centroid at the origin
 };
 
 /// A hinge or slider that moves a part against an earlier one or the world, at 0 where the scene

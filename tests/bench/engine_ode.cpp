@@ -63,7 +63,7 @@ class Ode : public DynamicEngine {
   void add_part(const Part& part, bool meshes) {
     const Eigen::Vector3d& s = part.size;
     dGeomID geom;
-    if (meshes) {
+    if (meshes || part.form == Form::mesh) {
       geom = add_mesh(mesh_of(part));
     } else if (part.form == Form::box) {
       geom = dCreateBox(space_, s.x(), s.y(), s.z());
@@ -76,7 +76,7 @@ class Ode : public DynamicEngine {
     if (part.mass > 0) {
       const dBodyID body = dBodyCreate(world_);
       dMass mass;
-      if (part.form == Form::box)
+      if (part.form == Form::box || part.form == Form::mesh)
         dMassSetBoxTotal(&mass, part.mass, s.x(), s.y(), s.z());
       else if (part.form == Form::cylinder)
         dMassSetCylinderTotal(&mass, part.mass, 3, s.x(), s.z());

@@ -58,6 +58,8 @@ std::vector<HeapFigures> race_heaps(const std::vector<EngineKind>& engines, doub
   for (const int count : brief ? std::vector{20} : std::vector{20, 50, 100})
     for (const EngineKind& kind : engines)
       out.push_back(run_heap(kind, bin_of_boxes(count), count, brief ? 20 : 2000, h));
+  if (const DynamicScene scans = bin_of_scans(30); !brief && !scans.parts.empty())
+    for (const EngineKind& kind : engines) out.push_back(run_heap(kind, scans, 30, 500, h));
   const int steps = brief ? 10 : 1000;
   for (const EngineKind& kind : engines) {
     const DynamicScene house = card_house(brief ? 2 : 6, kind.gap);

@@ -14,7 +14,8 @@ struct HeapFigures {
   double fallen = 0;       ///< by how much the watched part sank [m]
 };
 
-/// Bins of 20, 50 and 100 boxes until they rest, a card house and a plank tower.
+/// Bins of 20, 50 and 100 boxes until they rest, of 30 scanned objects where there are any, a card
+/// house and a plank tower.
 /// brief  a few steps of the smallest
 std::vector<HeapFigures> race_heaps(const std::vector<EngineKind>& engines, double h, bool brief);
 

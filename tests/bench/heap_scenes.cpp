@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "clench/base/random.h"
+#include "clench/geometry/mesh/mass.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
+#include "support/shared.h"
 
 namespace clench::bench {
 
@@ -12,9 +14,9 @@ using Eigen::Vector3d;
 
 static Part ground_part() { return {.size = {2, 2, 0.1}, .X_W = Pose::translation({0, 0, -0.05})}; }
 
-DynamicScene bin_of_boxes(int count) {
-  constexpr double half = 0.15, wall = 0.04, height = 0.8, density = 800;
-  DynamicScene scene{.name = "bin of boxes"};
+static DynamicScene empty_bin(const std::string& name, double half, double height) {
+  constexpr double wall = 0.04;
+  DynamicScene scene{.name = name};
   scene.parts.push_back(ground_part());
   for (const double side : {-1.0, 1.0}) {
     const double at = side * (half + wall / 2);
@@ -23,6 +25,12 @@ DynamicScene bin_of_boxes(int count) {
     scene.parts.push_back(
         {.size = {2 * half, wall, height}, .X_W = Pose::translation({0, at, height / 2})});
   }
+  return scene;
+}
+
+DynamicScene bin_of_boxes(int count) {
+  constexpr double density = 800;
+  DynamicScene scene = empty_bin("bin of boxes", 0.15, 0.8);
   Random random(11);
   for (int i = 0; i < count; ++i) {
     const Vector3d size(random.uniform(0.03, 0.08), random.uniform(0.03, 0.08),
@@ -32,6 +40,35 @@ DynamicScene bin_of_boxes(int count) {
                       0.08 + 0.145 * (i / 4));
     scene.parts.push_back(
         {.size = size, .mass = density * size.prod(), .X_W = {test::random_turn(random), at}});
+  }
+  scene.watched = static_cast<int>(scene.parts.size()) - 1;
+  return scene;
+}
+
+DynamicScene bin_of_scans(int count) {
+  constexpr double mass = 0.3;
+  DynamicScene scene = empty_bin("bin of scans", 0.25, 1.5);
+  if (test::shared().empty()) return {.name = scene.name};
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const char* file : {"003_cracker_box", "005_tomato_soup_can", "006_mustard_bottle",
+                           "011_banana", "013_apple", "036_wood_block", "055_baseball"}) {
+    Mesh mesh =
+        weld(test::read_obj(test::shared() / "data" / "ycb" / (std::string(file) + ".obj")));
+    const Vector3d centroid = solid_mass(mesh).centroid;
+    for (Vector3d& p : mesh.vertices) p -= centroid;
+    meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+  }
+  Random random(12);
+  for (int i = 0; i < count; ++i) {
+    const auto& mesh = meshes[i % meshes.size()];
+    const Vector3d at((i & 1 ? 0.125 : -0.125) + random.uniform(-0.003, 0.003),
+                      (i & 2 ? 0.125 : -0.125) + random.uniform(-0.003, 0.003),
+                      0.15 + 0.25 * (i / 4));
+    scene.parts.push_back({.form = Form::mesh,
+                           .size = mesh->bounds().size(),
+                           .mass = mass,
+                           .X_W = {test::random_turn(random), at},
+                           .mesh = mesh});
   }
   scene.watched = static_cast<int>(scene.parts.size()) - 1;
   return scene;
