@@ -1,4 +1,5 @@
 --- What a planner gives: grasps, best first, and a report.
+local assumptions = require "clench.plan.assumptions"
 local class = require "clench.class"
 local report = require "clench.plan.report"
 local reach = require "clench.plan.reach"
@@ -25,5 +26,6 @@ return function(job, found, told, options)
   for _, grasp in ipairs(options.spread and spread(job.hand, unlike, options.count) or unlike) do grasps:add(grasp) end
   told.grasps, told.alike, told.found = #grasps, alike, #found
   told.seconds, told.stopped = job:elapsed(), job.stopped or job.cancelled
+  told.assumptions = told.assumptions or assumptions.of(job.hand, job.object, nil, {})
   return setmetatable({grasps = grasps, report = report.new(job, told)}, Run)
 end

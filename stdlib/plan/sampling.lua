@@ -53,7 +53,7 @@ return function(name, options, read_more)
   if no_force and own.verify.min_load > 0 and drives.is_inert(job.hand) then
     told.verify, told.candidates, told.rejected = own.verify, 0, {}
   else
-    local hopeless = report.too_wide(job)
+    local hopeless = own.verify and report.too_wide(job)
     if hopeless then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, hopeless)) end
     local next_state = job:prepare(starts.random, own)
     own.hint = next_state and watch(job, own, next_state, assumed)
