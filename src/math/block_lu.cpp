@@ -164,11 +164,11 @@ void subtract_product(int rows, int columns, const double* a, const double* x, d
 }  // namespace
 
 void BlockLu::solve(Eigen::VectorXd& x) const {
-  Eigen::VectorXd solved;
+  std::vector<double> solved;
   for (const int k : order_) {
     const int n = sizes_[k];
     double* own = &x[first_[k]];
-    solved.setZero(n);
+    solved.assign(n, 0.0);
     subtract_product(n, n, &values_[diagonal_[k]], own, solved.data());
     for (int i = 0; i < n; ++i) own[i] = -solved[i];
     for (const Later& i : later_[k])

@@ -248,10 +248,10 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
   if (!scene.table) throw std::runtime_error("the scene has no table");
   MujocoGrip grip(scene, grasp, options, true);
   const double height = 0.1, seconds = 1.5;  // [m], [s]
-  const auto run = [&](double seconds, auto before) {
+  const auto run = [&](double seconds, auto share_at) {
     const int steps = static_cast<int>(std::lround(seconds / time_step));
     for (int i = 1; i <= steps; ++i) {
-      const double share = before(static_cast<double>(i) / steps);
+      const double share = share_at(static_cast<double>(i) / steps);
       grip.step(share, Vector3d::Zero());
     }
   };
@@ -259,8 +259,8 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
   run(0.5, [](double) { return 1.0; });
   const Isometry3d gripped = grip.in_hand();
   // as a cubic, which neither starts nor ends with a blow
-  run(seconds, [&](double s) {
-    grip.raise_to(height * s * s * (3 - 2 * s), height * 6 * s * (1 - s) / seconds);
+  run(lift_seconds, [&](double s) {
+    grip.raise_to(height * s * s * (3 - 2 * s), height * 6 * s * (1 - s) / lift_seconds);
     return 1.0;
   });
   grip.raise_to(height, 0);
