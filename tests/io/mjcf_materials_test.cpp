@@ -10,8 +10,8 @@ using namespace clench::test;
 namespace {
 
 /// A base and a link `a`, which hold these geoms.
-ToldRobot two_links(const std::string& base, const std::string& a,
-                    const std::string& defaults = "") {
+ToldRobot touching_links(const std::string& base, const std::string& a,
+                         const std::string& defaults = "") {
   const TemporaryFolder folder;
   return ToldRobot(folder.write(
       "m.xml", "<mujoco model='m'>" + defaults + "<worldbody><body name='base'>" + base +
@@ -26,32 +26,33 @@ std::string sphere_xml(const std::string& attributes) {
 
 TEST_CASE("links of a robot have the friction that the file gives their geoms") {
   const ToldRobot told =
-      two_links(sphere_xml(""), sphere_xml("friction='0.7 0.1 0.1' priority='2'"));
+      touching_links(sphere_xml(""), sphere_xml("friction='0.7 0.1 0.1' priority='2'"));
   CHECK(told.body("base").material == "plastic");
   CHECK(told.body("a").material == "friction 0.7 priority 2");
   CHECK(told.robot.frictions == std::vector<OwnFriction>{{.mu = 0.7, .priority = 2}});
   CHECK(told.warnings.empty());
   CHECK(told.noted("links whose geoms give no friction count as plastic"));
   // by a class
-  const ToldRobot all = two_links(sphere_xml(""), sphere_xml("condim='1'"),
-                                  "<default><geom friction='0.4'/></default>");
+  const ToldRobot all = touching_links(sphere_xml(""), sphere_xml("condim='1'"),
+                                       "<default><geom friction='0.4'/></default>");
   CHECK(all.body("base").material == "friction 0.4");
   CHECK(all.body("a").material == "friction 0.4 frictionless");
   CHECK_FALSE(all.noted("count as plastic"));
   // geoms that collide with nothing do not count
   const std::string ghost = "friction='3' contype='0' conaffinity='0'";
-  CHECK(two_links(sphere_xml(""), sphere_xml("") + sphere_xml(ghost)).robot.frictions.empty());
+  CHECK(touching_links(sphere_xml(""), sphere_xml("") + sphere_xml(ghost)).robot.frictions.empty());
 }
 
 TEST_CASE("a link whose geoms differ in friction has the prevailing one, with a warning") {
   const ToldRobot told =
-      two_links(sphere_xml(""), sphere_xml("friction='0.2'") + sphere_xml("friction='2'"));
+      touching_links(sphere_xml(""), sphere_xml("friction='0.2'") + sphere_xml("friction='2'"));
   CHECK(told.body("a").material == "friction 2");
   CHECK(
       told.warned("m.xml: bodies whose geoms differ in friction, of which that of the highest "
                   "priority, then the largest counts for all: "));
   // a geom that gives none has MuJoCo's 1
-  const ToldRobot part = two_links(sphere_xml(""), sphere_xml("") + sphere_xml("friction='0.2'"));
+  const ToldRobot part =
+      touching_links(sphere_xml(""), sphere_xml("") + sphere_xml("friction='0.2'"));
   CHECK(part.body("a").material == "friction 1");
   CHECK(part.warnings.size() == 1);
 }
@@ -71,8 +72,8 @@ TEST_CASE("a robot taken from a scene has the friction of its geoms, too") {
 
 TEST_CASE("a URDF keeps the friction of links") {
   const TemporaryFolder folder;
-  const ToldRobot told = two_links(sphere_xml("friction='0.4' condim='1'"),
-                                   sphere_xml("friction='0.7' priority='-2'"));
+  const ToldRobot told = touching_links(sphere_xml("friction='0.4' condim='1'"),
+                                        sphere_xml("friction='0.7' priority='-2'"));
   const WrittenRobot again = written(told.robot, folder.path() / "m.urdf");
   CHECK(again.robot.frictions == std::vector{told.robot.frictions[0], told.robot.frictions[1]});
   CHECK(again.robot.base.material == told.robot.base.material);
