@@ -117,7 +117,7 @@ const std::string crowd =
 
 }  // namespace
 
-TEST_CASE("Ctrl-C ends a step of many contacts") { call_ends_by_interrupt(crowd, "w:run(0.02)"); }
+TEST_CASE("Ctrl-C ends steps of many contacts") { call_ends_by_interrupt(crowd, "w:run(1000)"); }
 
 TEST_CASE("Ctrl-C ends a step with pyramids for cones") {
   call_ends_by_interrupt(crowd + "w.dynamics = {cone = 'pyramid'} ", "w:run(0.02)");
@@ -136,6 +136,7 @@ TEST_CASE("Ctrl-C ends the measures of a grasp of many contacts") {
 TEST_CASE("Ctrl-C ends the contacts of large meshes that lie on each other") {
   call_ends_by_interrupt(
       "local S, w = clench.shapes, clench.world() local ball = S.sphere {0.1, subdivisions = 5} "
+      "ball.round = nil "
       "local a = w:add_object(ball) local b = w:add_object(ball, {pose = {xyz = {0, 0, 1e-5}}}) ",
       "for _ = 1, 1000 do w:contacts(a, b) end");
 }

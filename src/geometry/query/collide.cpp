@@ -5,7 +5,7 @@
 namespace clench {
 
 bool colliding(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cache) {
-  if (are_round(a, b, RoundIn::all)) return distance(a, b, X_AB, 0, cache).distance == 0;
+  if (are_round(a, b, RoundIn::all)) return colliding_rounds(a, b, X_AB, cache);
   const Placement placement(a, b, X_AB);
   const auto meet = [&](int triangle_a, int triangle_b) {
     return triangles_meet(placement.corners_a(triangle_a), placement.corners_b(triangle_b));

@@ -11,6 +11,7 @@ namespace clench {
 using Eigen::Vector3d;
 
 static constexpr double no_limit = std::numeric_limits<double>::infinity();
+static constexpr double no_distance = 1e-300;  // only what overlaps is nearer
 
 ShapeParts::ShapeParts(const Shape& of, RoundIn where) : shape(&of), facets(&of) {
   if (!of.is_round(where)) return;
@@ -96,17 +97,27 @@ class PartsQuery {
   }
 
   Distance find(PairCache* cache) {
+    look_at_rounds();
+    if (a_.facets && b_.facets) facets(cache);
+    return best_;
+  }
+
+  bool meet(PairCache* cache) {
+    look_at_rounds();
+    return best_.distance <= 0 ||
+           (a_.facets && b_.facets && colliding(*a_.facets, *b_.facets, X_AB_, cache));
+  }
+
+ private:
+  void look_at_rounds() {
     StopCheck check(64);
     for (size_t i = 0; i < a_.rounds.size(); ++i) {
       for (size_t j = 0; j < b_.rounds.size(); ++j) check(), rounds(i, j);
       if (b_.facets) check(), facets_of_b(i);
     }
     for (size_t j = 0; a_.facets && j < b_.rounds.size(); ++j) check(), facets_of_a(j);
-    if (a_.facets && b_.facets) facets(cache);
-    return best_;
   }
 
- private:
   double limit() const { return std::min(limit_, best_.distance); }
 
   // Is a ball about one farther from a ball about the other than what is looked for?
@@ -167,7 +178,11 @@ class PartsQuery {
 
 Distance signed_distance(const Shape& a, const Shape& b, const Pose& X_AB, RoundIn where,
                          double limit, PairCache* cache) {
-  return PartsQuery(a, b, checked_pose(X_AB), where, std::max(limit, 1e-300)).find(cache);
+  return PartsQuery(a, b, checked_pose(X_AB), where, std::max(limit, no_distance)).find(cache);
+}
+
+bool colliding_rounds(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cache) {
+  return PartsQuery(a, b, checked_pose(X_AB), RoundIn::all, no_distance).meet(cache);
 }
 
 }  // namespace clench

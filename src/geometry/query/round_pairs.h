@@ -32,6 +32,9 @@ Distance signed_distance(const Shape& a, const Shape& b, const Pose& X_AB, Round
                          double limit = std::numeric_limits<double>::infinity(),
                          PairCache* cache = nullptr);
 
+/// colliding() of shapes of which one at least has round pieces everywhere.
+bool colliding_rounds(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cache = nullptr);
+
 /// Triangles that may come as near to a round piece as `limit` [m], in index order, of a shape in
 /// whose frame the piece stands.
 /// X_SP  the frame of the piece's shape in that of the triangles
