@@ -17,6 +17,8 @@ static constexpr double aim = 0.2;
 static constexpr double there = 0.3;
 // a bound is at least this part of the distance, and used beyond so many thresholds
 static constexpr double bound_part = 0.85, bound_beyond = 4;
+// the least gap that a pair is taken to have, as a part of the threshold; 0 says that it is unknown
+static constexpr double touching_gap = 1e-9;
 // rounding of positions must stay this much below the threshold
 static constexpr double precise = 1e-3;
 
@@ -49,7 +51,9 @@ struct Advancing {
     }
     ++queries;
     const std::array one{watch.a}, other{watch.b};
-    return std::min(distance(world, one, other, reach, &world.context()).distance, reach);
+    // faces that lie on each other to rounding come apart from there as from a gap
+    const double gap = distance(world, one, other, reach, &world.context()).distance;
+    return std::clamp(gap, touching_gap * threshold, reach);
   }
 
   // measures the pair at s.   returns whether it stops the motion there
