@@ -424,8 +424,8 @@ local virtual_contact = {}
 ---@field point vec3 # Where, on the surface of `body`, in the world frame. [m]
 ---@field normal vec3 # Unit normal into `body`, in the world frame.
 ---@field frame pose # Contact frame: origin at the point, +z into `body`.
----@field feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The feature of the body's mesh that the contact lies on: a vertex, an edge between two, or a triangle, counted from 1. It stays the same while the contact moves along it, so that contacts can be matched from step to step.
----@field other_feature {kind: "vertex"|"edge"|"triangle", vertices?: integer[], triangle?: integer} # The same of the mesh of `other`.
+---@field feature {kind: "vertex"|"edge"|"triangle"|"round", vertices?: integer[], triangle?: integer, piece?: integer} # The feature of the body's mesh that the contact lies on: a vertex, an edge between two, a triangle, or a round piece, counted from 1. It stays the same while the contact moves along it, so that contacts can be matched from step to step.
+---@field other_feature {kind: "vertex"|"edge"|"triangle"|"round", vertices?: integer[], triangle?: integer, piece?: integer} # The same of the mesh of `other`.
 ---@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
 ---@field force vec3 # What pressed on body there in the last step of the world, in world axes; 0 in a world that has not run. [N]
 ---@field torsion number # Of a soft contact, the torque about the normal on body in the last step of the world. [N m]
