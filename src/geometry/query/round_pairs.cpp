@@ -19,17 +19,17 @@ ShapeParts::ShapeParts(const Shape& of, RoundIn where) : shape(&of), facets(&of)
 }
 
 std::vector<int> triangles_near(const Shape& piece_of, int piece, const Shape& facets,
-                                const Pose& X_SP, double limit) {
+                                const Pose& X_FP, double limit) {
   const double reach = limit + core_of(piece_of.rounds().pieces[piece].solid).around;
   std::vector<int> out;
-  for (const TrianglePair& pair : pairs_within(facets, piece_of.core(piece), X_SP, reach))
+  for (const TrianglePair& pair : pairs_within(facets, piece_of.core(piece), X_FP, reach))
     out.push_back(pair.triangle_a);
   return out;
 }
 
 namespace {
 
-// The nearest place of facets to a round piece.
+// The place of facets nearest to a round piece, in the frame of the facets.
 struct FacetPlace : NearPlace {
   int triangle = -1;
 };
@@ -44,8 +44,8 @@ class FacetQuery {
         round_{piece_of.rounds().pieces[piece].solid, X_FP * piece_of.rounds().pieces[piece].X_SR} {
   }
 
-  /// nothing nearer than the limit: no triangle; the piece's axis in the solid of the facets: a
-  /// distance of 0
+  /// returns  triangle -1 if nothing is nearer than the limit; distance 0 if the piece's axis
+  ///          meets the facets or lies inside their solid
   FacetPlace nearest_place(double limit) const {
     const double around = core_of(round_.solid).around;
     const Distance core = distance(facets_, piece_of_.core(piece_), X_FP_, limit + around);
@@ -87,7 +87,7 @@ class FacetQuery {
   PlacedRound round_;
 };
 
-// All pairs of parts of two shapes, the nearest so far.
+// Finds the nearest of all pairs of parts of two shapes.
 class PartsQuery {
  public:
   PartsQuery(const Shape& a, const Shape& b, const Pose& X_AB, RoundIn where, double limit)
@@ -109,7 +109,7 @@ class PartsQuery {
  private:
   double limit() const { return std::min(limit_, best_.distance); }
 
-  // Is a ball about one farther from a ball about the other than what is looked for?
+  // Is the distance between two bounding balls at least the distance searched for?
   bool apart(const Vector3d& p, double radius_p, const Vector3d& q, double radius_q) const {
     return (p - q).norm() - radius_p - radius_q >= std::max(limit(), 0.0);
   }

@@ -37,7 +37,7 @@ static int collides(lua_State* L) {
   return push(L, clench::collides(*world, check_bodies(L, 2, "entity", world), &world->context()));
 }
 
-// the option `max`; absent: all
+// the option `max`; nullopt: all pairs
 static std::optional<size_t> max_pairs(lua_State* L, int options_at) {
   constexpr int all = -1;
   Table options(L, options_at);
