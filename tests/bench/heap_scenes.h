@@ -4,9 +4,10 @@
 
 namespace clench::bench {
 
-/// Boxes of many sizes that fall turned, four abreast, into a bin of 30 cm.
+/// Boxes of random sizes and orientations that fall, four abreast, into a bin 30 cm wide.
 DynamicScene bin_of_boxes(int count);
 /// Leaning pairs of cards, one pair fewer in each storey, with a plank across each storey.
+/// gap  between bodies at the start [m]; the same below
 DynamicScene card_house(int storeys, double gap);
 /// Layers of three planks, each layer across the one below.
 DynamicScene plank_tower(int layers, double gap);
