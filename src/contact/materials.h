@@ -1,4 +1,4 @@
-// What bodies are made of, and the friction of each pair of materials.
+// Materials of bodies, and the friction of each pair of materials.
 #pragma once
 #include <algorithm>
 #include <optional>

@@ -215,7 +215,7 @@ local function before_surface(hand, surface, random, standoff)
           dofs = random_posture(hand, random, max_closed), retreat = math.max(0, random:uniform(-0.03, 0.03))}
 end
 
-local to_palm = 0.06      -- how far a hand goes on until its palm touches [m]
+local to_palm = 0.06      -- largest further travel until the palm touches [m]
 local approach_distances = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
 
 -- Does the hand come to the object so that what is to be between its pads gets there, and not what is in the way?

@@ -1,4 +1,4 @@
-// What of an MJCF file collides: bits, pairs, exclusions, carriers, and switches of the simulation.
+// Collisions of MJCF files: bits, pairs, exclusions, carriers, and switches of the simulation.
 #include "clench/io/mjcf/mjcf.h"
 #include "temporary.h"
 #include "told_robot.h"

@@ -10,7 +10,7 @@ namespace clench {
 /// trees. Keeps only scratch memory from step to step: the same problem gives the same bits.
 class IslandSolver {
  public:
-  /// An island at rest keeps its forces as long as they hold it, and then stands still to the bit.
+  /// An island at rest keeps its forces as long as they hold it, and is then bit-exactly at rest.
   /// throws  Stopped
   StepSolution solve(const System& system, const StepProblem& problem,
                      const DynamicSettings& settings, const Progress& progress);
