@@ -1,5 +1,5 @@
---- True of errors by which Ctrl-C or the end of the host ("stopped") or a deadline ("timeout") stops Lua. No metamethod of a user's table
---- is called.
+--- True of errors that stop Lua: by Ctrl-C or the end of the host (kind "stopped"), or by a deadline (kind "timeout"). No metamethod of a
+--- user's table is called.
 local type, rawget = type, rawget
 
 ---@param problem any  an error value

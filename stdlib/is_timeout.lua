@@ -1,4 +1,4 @@
---- True of errors by which a deadline, and not Ctrl-C, stops Lua. No metamethod of a user's table is called.
+--- True of errors by which a deadline stops Lua, false of those of Ctrl-C. No metamethod of a user's table is called.
 local type, rawget = type, rawget
 
 ---@param problem any  an error value

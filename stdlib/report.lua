@@ -140,7 +140,7 @@ local function tell_generated(robot, subject)
   end
 end
 
--- a crowded world has millions of pairs
+-- a crowded world has millions of colliding pairs: only the first ones are listed
 local max_overlaps = 100
 local function overlaps_of(world)
   local overlaps = {}
@@ -213,7 +213,7 @@ local function of_grasps(list, format)
   local counts = {unnamed_dofs = 0, without_pose = 0, with_contacts = 0, with_pregrasp = 0, collision_free = 0, in_collision = 0}
   local function count(key, is) if is then counts[key] = counts[key] + 1 end end
   local unnamed = 0  -- DOFs beyond those that are listed
-  local best_epsilon  -- it may be none of the measures that are listed
+  local best_epsilon  -- kept separately: only the first measures are listed
   for _, grasp in ipairs(list) do
     local hand, object = grasp.hand_name, grasp.object_name
     if hand ~= "" or object ~= "" then

@@ -736,9 +736,9 @@ local world_settings = {}
 ---@param b? body|robot
 function world_settings:set_collision(on, a, b) end
 
----Gives bodies bits, as `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Bodies that are fixed do not collide with each other. `world:set_collision(true, a, b)` makes a pair collide whatever its bits say.
+---Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair collide whatever its bits are.
 ---@param entity body|robot
----@param bits? {type?: integer, affinity?: integer, fixed?: boolean} # type and affinity: 1 by default; fixed: does it stand in the world? false by default
+---@param bits? {type?: integer, affinity?: integer, fixed?: boolean} # type and affinity: 1 by default; fixed: is it fixed to the world? false by default
 function world_settings:set_collision_bits(entity, bits) end
 
 ---Sets the Coulomb coefficients of a pair of materials; new names become materials.
@@ -783,7 +783,7 @@ function world_queries:collides(entity) end
 ---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 ---@param a? body|robot
 ---@param b? body|robot
----@param options? {max?: integer} # max: at most so many pairs, the first ones in the order in which bodies were made; all by default
+---@param options? {max?: integer} # max: largest number of pairs, the first ones in creation order; all by default
 ---@return body[][] # pairs
 function world_queries:colliding(a, b, options) end
 

@@ -174,11 +174,11 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("NAME");
   add("--close", "DOFs that close the hand, by number or name, each with its sign: 1,-2,thumb")
       ->type_name("DOFS");
-  add("--approach", "of the hand, in its base: direction, and point [m]")
+  add("--approach", "direction and point of approach, in the frame of the hand's base [m]")
       ->type_name("DX,DY,DZ[,X,Y,Z]");
   add("--count",
-      "the first so many; with --seconds: the best so many of that time; default: 20, or all of "
-      "--seconds")
+      "number of grasps: the first ones; with --seconds: the best ones of that time; default: 20, "
+      "or all of --seconds")
       ->type_name("N")
       ->check(whole_number(1, 1000000));
   add("--seconds", "search no longer than this")->type_name("S")->check(positive);
@@ -191,8 +191,7 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       ->check(whole_number(1, 1024));
   add("--distance",
       "grasps nearer to each other than this part of the object's radius, of half a turn and of "
-      "the "
-      "DOFs' ranges are alike; default: 0.1")
+      "the DOFs' ranges are alike; default: 0.1")
       ->type_name("PART")
       ->check(not_negative);
   add("--contacts", "fingertip: with the last links alone; power: with the palm, too; default: any")

@@ -64,7 +64,7 @@ int plan_grasps(const PlanOptions& options) {
               [](int) {});  // a closed output pipe must not prevent files from being written
   Words words = words_of(options.reading);
   words.insert(words.end(), options.words.begin(), options.words.end());
-  // without a terminal progress is a line now and then
+  // without a terminal, progress is written as a line from time to time
   if (!options.quiet && !isatty(STDERR_FILENO)) words.insert(words.end(), {"lines", "yes"});
   return run_plan(state, words);
 }

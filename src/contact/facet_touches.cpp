@@ -49,7 +49,7 @@ static bool clearly_apart(const Shape& a, const Shape& b, const Pose& X_AB,
 }
 
 double merge_radius(const Shape& a, const Shape& b, const TouchOptions& options) {
-  // points of small things merge within this part of their radius
+  // of the smaller shape's radius: the largest merge radius
   constexpr double merge_part = 0.1;
   return std::min(options.merge_radius, merge_part * std::min(a.radius(), b.radius()));
 }

@@ -4,9 +4,10 @@
 
 namespace clench {
 
-/// A vertex, an edge between two, or a triangle, by numbers of the mesh, or a round piece by its. Equal features of one
-/// shape are the same part, however the shape stands; vertices at one place that a file does not
-/// share have a number each, and the lowest that is near speaks for them.
+/// A vertex, an edge between two vertices, or a triangle, by their indices in the mesh; or a round
+/// piece, by its index in Shape::rounds(). Equal features of one shape are the same part, however
+/// the shape stands; vertices at one place that a file does not share have an index each, and the
+/// lowest that is near stands for them.
 struct Feature {
   enum Kind { vertex, edge, triangle, round };
   Kind kind = triangle;

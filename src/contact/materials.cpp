@@ -58,7 +58,7 @@ bool MaterialTable::knows(std::string_view name) const {
 void MaterialTable::add(const OwnFriction& own) {
   const std::string name = material_name(own);
   if (const auto found = std::find(names_.begin(), names_.end(), name); found != names_.end()) {
-    // of a saved world, which keeps the friction of pairs
+    // a saved world has the material already, with the friction of its pairs
     own_[found - names_.begin()] = own;
     return;
   }

@@ -1,4 +1,4 @@
-// What bodies are made of, and the friction of each pair of materials.
+// Materials of bodies, and the friction of each pair of materials.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -35,9 +35,9 @@ class MaterialTable {
   /// Adds the names it does not know, frictionless against all others until told otherwise.
   /// throws Error when a coefficient is negative or not finite, or kinetic exceeds statics
   void set_friction(std::string_view a, std::string_view b, Friction friction);
-  /// Adds a material by the friction that it brings along, unless its name is known. With others of
-  /// this kind it has the combined friction; with those of none, but for frictionless ones, the
-  /// larger of both's own.
+  /// Adds a material with a friction of its own, unless its name is known. With another such
+  /// material it has the combined friction; with any other material that is not frictionless, the
+  /// larger of its own coefficient and that of the other on itself.
   void add(const OwnFriction& own);
   bool knows(std::string_view name) const;
 

@@ -25,7 +25,7 @@ NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
   return groups;
 }
 
-// The different ones among numbers below `limit`, ascending. Many are marked in a table of all.
+// Sorted numbers without duplicates, all below `limit`. Many of them are marked in a table.
 static std::vector<int> distinct_numbers(const std::vector<int>& numbers, int limit) {
   constexpr size_t many = 8;
   if (many * numbers.size() < static_cast<size_t>(limit)) {

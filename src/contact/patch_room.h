@@ -4,17 +4,17 @@
 
 namespace clench {
 
-/// Half of how wide surfaces are along unit directions of the tangent plane as b sees it, across
-/// the sides of their hulls: in others they are no narrower than these make them.
+/// Half widths of surfaces along unit directions of the tangent plane, as seen from b: across
+/// the sides of the convex hulls, which bound the width in every other direction.
 struct PatchRoom {
   std::vector<Eigen::Vector2d> directions;
   std::vector<double> half_widths;  ///< [m]
 };
 
-/// Of one surface, as patch_rings has it.
-/// is_a  it is that of a, which sees the plane from the other side
+/// Half widths of one surface, as patch_rings gives it.
+/// is_a  the surface is that of a, where the tangent plane is mirrored
 PatchRoom patch_room(const PatchSheet& sheet, bool is_a);
-/// Of two surfaces together.
+/// Half widths of both surfaces.
 PatchRoom operator+(PatchRoom one, const PatchRoom& other);
 
 /// The ellipse may lie anywhere on the surfaces, so in no direction is it wider than they are: it

@@ -29,7 +29,8 @@ struct Neighbourhood {
   std::vector<double> reaches;
 };
 
-// Triangles with a point in the ball of a site, ascending: of those in one ball around all of them.
+// Triangles with a point in the ball of any site, ascending; found among those in one ball around
+// all sites.
 std::vector<int> within_reaches(const Shape& shape, const std::vector<Vector3d>& sites_B,
                                 const std::vector<double>& reaches) {
   double farthest = 0;

@@ -16,9 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Indices = std::vector<int>;
 
-// normals of one flat patch: their cosines, that is 2.6 degrees
-static constexpr double same_normal = 1 - 1e-3;
-// a corner this near, in merge radii, to the line between its neighbours is none
+// a corner this near, in merge radii, to the line between its neighbours is left out
 static constexpr double flat_corner = 0.01;
 
 void join_neighbours(std::vector<NearPoint>& points, double reach) {
@@ -108,8 +106,8 @@ static Indices reduce(std::vector<NearPoint>& points, const Indices& patch, doub
 
   Indices kept;
   for (const int k : spread(flat, first, corners, merge, most)) {
-    // of edges that lie above each other several points are that corner, and some run aslant from
-    // edge to edge
+    // where edges lie above each other several points share that corner, and some of their gaps run
+    // aslant from edge to edge: the smallest gap counts
     int nearest = k;
     for (int i = 0; i < static_cast<int>(flat.size()); ++i)
       if (points[patch[i]].gap < points[patch[nearest]].gap - rounding &&

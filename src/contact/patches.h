@@ -6,12 +6,15 @@
 
 namespace clench {
 
-/// Regions that come as near as `reach` [m] with the same normal become one: meshes have cracks.
+/// Cosine above which two normals belong to one flat patch: 2.6 degrees.
+inline constexpr double same_normal = 1 - 1e-3;
+
+/// Merges regions that come as near as `reach` [m] with the same normal: meshes have cracks.
 void join_neighbours(std::vector<NearPoint>& points, double reach);
 
-/// The points that stay, as ascending indices. A patch is what has one normal, to 2.6 degrees,
-/// within a region: it keeps its closest point and the corners of its outline.
-/// merge          points of a patch nearer than this are one [m]
+/// Indices of the points that are kept, ascending. A patch is formed by the points of a region that
+/// share a normal: it keeps its closest point and the corners of its outline.
+/// merge          points of a patch nearer than this are merged [m]
 /// max_per_patch  a longer outline is thinned
 /// rounding       of coordinates [m]
 std::vector<int> patch_corners(std::vector<NearPoint>& points, double merge, int max_per_patch,

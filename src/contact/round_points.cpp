@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// The flat part of a solid along a direction, placed, with places of it by their parameters.
+// The flat part of a placed solid along a direction, in the frame that the solid is placed in.
 struct PlacedFlat {
   FlatPart part;
 
@@ -25,7 +25,7 @@ struct PlacedFlat {
     for (Vector3d* v : {&part.half, &part.x, &part.y}) *v = round.X.rotation * *v;
   }
 
-  // The place of it straight above or below p, as seen along a direction close to its normal.
+  // The point of the flat part straight above or below p, along its normal.
   Vector3d above(const Vector3d& p) const {
     const Vector3d from = p - part.middle;
     if (part.kind == FlatPart::segment)
@@ -36,13 +36,14 @@ struct PlacedFlat {
              (from.dot(part.x) * part.x + from.dot(part.y) * part.y) / part.x.squaredNorm();
     return part.middle;
   }
-  // is p, seen so, over the disc?
+  // does p lie over the disc, along its normal?
   bool over_disc(const Vector3d& p) const {
     const Vector3d from = p - part.middle;
     return std::hypot(from.dot(part.x), from.dot(part.y)) <= part.x.squaredNorm();
   }
-  // Parameters of a segment from p to p + way over the disc, or abreast of the segment.
-  // returns  false where it passes by
+  // The part of the line p + s way over the disc, or abreast of the flat segment: from s = low to
+  // high.
+  // returns  false where the line misses it
   bool clip(const Vector3d& p, const Vector3d& way, double& low, double& high) const {
     const Vector3d from = p - part.middle;
     if (part.kind == FlatPart::disc) {
@@ -64,7 +65,7 @@ struct PlacedFlat {
   }
 };
 
-// Near points of a mesh at a round solid.
+// Near points of a mesh and a round solid.
 class MeshPoints {
  public:
   MeshPoints(const PlacedRound& round, const Shape& mesh, const std::vector<int>& near,
@@ -159,7 +160,7 @@ class MeshPoints {
     const NearPlace place = nearest_on_segment(round_, p, p + way);
     if (!is_near(place.distance)) return;
     const Vector3d normal = -place.normal, along = way / length;
-    // the solid lies over the edge, and not over a face beside it or beyond an end
+    // the solid must lie over the edge, not over a face beside it
     constexpr double level = 1e-9;
     for (const int slot : slots) {
       const Corners& t = surface_.corners(slot / 3);
@@ -169,7 +170,7 @@ class MeshPoints {
     }
     const Feature feature = surface_.edge_feature(i);
     const double at = (place.point - p).dot(along) / length;
-    // what is nearest at an end is that corner's, unless the edge runs along the solid
+    // a nearest point at an end belongs to the corner there, unless the edge runs along the solid
     constexpr double at_end = 1e-9, beside = 1e-6;
     if (at > at_end && at < 1 - at_end)
       add(place.point, normal, place.distance, feature);
@@ -209,7 +210,8 @@ class MeshPoints {
   std::vector<NearPoint> out_;
 };
 
-// Where the rims of two discs that lie on each other cross, on the first; on either side.
+// Point of the first disc where the rims of two discs that lie on each other cross.
+// side  -1 or 1: which of the two crossings
 std::optional<Vector3d> rims_cross(const FlatPart& a, const FlatPart& b, double side) {
   const double x = (b.middle - a.middle).dot(a.x), y = (b.middle - a.middle).dot(a.y);
   const double r2 = a.x.squaredNorm(), r = std::sqrt(r2), d = std::hypot(x, y) / r;
@@ -217,7 +219,7 @@ std::optional<Vector3d> rims_cross(const FlatPart& a, const FlatPart& b, double 
   const double along = (d * d + r2 - b.x.squaredNorm()) / (2 * d), squared = r2 - along * along;
   if (squared < 0) return std::nullopt;
   const double across = side * std::sqrt(squared);
-  // unit in the disc's plane, towards the other's middle, and across
+  // in the disc's plane, of length 1 / r: towards the other's middle, and across
   const Vector3d to = (x * a.x + y * a.y) / (r2 * d * r), left = (x * a.y - y * a.x) / (r2 * d * r);
   return a.middle + r * (along * to + across * left);
 }
@@ -246,7 +248,7 @@ std::vector<NearPoint> near_points_of_rounds(const PlacedRound& a, const PlacedR
                  .feature_b = {}});
   const PlacedFlat on_a(a, n, threshold), on_b(b, -n, threshold);
   if (on_a.part.kind == FlatPart::point || on_b.part.kind == FlatPart::point) return out;
-  // p on the one flat part; it counts where the other solid is as near in the same direction
+  // Adds p, on one flat part, if the other solid is near in the same direction.
   const auto add = [&](const Vector3d& p, const PlacedRound& other, bool of_a) {
     const NearPlace place = other.nearest_to(p);
     constexpr double one_normal = 1 - 1e-6;

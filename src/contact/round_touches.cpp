@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Points of all pairs of parts of two shapes.
+// Contact points of all pairs of parts of two shapes: round pieces, and the other triangles.
 class RoundTouches {
  public:
   RoundTouches(const Shape& a, const Shape& b, const Pose& X_AB, RoundIn where,
@@ -37,6 +37,7 @@ class RoundTouches {
 
  private:
   static Feature piece(int number) { return {Feature::round, number, -1}; }
+  // A feature of the facets, by the indices of the complete mesh.
   static Feature named(const ShapeParts& parts, Feature feature) {
     if (parts.rounds.empty()) return feature;
     if (feature.kind == Feature::triangle) {
@@ -48,9 +49,9 @@ class RoundTouches {
     return feature;
   }
 
-  // Pieces of one body may show the same place twice.
+  // Keeps a touch unless another pair of parts has given the same one, with no larger gap.
+  // before  number of touches of the other pairs
   void keep(const Touch& touch, size_t before) {
-    constexpr double same_normal = 1 - 1e-3;
     const auto same = [&](const Touch& other) {
       return (other.p_a - touch.p_a).norm() < merge_ &&
              other.normal_b.dot(touch.normal_b) > same_normal && other.gap <= touch.gap;

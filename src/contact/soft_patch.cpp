@@ -282,7 +282,7 @@ static std::array<double, 2> within_room(const SoftPatch& patch,
   const auto wide_room = [&](int body) {
     return patch_room(sheet_of(site, frames, body, radius), body == 0);
   };
-  // of the smaller mesh first: where that is the narrower one, what is known of the other will do
+  // the smaller mesh first: if it is the narrower one, the widths known of the other are enough
   const int small = site.a->mesh().triangles.size() <= site.b->mesh().triangles.size() ? 0 : 1;
   const PatchRoom first = wide_room(small);
   const auto alone = room_on(first);

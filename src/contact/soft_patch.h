@@ -74,7 +74,7 @@ struct SoftPatch {
   bool directed = true;       ///< false where that is alike in all directions, too: they are any
   double max_radius = 0.02;   ///< as it was asked for [m]
   std::vector<GapPlace> gap;  ///< as it is; none: as the radii have it
-  std::array<PatchRoom, 2> rooms;  ///< of a and of b, as far as they are known
+  std::array<PatchRoom, 2> rooms;  ///< half widths of a and b, as far as they are known
   SoftSite site;                   ///< what it is of: larger patches look farther for room
   /// 0 to 1: is there a crease that the fit does not follow? 0 where the fit is off by 10 % of the
   /// surface's relief, or creases around a contact are as long as 0.2 of the radius, 1 from 20 %

@@ -110,7 +110,7 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   return out;
 }
 
-// Which triangles stand for which round solids.
+// Round solids, each with the triangles that represent it.
 std::string rounds_table(const std::vector<RoundPiece>& pieces) {
   std::string out = "  round = {\n";
   for (const RoundPiece& piece : pieces)

@@ -17,8 +17,8 @@ void BlockLu::analyze(const std::vector<int>& sizes,
   lay_out();
 }
 
-// Eliminates the group of fewest neighbours, the first of several, until none is left; the others
-// become neighbours of each other.
+// Minimum degree ordering: eliminates the group with the fewest neighbours, the first of several,
+// until no group is left; its neighbours become neighbours of each other.
 void BlockLu::find_order(const std::vector<std::pair<int, int>>& pairs) {
   const size_t count = sizes_.size();
   neighbours_.assign(count, {});
@@ -82,8 +82,8 @@ int BlockLu::place(int i, int j) const {
 
 namespace {
 
-// Replaces a, n x n by columns, by its inverse, with row exchanges: Gauss and Jordan's method.
-// Size  n where it is known, so that all loops are of known length; else Eigen::Dynamic
+// Replaces a, n x n by columns, by its inverse: Gauss-Jordan elimination with row exchanges.
+// Size  n if it is known, so that all loops are of known length; else Eigen::Dynamic
 template <int Size>
 bool invert(int rows, double* a, int* exchanged) {
   const int n = Size == Eigen::Dynamic ? rows : Size;
@@ -117,7 +117,7 @@ bool invert(int rows, double* a, int* exchanged) {
 
 }  // namespace
 
-// Size: of all groups; Eigen::Dynamic: of any size
+// Size  of all groups; Eigen::Dynamic: groups may differ in size
 template <int Size>
 bool BlockLu::eliminate(int group) {
   exchanged_.resize(sizes_[group]);

@@ -1,5 +1,5 @@
-// Systems of equations between small groups of unknowns, such as the coordinates of bodies of which
-// few touch each other.
+// Sparse linear systems whose unknowns form small groups, such as the coordinates of bodies that
+// each touch few others.
 #pragma once
 #include <Eigen/Core>
 #include <utility>
@@ -7,29 +7,30 @@
 
 namespace clench {
 
-/// LU of a matrix of dense blocks most of which are 0. Groups are eliminated in an order of least
-/// degree, so that few blocks fill; pivots are chosen within the diagonal blocks alone, which suits
-/// matrices whose symmetric part is positive definite, or nearly so.
+/// LU factors of a matrix of dense blocks, most of which are 0. Groups are eliminated in minimum
+/// degree order, which keeps fill-in low; pivots are chosen within the diagonal blocks alone, which
+/// suits matrices whose symmetric part is positive definite, or nearly so.
 /// source  George & Liu (1989), The evolution of the minimum degree ordering algorithm
 class BlockLu {
  public:
   /// Lays out the blocks for matrices of one pattern.
   /// sizes  unknowns of each group, > 0
-  /// pairs  groups (i, j), i != j, with blocks of their own: (i, j) and (j, i); may repeat
+  /// pairs  groups (i, j), i != j, whose blocks (i, j) and (j, i) may be nonzero; may repeat
   void analyze(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& pairs);
+  /// Sets all blocks to 0.
   void set_zero();
-  /// Where a block is among values(), by columns, with size(i) rows.   i, j  one of the pairs, or i
-  /// == j
+  /// Index in values() of block (i, j), stored by columns.   i, j  one of the pairs, or i == j
   int place(int i, int j) const;
-  /// Of the matrix, until factor() replaces it by its factors.
+  /// Values of the blocks: of the matrix, and after factor() of its factors.
   double* values() { return values_.data(); }
-  /// returns  false: a pivot is 0 or not finite
+  /// Replaces the matrix by its factors.   returns  false: a pivot is 0 or not finite
   bool factor();
-  /// x = m^-1 x, after a factor() that returned true.   x  all unknowns, group by group
+  /// Replaces x by the solution of (matrix) y = x, after a factor() that returned true.
+  /// x  all unknowns, group by group
   void solve(Eigen::VectorXd& x) const;
 
  private:
-  // A group that is eliminated later, and where its two blocks with an earlier one are.
+  // A neighbour of a group that is eliminated later, and where the two blocks of the pair are.
   struct Later {
     int group = 0;
     int upper = 0, lower = 0;  // (earlier, later) and (later, earlier)
@@ -39,13 +40,12 @@ class BlockLu {
   template <int Size>
   bool eliminate(int group);
 
-  std::vector<int> sizes_, first_;  // first_: unknown of each group
-  std::vector<int> order_, position_;
-  std::vector<std::vector<int>> neighbours_;  // while the order is found; then those that are later
+  std::vector<int> sizes_, first_;     // first_: first unknown of each group
+  std::vector<int> order_, position_;  // of elimination; position_: by group, its index in order_
+  std::vector<std::vector<int>> neighbours_;  // of each group, among those eliminated later
   std::vector<std::vector<Later>> later_;     // by group, as they are eliminated
   std::vector<int> diagonal_;                 // by group: where its block is
-  std::vector<int> targets_,
-      first_target_;  // of each elimination: blocks that it changes, by group
+  std::vector<int> targets_, first_target_;   // by group: blocks that its elimination changes
   std::vector<double> values_;
   std::vector<int> exchanged_;  // rows of one diagonal block
   bool all_six_ = false;

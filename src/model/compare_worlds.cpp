@@ -192,7 +192,7 @@ std::vector<size_t> Comparer::bodies_off(const World& world,
   return out;
 }
 
-// pair by pair only where their bits are not the same
+// Compares pair by pair only if the collision bits differ: there may be millions of pairs.
 bool Comparer::pairs_off_differ() const {
   const auto bits = [](const World& world, const std::vector<Id<Body>>& all) {
     std::vector<std::optional<CollisionBits>> out;

@@ -127,9 +127,9 @@ static bool presses(const World& world, const Manifold& m) {
          relative_pose(world, m.a, m.b) == m.X_AB_end;
 }
 
-// The touch of each point of the last step: that on the same features, else the nearest. One that
-// presses where none is becomes one; of what is round in motion alone the step knows better than
-// its facets where they touch.   returns  -1: none
+// The touch of each point of the last step: that on the same features, else the nearest. A point
+// that presses where there is no touch becomes one. If a shape is round in motion alone, the points
+// of the step replace the touches of its triangles.   returns  indices into touches; -1: none
 static std::vector<int> match(const World& world, const Manifold& manifold, const Pose& X_AB,
                               std::vector<Touch>& touches) {
   constexpr double near = 1e-3;

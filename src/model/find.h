@@ -12,7 +12,7 @@ namespace clench {
 
 /// Pairs that may collide and do, in creation order.
 std::vector<BodyPair> colliding_pairs(const World& world, QueryContext* context = nullptr);
-/// The first `max` of them, in memory for as many: a crowded world has millions.
+/// The first `max` of these pairs; uses memory for no more than that.
 std::vector<BodyPair> first_colliding_pairs(const World& world, size_t max,
                                             QueryContext* context = nullptr);
 /// Only pairs with one body from each group.

@@ -51,7 +51,7 @@ void sort_along(int axis, std::vector<SweepItem>& items) {
   }
 }
 
-// Visits all pairs whose boxes are within the reach along the axis of the sweep, whichever first.
+// Visits all pairs whose boxes are within the reach along the axis of the sweep, in any order.
 template <class Visit>
 void sweep_along(std::vector<SweepItem>& items, double reach, Visit visit) {
   const int axis = widest_axis(items);
@@ -66,7 +66,7 @@ void sweep_along(std::vector<SweepItem>& items, double reach, Visit visit) {
   }
 }
 
-// Visits all pairs within the reach, whichever first.
+// Visits all pairs within the reach, in any order.
 template <class Visit>
 void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
   sweep_along(items, reach, [&](const SweepItem& x, const SweepItem& y) {
@@ -151,7 +151,7 @@ std::vector<BodyPair> first_near(const World& world, size_t max, QueryContext& c
   }
   std::vector<SweepItem>& items = context.sweep_order(world.model());
   for (SweepItem& item : items) find_box(world, context, item);
-  // the first of those that were found; once there are enough, pairs after the last are not asked
+  // the first pairs found so far, at most max; once there are max, later pairs are not tested
   using Numbers = std::pair<int, int>;
   std::set<Numbers> kept;
   Numbers last(std::numeric_limits<int>::max(), 0);

@@ -104,7 +104,7 @@ class World {
   void set_appearance(Id<Body> body, const Appearance& appearance);
 
   const MaterialTable& materials() const { return settings_->materials; }
-  /// Adds the material of this friction, unless there is one of its name.
+  /// Adds the material with this friction, unless a material has its name.
   void add_friction(const OwnFriction& own);
   void set_friction(std::string_view a, std::string_view b, Friction friction) {
     edit_settings().materials.set_friction(a, b, friction);
@@ -154,7 +154,7 @@ class World {
   void set_collision(bool on, Id<Body> body);           ///< one body against everything
   void set_collision(bool on, Id<Body> a, Id<Body> b);  ///< a pair
   bool may_collide(Id<Body> a, Id<Body> b) const;
-  /// Pairs that are switched on later collide whatever their bits say.
+  /// Pairs that set_collision() switches on later collide whatever their bits are.
   void set_collision_bits(Id<Body> body, const CollisionBits& bits);
   /// All pairs that are switched off, those that bits keep apart included, in their order.
   /// throws Error when there are more than max_pairs_off

@@ -101,10 +101,10 @@ std::vector<Id<Body>> carried_bodies(const World& world, Id<Robot> robot) {
   return out;
 }
 
-// Pose of a body that overlaps what it stands on by no more than the contact threshold, raised
-// against gravity until there is a gap of a quarter of the threshold and more. Leaves the body
-// where it is.
-// returns  nothing where it collides at no height, or still collides one threshold higher
+// X_WB raised against gravity, for a body that overlaps its support by no more than the contact
+// threshold: until there is a gap of at least a quarter of the threshold. Leaves the body where it
+// is.
+// returns  nothing if the body does not collide at X_WB, or still collides one threshold higher
 std::optional<Pose> raised_from_support(World& world, Id<Body> body, const Pose& X_WB) {
   const std::array one{body};
   const Pose start = world.pose(body);
@@ -134,7 +134,7 @@ MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
   world.set_pose(body, X_WB);  // refuses a part of a robot and a pose that is not finite
   world.set_pose(body, from);
   Way way{from, X_WB, {body}, [&](const Pose& X) { world.set_pose(body, X); }};
-  // one that stands on something slides and leaves as if there were a gap, at both ends
+  // a body that stands on something moves as if there were a gap below it, at both ends
   if (const auto raised = raised_from_support(world, body, from)) {
     way.from = *raised;
     way.to = raised_from_support(world, body, X_WB).value_or(X_WB);

@@ -18,9 +18,9 @@ struct MoveResult {
 
 /// Moves an object or obstacle along the straight line and shortest turn to X_WB, until it first
 /// touches something. The gap that remains is in (0, threshold]. A body that starts in contact may
-/// leave or slide; it is not pushed in. One that overlaps what it stands on by no more than the
-/// threshold starts from above it, raised against gravity by at most 1.25 thresholds; so is X_WB
-/// where it stands there, too.
+/// leave or slide; it is not pushed in. A body that overlaps its support by no more than the
+/// threshold is first raised against gravity, by at most 1.25 thresholds; if it overlaps a support
+/// at X_WB as well, that pose is raised in the same way.
 /// throws Error naming the pairs when it starts in collision otherwise
 MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB);
 

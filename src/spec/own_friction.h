@@ -1,15 +1,15 @@
-// Friction that a surface brings along from its file, and how that of two surfaces combines.
+// Friction that a file gives to a surface, and the combined friction of two such surfaces.
 #pragma once
 #include <compare>
 #include <string>
 
 namespace clench {
 
-/// The friction of a geom of MuJoCo.
+/// Friction of one surface, as that of a geom in MuJoCo.
 struct OwnFriction {
   double mu = 1;     ///< Coulomb coefficient, >= 0
-  int priority = 0;  ///< of two in contact, the coefficient of the higher priority counts
-  bool frictionless = false;
+  int priority = 0;  ///< of two surfaces in contact, the coefficient of the higher priority counts
+  bool frictionless = false;  ///< as condim="1" of a geom
 
   auto operator<=>(const OwnFriction&) const = default;
 };

@@ -108,7 +108,7 @@ struct RobotSpec {
   std::optional<std::vector<VirtualContactSpec>> virtual_contacts;
   std::optional<GloveCalibration> glove;
   RobotFiles files;  ///< where the three above come from
-  /// materials of its parts that its file defines, each by the name of material_name()
+  /// frictions that its file gives its parts; their materials have the names of material_name()
   std::vector<OwnFriction> frictions;
   std::optional<TrackerSpec> tracker;
   std::vector<TactileSpec> tactile;

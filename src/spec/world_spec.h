@@ -61,7 +61,6 @@ struct FrictionSpec {
   std::optional<double> restitution = {};
 };
 
-/// All that is switched off, by the names of bodies.
 /// A body, or a base or link of a robot.
 struct PartRef {
   WorldEntry::Kind kind = WorldEntry::Kind::body;  ///< body or robot
@@ -69,9 +68,8 @@ struct PartRef {
   int link = -1;                                   ///< of the robot; -1: its base
 };
 
-/// Bits of a body or a part of a robot: of two that have some, in different robots, the type of one
-/// and the affinity of the other must share a bit where they are to collide. Those that stand never
-/// collide with each other.
+/// Bits of a body or a part of a robot. Two parts with bits that are not of one robot collide only
+/// if the type of one and the affinity of the other share a bit, and if not both are fixed.
 struct CollisionBits {
   unsigned type = 1, affinity = 1;
   bool stands = false;  ///< fixed to the world
@@ -82,12 +80,13 @@ struct CollisionBits {
   bool operator==(const CollisionBits&) const = default;
 };
 
+/// Collisions that are switched off, and bits, by the names of bodies.
 struct CollisionSpec {
   bool on = true;  ///< false: nothing collides
   std::vector<std::string> bodies_off;
   std::vector<std::array<std::string, 2>> pairs_off;
   std::vector<std::pair<std::string, CollisionBits>> bits;
-  std::vector<std::array<std::string, 2>> pairs_on;  ///< that bits would keep apart
+  std::vector<std::array<std::string, 2>> pairs_on;  ///< they collide whatever their bits are
 };
 
 /// A state of a world by its name: what stands where then. What it does not name stays as it is.
@@ -120,12 +119,12 @@ struct WorldSpec {
   std::optional<double> contact_threshold;  ///< [m]; absent: that of an empty world
   std::optional<double> time_step;          ///< of dynamics [s]; absent: that of an empty world
   std::vector<FrictionSpec> friction;       ///< in the order in which new materials get their names
-  std::vector<OwnFriction> frictions;       ///< materials beside, by the names of material_name()
+  std::vector<OwnFriction> frictions;       ///< of further materials, named by material_name()
   std::optional<CollisionSpec> collision;   ///< absent: what the robots bring along
   std::vector<std::array<PartRef, 2>> never_meet;  ///< beside what the robots bring along
-  /// a pair of which one has none may collide
+  /// pairs of which one part has no bits may collide
   std::vector<std::pair<PartRef, CollisionBits>> collision_bits;
-  std::vector<std::array<PartRef, 2>> always_meet;  ///< although their bits keep them apart
+  std::vector<std::array<PartRef, 2>> always_meet;  ///< whatever their bits are
   bool collision_on = true;                         ///< false: nothing collides
   /// in the world frame [m/s^2]; absent: standard_gravity along -z
   std::optional<Eigen::Vector3d> gravity;

@@ -20,7 +20,7 @@ local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
 local function visible(text) return printable(in_utf8(text), "\n") end
 
--- numbers between commas; {} where there is anything else
+-- numbers separated by commas; {} if anything else is among them
 local function numbers_of(text)
   local numbers, count = {}, 0
   for word in (text .. ","):gmatch "([^,]*)," do
@@ -107,9 +107,9 @@ local function check_words(given)
   if given["keep-lost"] and not given.verify then fail "--keep-lost says what becomes of grasps that --verify loses, and there is no --verify" end
 end
 
-local line_every = 10  -- where there is no terminal [s]
+local line_every = 10  -- between lines of progress without a terminal [s]
 
--- Lines of progress on stderr where it is no terminal; a hint is written at once.
+-- Writes progress as lines on stderr, for output without a terminal; a hint is written at once.
 local function progress_lines()
   local next_line, hinted = line_every, false
   return function(state)
@@ -225,7 +225,7 @@ function plan.save()
   return problem and "1" or "0"
 end
 
--- the options that were given, seed and version
+-- One line with hand, object, the given options, seed and version.
 local function options_line()
   local given, parts = job.given, {}
   for _, name in ipairs(identity.sorted_names(given)) do

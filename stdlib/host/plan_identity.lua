@@ -56,7 +56,7 @@ local function mechanics_of(hand)
           chains = chains_of(hand)}
 end
 
---- Names of the options that were given and on which grasps depend, in order.
+--- Names of the given options that decide which grasps are found, sorted; without hand, object and seed.
 ---@param given table<string, string|string[]>
 ---@return string[]
 function identity.sorted_names(given)

@@ -2,15 +2,15 @@
 local name_list = require "clench.name_list"
 local assumptions = {}
 
-local longest = 1 << 20  -- of a file that is searched for a statement [bytes]
+local max_searched = 1 << 20  -- the part of a file that is searched for words [bytes]
 
 local function file_name(path) return path:match "[^/]*$" end
 
--- Does a file state something, by one of these words?
-local function states(path, words)
+-- Does a file contain one of these words?
+local function mentions(path, words)
   local file = path ~= "" and io.open(path, "rb")
   if not file then return false end
-  local text = (file:read(longest) or ""):lower()
+  local text = (file:read(max_searched) or ""):lower()
   file:close()
   for _, word in ipairs(words) do
     if text:find(word, 1, true) then return true end
@@ -21,19 +21,19 @@ end
 local material_words, mass_words = {"material", "friction"}, {"mass", "weight", "density"}
 
 -- files of meshes state neither materials nor masses
-local of_meshes = {obj = true, stl = true, ply = true, off = true, glb = true, gltf = true, dae = true}
+local mesh_formats = {obj = true, stl = true, ply = true, off = true, glb = true, gltf = true, dae = true}
 
--- "its file", or that it is assumed
+-- "set by the script", "from its file", or that the value is assumed
 local function source_of(thing, words)
   if thing.source == "" then return "set by the script" end
   local extension = thing.source:match "%.(%w+)$"
-  if extension and of_meshes[extension:lower()] then words = {} end
+  if extension and mesh_formats[extension:lower()] then words = {} end
   if extension == "urdf" and words == material_words then words = {"<clench"} end
-  if states(thing.source, words) then return "from its file" end
+  if mentions(thing.source, words) then return "from its file" end
   return ("assumed, as %s states none"):format(file_name(thing.source))
 end
 
--- coefficients of the hand's materials on the object's, the lowest first
+-- Coefficients between the hand's materials and that of the object, the lowest first.
 local function frictions(hand, object)
   local world, seen, list = hand.world, {}, {}
   for _, body in ipairs(hand.bodies) do
@@ -63,14 +63,14 @@ local function mass_line(object, given)
   return object.mass, ("mass %.4g kg (%s)"):format(object.mass, given.mass and "--mass" or source_of(object, mass_words))
 end
 
--- "0.5 to 2 N or N m", of the motors that close
+-- Smallest and largest effort of the motors that close the hand [N m or N], and the number of motors without limits.
 local function limits_of(hand)
   local low, high, free = math.huge, 0, 0
   for i, info in ipairs(hand.dof_info) do
     if info.default_velocity ~= 0 and info.driven then
       local range = hand.effort_ranges[i]
-      local most = math.max(math.abs(range[1]), math.abs(range[2]))
-      if most == math.huge then free = free + 1 else low, high = math.min(low, most), math.max(high, most) end
+      local largest = math.max(math.abs(range[1]), math.abs(range[2]))
+      if largest == math.huge then free = free + 1 else low, high = math.min(low, largest), math.max(high, largest) end
     end
   end
   return low, high, free
@@ -94,9 +94,9 @@ end
 --- The assumptions of a search.
 ---@param hand robot
 ---@param object body
----@param verify table?  of plan.sample, as it was read
+---@param verify table?  option of plan.sample, with its defaults; nil: nothing is verified
 ---@param given table<string, string>  options of the command line by name; {} for a script
----@return {friction?: number, mass: number, force_ratio?: number, lines: string[]}  friction: the lowest
+---@return {friction?: number, mass: number, force_ratio?: number, lines: string[]}  friction: the lowest coefficient; force_ratio: [weights]; mass: [kg]
 function assumptions.of(hand, object, verify, given)
   local out = {lines = {}}
   out.friction, out.lines[1] = friction_line(hand, object, given)

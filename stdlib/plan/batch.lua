@@ -56,7 +56,7 @@ end
 ---@param job table  of clench.plan.job
 ---@param stats table  of clench.plan.report; sets `complete`: false if the time, a signal or a cancellation ended the search
 ---@param next_state? fun(number: integer): table?  returns nil after the last start; absent: the search ended before its starts were prepared
----@param options {planner: string, limit: integer, count?: integer, keep_searching?: boolean, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp), on_progress?: fun(state: table), hint?: (fun(found: integer): string?), journal?: table}  keep_searching: `count` ends nothing; hint: asked between rounds; journal: of clench.plan.journal; starts that it records are not tried again
+---@param options {planner: string, limit: integer, count?: integer, keep_searching?: boolean, distance?: number, near_found?: boolean, approach?: number, back?: table, refine?: integer, verify?: table, on_grasp?: fun(grasp: grasp), on_progress?: fun(state: table), hint?: (fun(found: integer): string?), journal?: table}  keep_searching: the search does not end at `count` grasps; hint: called after each round until it returns a sentence; journal: of clench.plan.journal; starts that it records are not tried again
 ---@return grasp[]  may be more than `count`: rounds are completed, and similar grasps count once
 function batch.try(job, stats, next_state, options)
   stats.candidates, stats.rejected = 0, {}

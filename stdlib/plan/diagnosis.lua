@@ -1,32 +1,21 @@
---- Why a search finds nothing: of candidates that hold too little, how many would hold with more friction, with more normal force, or with
---- stronger motors. Only that many are looked at, one after the other in the order of their numbers.
+--- Diagnoses a search that finds nothing: of the candidates that hold too little, how many would hold with more friction, with more normal
+--- force, or with stronger motors. Only some candidates are looked at, in the order of their numbers.
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
 local share_friction = require "clench.study.motion.share_friction"
 local verification = require "clench.plan.verification"
 local diagnosis = {}
 
-local levels = {2, 4}    -- times the friction and the normal force
-local enough = 24       -- candidates that are looked at
-local most_tries = 400  -- until there are so many
+local levels = {2, 4}   -- factors of the friction and of the normal force
+local max_looked_at = 24  -- candidates
+local max_tries = 400     -- starts, until there are that many candidates
 
--- the least load in six directions, in weights
-local function load_of(object, grasp, force_ratio, torque_limits)
-  local weight, least = 9.81 * object.mass, math.huge
-  for _, d in ipairs(verification.directions) do
-    local result = grasp:max_load {direction = {d.x * weight, d.y * weight, d.z * weight, 0, 0, 0},
-                                   max_total_force = force_ratio * weight, torque_limits = torque_limits}
-    least = math.min(least, (result.status == "optimal" or result.status == "unlimited") and result.load or 0)
-    if least <= 0 then break end
-  end
-  return least
-end
-
--- Which changes make a grasp hold what is asked?
+-- Which changes make a grasp hold the required load?
+-- returns  booleans by level for each change; nil: it holds without any change
 local function cures(hand, object, grasp, verify, options)
   local function holds(placed, force_ratio, torque_limits)
     if #placed.points == 0 or placed:quality "epsilon" <= 0 then return false end
-    return not verify or load_of(object, placed, force_ratio, torque_limits) >= verify.min_load
+    return not verify or verification.load(object, placed, force_ratio, torque_limits) >= verify.min_load
   end
   local force_ratio = verify and verify.force_ratio or 0
   if holds(grasp, force_ratio, true) then return nil end
@@ -42,20 +31,20 @@ local function cures(hand, object, grasp, verify, options)
   return out
 end
 
---- Looks at starts of a search.
+--- Closes the hand from starts of a search, and counts the candidates that would hold after each change.
 ---@param job table  of clench.plan.job
 ---@param next_state fun(number: integer): table?
 ---@param options {approach?: number, back?: table, verify?: table}
 ---@param seconds number  at most
----@return {looked_at: integer, friction: integer[], force_ratio: integer[], effort: integer[]}  counts of those that would hold, by level
+---@return {looked_at: integer, friction: integer[], force_ratio: integer[], effort: integer[]}  numbers of candidates that would hold, by level
 function diagnosis.of(job, next_state, options, seconds)
   local silence <close> = quiet()
   local hand, object, world = job.hand, job.object, job.world
   local here <close> = world:snapshot()
   local counts, over = {looked_at = 0, friction = {0, 0}, force_ratio = {0, 0}, effort = {0}}, clench.clock() + seconds
   local how = {approach = options.approach, back = options.back, grasp = job.grasp_options}
-  for number = 1, most_tries do
-    local state = clench.clock() < over and counts.looked_at < enough and next_state(number)
+  for number = 1, max_tries do
+    local state = clench.clock() < over and counts.looked_at < max_looked_at and next_state(number)
     if not state then break end
     local grasp = closing.close(hand, object, state, how)
     local cured = grasp and grasp.collision_free and cures(hand, object, grasp, options.verify, job.grasp_options)
@@ -70,14 +59,14 @@ function diagnosis.of(job, next_state, options, seconds)
   return counts
 end
 
---- What is short, in a sentence; nil: nothing of these.
+--- The result of a diagnosis in a sentence; nil if no candidate was looked at.
 ---@param counts table  of diagnosis.of
 ---@param assumed table  of clench.plan.assumptions
 ---@return string?
 function diagnosis.text(counts, assumed)
   if counts.looked_at == 0 then return nil end
   local parts = {}
-  -- the least that is enough for some
+  -- the smallest level that is enough for any candidate
   local function add(by_level, format, value)
     for i, count in ipairs(by_level) do
       if count > 0 then
@@ -90,7 +79,7 @@ function diagnosis.text(counts, assumed)
   if assumed.force_ratio then add(counts.force_ratio, "normal forces of %.4g instead of %.4g weights (--force-ratio)", assumed.force_ratio) end
   add(counts.effort, "motors without limits of effort")
   if #parts == 0 then
-    return ("of %d closed candidates that hold too little none would hold with %d times the friction, %d times the normal force or unlimited efforts"):format(
+    return ("of %d closed candidates that hold too little, none would hold with %d times the friction, %d times the normal force or unlimited efforts"):format(
       counts.looked_at, levels[#levels], levels[#levels])
   end
   table.sort(parts, function(a, b) return a[1] > b[1] end)

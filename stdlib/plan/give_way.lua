@@ -47,7 +47,8 @@ local function closed_by(hand, dofs)
   return closed
 end
 
--- How far the hand can go until it touches the object with its other side [m]; nil: it does not, or touches something else before.
+-- The distance along `way` after which the other side of the hand touches the object [m]; nil: it never does, or something else is touched
+-- first.
 local function gap_beyond(hand, object, way)
   local X_WH = hand.pose
   local move = hand:move_to(clench.pose {xyz = way * max_way} * X_WH)
@@ -57,8 +58,8 @@ local function gap_beyond(hand, object, way)
   end
 end
 
--- Closes at a pose from `dofs`, and shifts the hand by half of what is left on the other side while one side alone touches. The object stays,
--- whatever it stands on.
+-- Closes at a pose from `dofs`. While only one side touches, shifts the hand by half of the gap on the other side. The object does not move,
+-- so its supports have no influence.
 -- returns  how far it closed, the pose, and the contacts; nil: something is in the way, or only one side is ever touched
 local function close_between(hand, object, pose, dofs)
   hand:set_posture(pose, dofs)
@@ -111,11 +112,11 @@ function give_way.are_jaws(hand)
   return false
 end
 
-local turns = {0.06, 0.02, 0.007, 0.0025}  -- that are tried, one after the other: at last edges of a pad of 20 mm are level within half the contact threshold [rad]
-local min_rate = 2e-4  -- by which a turn brings jaws closer, where it is worth a try [m per rad]
+local turns = {0.06, 0.02, 0.007, 0.0025}  -- tried in this order: the last one levels the edges of a pad of 20 mm within half the contact threshold [rad]
+local min_rate = 2e-4  -- closing rate from which a turn is tried [m per rad]
 
--- How fast jaws that touch on both sides come closer as they turn about an axis through `middle`, the hand giving way to the side meanwhile
--- [m per rad]: each contact lets its jaw recede along the normal, and not advance.
+-- Rate at which jaws that touch on both sides close as they turn about an axis through `middle` while the hand shifts to the side [m per rad]:
+-- each contact permits its jaw to recede along the normal, but not to advance.
 local function closing_rate(contacts, across, middle, axis)
   local thumb, others = math.huge, math.huge
   for _, contact in ipairs(contacts) do
@@ -126,7 +127,7 @@ local function closing_rate(contacts, across, middle, axis)
   return (thumb + others) / 2
 end
 
---- The same, and lets it turn about the approach and across it as long as the jaws come closer by that.
+--- The same; the hand also turns about its approach direction and across it while that brings the jaws closer together.
 function give_way.turn(hand, object, pose, dofs)
   local best, at, contacts = close_between(hand, object, pose, dofs)
   if not best then return end

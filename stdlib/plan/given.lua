@@ -1,2 +1,2 @@
---- Maps the options of a planner to what the command line was given for its search, by name. See clench.plan.assumptions.
+--- Maps the options of a planner to the options of the command line that started it, by name. See clench.plan.assumptions.
 return setmetatable({}, {__mode = "k"})

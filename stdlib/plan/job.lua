@@ -192,7 +192,8 @@ local function freed(world, name)
   return free
 end
 
--- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway, and what an object stands on; false: none
+-- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway and supports of an object; false if there
+-- are no such pairs.
 local function overlaps(world, thing, moved, stands_on)
   local names = {}
   for _, pair in ipairs(world:colliding(thing)) do

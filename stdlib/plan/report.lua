@@ -92,7 +92,7 @@ local looked_at, friction = 400, 0.5  -- points of the surface, and the cones in
 
 local report = {}
 
---- The sentence that nothing of the object fits between the pads of thumb and fingers; nil: something does.
+--- The sentence that no part of the object fits between the pads of thumb and fingers; nil if one does.
 function report.too_wide(job)
   if job.in_place or nothing_closes(job) then return end  -- in place: the world is the script's own
   local hand, object = job.hand, job.object

@@ -12,7 +12,7 @@ function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring
 ---@param job table
 ---@param found grasp[]  in the order in which they count
 ---@param told table  of plan.report
----@param options {count?: integer, distance?: number, spread?: boolean}  spread: of more than `count`, those from all sides
+---@param options {count?: integer, distance?: number, spread?: boolean}  spread: of more than `count` grasps, those from different sides are kept first
 return function(job, found, told, options)
   told.out_of_reach = 0
   if job.arm then found, told.out_of_reach = reach.filter(job, found) end

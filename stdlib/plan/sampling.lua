@@ -11,14 +11,15 @@ local report = require "clench.plan.report"
 local script_line = require "clench.script_line"
 local starts = require "clench.plan.starts"
 
-local diagnosis_after, diagnosis_time = 3, 1  -- of a search that has found nothing, and of looking for what is short [s]
+local diagnosis_after = 3   -- a search that has found nothing by then is diagnosed [s]
+local max_diagnosis_time = 1  -- [s]
 
 local function diagnose(job, own, next_state, assumed)
-  local seconds = math.min(diagnosis_time, math.max(0.2, (job.seconds or math.huge) / 10))
+  local seconds = math.min(max_diagnosis_time, math.max(0.2, (job.seconds or math.huge) / 10))
   return diagnosis.text(diagnosis.of(job, next_state, own, seconds), assumed)
 end
 
--- Reports once what is short, while a search finds nothing.
+-- Returns a function that diagnoses the search once if it has found nothing, and returns the result as a hint.
 local function watch(job, own, next_state, assumed)
   return function(found)
     if own.diagnosis or found > 0 or not own.verify or job:elapsed() < diagnosis_after then return nil end

@@ -1,6 +1,6 @@
---- A choice of grasps from all sides: those from directions that are not yet among the chosen come before better ones from a direction that is.
+--- Chooses grasps from different sides: a grasp from a new approach direction comes before a better one from a direction already chosen.
 
-local apart = math.cos(math.rad(30))  -- of approach directions that count as different
+local apart = math.cos(math.rad(30))  -- approach directions whose cosine is smaller count as different
 
 ---@param hand robot
 ---@param grasps grasp[]  best first
@@ -11,7 +11,7 @@ return function(hand, grasps, count)
   local in_base = hand.pose:inverse():rotate(hand.approach.direction)
   local directions, chosen, left = {}, {}, {}
   for i, grasp in ipairs(grasps) do directions[i], left[i] = grasp.pose:rotate(in_base), i end
-  -- rounds: in each, of every direction the best that is left
+  -- each round takes the best remaining grasp of every direction
   while #chosen < count do
     local of_round, rest = {}, {}
     for _, i in ipairs(left) do

@@ -177,7 +177,7 @@ local function holding(self, width)
   return a.closed + part * (b.closed - a.closed), clench.pose {xyz = shift} * a.X_FH, a.pad
 end
 
-local surface_points = 4096  -- that starts are chosen from
+local surface_points = 4096  -- number of points sampled on the surface, from which starts are chosen
 
 local function any_of(list, random) return list[random:integer(1, #list)] end
 
@@ -188,9 +188,9 @@ end
 
 local function across(direction, random) return unit(direction:cross(random:direction())) end
 
-local from_below = 0.3  -- cosine: an approach that comes more nearly out of what the object stands on is none
+local max_upward = 0.3  -- cosine between approach and up direction: steeper approaches from below are rejected
 
---- Across a line, from any side; of an object that stands on something not from below, and as often as not straight down.
+--- An approach direction across a line, from any side. If the object stands on something, never from below, and straight down half of the time.
 local function approach_across(hand, line, random)
   local up = hand.up
   if not up then return across(line, random) end
@@ -202,11 +202,11 @@ local function approach_across(hand, line, random)
   return direction and direction:dot(up) > 0 and -direction or direction
 end
 
---- Before a point of the surface, along its normal or tilted.
+--- A start before a point of the surface, along its normal or tilted.
 local function before_surface(hand, surface, random, standoff)
   local at = any_of(surface, random)
   local direction = -at.normal
-  if hand.up and direction:dot(hand.up) > from_below then return end
+  if hand.up and direction:dot(hand.up) > max_upward then return end
   local axis = across(direction, random)
   if axis then direction = clench.pose {axis = axis, angle = random:normal() * 0.4}:rotate(direction) end
   local side = across(direction, random)
@@ -215,7 +215,7 @@ local function before_surface(hand, surface, random, standoff)
           dofs = random_posture(hand, random, max_closed), retreat = math.max(0, random:uniform(-0.03, 0.03))}
 end
 
-local to_palm = 0.06      -- how far a hand goes on until its palm touches [m]
+local to_palm = 0.06      -- largest further travel until the palm touches [m]
 local approach_distances = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
 
 -- Does the hand come to the object so that what is to be between its pads gets there, and not what is in the way?
@@ -231,33 +231,36 @@ local function gets_there(hand, object, direction, pose, dofs)
   return free
 end
 
-local most_points = 6  -- of which two fingers take the one nearest to the centre of mass
+local max_points = 6  -- from which that of two fingers is chosen
 
--- A point of the surface. Two fingers carry what lies aside of them by friction alone: of some points they take the one nearest to the centre of mass.
+-- A point of the surface. Two fingers hold torques about the line between them by friction alone, so for them the point nearest to the centre of
+-- mass is chosen from several.
 local function surface_point(hand, object, surface, random)
   local nearest = any_of(surface, random)
-  for _ = 2, hand.is_two_fingered and random:integer(2, most_points) or 1 do
+  for _ = 2, hand.is_two_fingered and random:integer(2, max_points) or 1 do
     local other = any_of(surface, random)
     if (other.point - object.com):norm() < (nearest.point - object.com):norm() then nearest = other end
   end
   return nearest
 end
 
-local sides = 4          -- from which a hand tries to get to two points
-local shallow = -0.85    -- of half a pad: where little more than its end gets to them
-local pad_room = 0.006   -- that a finger takes beside the points [m]
+local sides = 4                -- number of approach directions that are tried for two points
+local shallow = -0.85          -- depth at which little more than the ends of the pads reach the points [half pads]
+local finger_clearance = 0.006  -- free distance that a finger needs beside a point [m]
 
--- Is there room beside a point of the surface for a finger?
-local function has_room(world, object, middle, line, apart)
+-- Is there enough free space for a finger beside each of two points?
+-- middle, line, apart  between the points, unit vector from one to the other, and their distance [m], in the object's frame
+local function is_clear_beside(world, object, middle, line, apart)
   for _, sign in ipairs {-1, 1} do
-    local hit = world:raycast(object.pose * (middle + line * (sign * (apart / 2 + 1e-4))), object.pose:rotate(line * sign), pad_room)
+    local hit = world:raycast(object.pose * (middle + line * (sign * (apart / 2 + 1e-4))), object.pose:rotate(line * sign), finger_clearance)
     if hit and hit.body ~= object then return false end
   end
   return true
 end
 
--- A side across the line from which jaws get to the points, as deep as a random number says, or else with little more than the ends of their pads.
--- returns  the direction of approach, and how far the middle between the pads goes beyond that between the points; nil: there is none
+-- Finds a direction across the line from which jaws reach the points without collision: at a random depth, or else with little more than the ends
+-- of their pads.
+-- returns  the approach direction, and the distance from the middle of the points to the middle of the pads along it [m]; nil if there is none
 local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   for _ = 1, sides do
     local direction, part = approach_across(hand, line, random), random:uniform(-0.7, 0.7)
@@ -269,11 +272,11 @@ local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
 end
 
 --- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
----@param checked boolean  for jaws: only where the hand gets to the points
+---@param checked boolean  for jaws: only directions from which the hand reaches the points without collision
 local function about_two_points(hand, world, object, surface, random, options, checked)
   local width = math.min(options.width, hand.aperture - starts.clearance)
   local middle, line, apart = facing.pair(world, object, surface_point(hand, object, surface, random), random, options.friction, width)
-  if not middle or hand.up and not has_room(world, object, middle, line, apart) then return end
+  if not middle or hand.up and not is_clear_beside(world, object, middle, line, apart) then return end
   local closed, X_FH, pad = holding(hand, apart + starts.clearance)
   local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(max_closed, closed))
   local direction, deeper
@@ -289,7 +292,7 @@ local function about_two_points(hand, world, object, surface, random, options, c
   return {pose = opposition.frame(start, direction, line) * X_FH, dofs = dofs, reach = options.standoff + deeper}
 end
 
--- the direction away from what an object stands on, in its frame; nil: it stands on nothing, or between things
+-- The mean normal of an object's supports, in its frame; nil: it has no support, or its supports oppose each other.
 local function up_of(on, object)
   local sum = clench.vec3(0, 0, 0)
   for _, normal in ipairs(on.normals) do sum = sum + normal / #on.normals end

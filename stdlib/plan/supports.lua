@@ -1,16 +1,16 @@
---- Supports of an object: the bodies that it touches, or overlaps by no more than the contact threshold, and the directions in which they
---- let it move. The hand is none of them.
+--- Supports of an object: the bodies, other than the hand, that it touches or overlaps by no more than the contact threshold, and the directions
+--- in which they permit it to move.
 local Supports = {}
 Supports.__index = Supports
 local supports = {}
 
--- heights to which an object is raised until it is free of a body that it stands on, in contact thresholds
+-- heights to which an object is raised until it is free of a support [contact thresholds]
 local raises = {0, 0.25, 0.5, 0.75, 1.05}
-local grazing = 1e-3  -- sine: a motion that enters a support by less slides along it
+local grazing = 1e-3  -- sine of the angle below which a motion into a support counts as sliding
 
 local function moved(pose, way) return clench.pose {xyz = way} * pose end
 
--- against gravity, or along +z where there is none
+-- the direction against gravity; +z without gravity
 local function upwards(world)
   local gravity = world.gravity
   local size = gravity:norm()
@@ -25,7 +25,7 @@ local function are_near(a, b, distance)
   return true
 end
 
--- bodies beside the hand and the object that are near enough to be supports
+-- bodies other than the hand and the object that are near enough to be supports
 local function neighbours(hand, object)
   local world, is_hand, list = hand.world, {}, {}
   for _, body in ipairs(hand.bodies) do is_hand[body.name] = true end
@@ -38,8 +38,8 @@ local function neighbours(hand, object)
   return list
 end
 
--- Normals into the object where a body touches it, from the lowest of the heights at which both are free of collision.
--- returns  nil: the overlap is deeper
+-- Contact normals of a body on the object, pointing into the object, at the lowest height where the two do not collide.
+-- returns  nil: they overlap by more than the contact threshold
 local function normals_of(body, object, X_WO, up)
   local world = object.world
   for _, part in ipairs(raises) do
@@ -52,8 +52,8 @@ local function normals_of(body, object, X_WO, up)
   end
 end
 
---- The supports of an object where it stands. A body that it overlaps by more than the contact threshold
---- is held against no motion.
+--- The supports of an object at its present pose. A body that it overlaps by more than the contact threshold
+--- restricts no motion.
 ---@param hand robot
 ---@param object body
 ---@return table
@@ -75,7 +75,7 @@ function supports.of(hand, object)
   return self
 end
 
---- Does the object move away from its supports or along them, in this direction?
+--- Do the supports permit a motion in this direction: away from them, or along them?
 ---@param direction vec3  of length 1
 function Supports:permit(direction)
   for _, normal in ipairs(self.normals) do
@@ -84,10 +84,10 @@ function Supports:permit(direction)
   return true
 end
 
---- The part of a motion that enters no support, for an object that has been displaced already: it slides along them.
----@param displaced vec3  from where it stood [m]
----@param way vec3  [m]
----@return vec3 way
+--- Projects a further motion of a displaced object so that it slides along supports instead of entering them.
+---@param displaced vec3  displacement so far [m]
+---@param way vec3  further motion [m]
+---@return vec3 way  [m]; zero if the object is wedged
 function Supports:slide(displaced, way)
   local to = displaced + way
   for _ = 1, 4 do
@@ -102,14 +102,14 @@ function Supports:slide(displaced, way)
   return clench.vec3(0, 0, 0)  -- wedged
 end
 
---- Switches collisions of the object with its supports off, so that it can be moved along them.
+--- Switches off collisions of the object with its supports, so that it can be moved along them.
 function Supports:release(object)
   for _, list in ipairs {self.touched, self.overlapped} do
     for _, body in ipairs(list) do object.world:set_collision(false, object, body) end
   end
 end
 
---- Does the object overlap one that it touched by more than the contact threshold, as where it slides along a surface that is curved inwards?
+--- Does the object now overlap a support by more than the contact threshold, as after sliding along a concave surface?
 function Supports:entered_by(object)
   local world = object.world
   for _, body in ipairs(self.touched) do

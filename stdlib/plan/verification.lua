@@ -17,8 +17,8 @@ verification.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.v
 
 local function moved(pose, way) return clench.pose {xyz = way} * pose end
 
--- Moves the object away from what pushes it, along its supports, by half of what is left until the hand touches its other side.
--- returns  whether it has moved
+-- Moves the object along `way`, as far as its supports permit, by half of the distance at which the hand touches its other side.
+-- returns  whether the object has moved
 local function give(hand, object, home, way, held_up)
   local X_WO = object.pose
   way = held_up:slide(X_WO.position - home.position, way)
@@ -34,7 +34,8 @@ local function give(hand, object, home, way, held_up)
   return is_stopped_by_hand
 end
 
--- Closes on an object that lies free: while one side alone touches it, it gives way.
+-- Closes on an object that is free to move: it yields while the hand touches it on one side only.
+-- home  pose of the object where it stood; reach  largest displacement in one attempt [m]
 local function close_on_free(hand, object, home, reach, held_up, options)
   local grasp
   for _ = 1, 3 do
@@ -48,7 +49,8 @@ local function close_on_free(hand, object, home, reach, held_up, options)
   return grasp
 end
 
--- Jaws that one motor closes draw what lies free between them, and turn it: here they are turned about it instead, as seen from the object.
+-- Jaws that one motor closes shift and turn an object that is free to move. Here the jaws are shifted and turned instead: the motion relative
+-- to the object is the same.
 local function close_around_free(hand, object, dofs, options)
   local X_WH = hand.pose
   hand:set_posture(give_way.turn(hand, object, X_WH, dofs) or X_WH, dofs)
@@ -64,8 +66,8 @@ local function is_in_something(hand, object)
   return false
 end
 
--- Displaces the object relative to the open hand: the object where its surroundings permit that, otherwise the hand the other way.
--- returns  whether the hand is free of collision there, or a step back
+-- Displaces the object relative to the open hand: moves the object if its surroundings permit that, otherwise the hand in the opposite direction.
+-- returns  whether the hand is free of collision there, or a little farther back along its approach
 local function displace(hand, object, at, direction, displacement, held_up)
   local X_WH, X_WO, way = at.hand, at.object, direction * displacement
   object.pose = moved(X_WO, way)
@@ -82,9 +84,9 @@ local function displace(hand, object, at, direction, displacement, held_up)
 end
 
 --- The least epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of
---- the grasp and the DOFs before it closed; 0 where something is in the way. Displacements are of the object relative to the hand: where the
---- object stands on something and cannot be moved into it, the hand is moved the other way. An object that one side alone touches gives
---- way, along its supports; between jaws that one motor closes it turns as well. Looks no further once it is not above `enough`.
+--- the grasp and the DOFs before it closed; 0 where something is in the way. Displacements are of the object relative to the hand: where a
+--- support of the object blocks its displacement, the hand is moved in the opposite direction. An object that is touched on one side only
+--- yields along its supports; jaws that one motor closes also turn about it. Looks no further once it is not above `enough`.
 function verification.perturbed_epsilon(hand, object, grasp, displacement, enough, options)
   local world = hand.world
   local here <close> = world:snapshot()
@@ -111,14 +113,14 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
   return math.max(least, 0)
 end
 
---- How many times the object's weight the hand holds in the worst of six directions, its motors within their limits and
---- all normal forces together at most `force_ratio` weights.
-function verification.load(object, grasp, force_ratio)
+--- The load that the hand holds in the worst of six directions [weights of the object], with all normal forces together at most `force_ratio`
+--- weights, and motors within their limits unless `torque_limits` is false.
+function verification.load(object, grasp, force_ratio, torque_limits)
   local weight = 9.81 * object.mass
   local least = math.huge
   for _, d in ipairs(verification.directions) do
     local result = grasp:max_load {direction = {d.x * weight, d.y * weight, d.z * weight, 0, 0, 0},
-                                   max_total_force = force_ratio * weight, torque_limits = true}
+                                   max_total_force = force_ratio * weight, torque_limits = torque_limits ~= false}
     local load = (result.status == "optimal" or result.status == "unlimited") and result.load or 0
     least = math.min(least, load)
     if least <= 0 then break end

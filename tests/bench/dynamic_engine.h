@@ -29,7 +29,7 @@ enum class OdeMethod { quick_step, world_step };
 EngineKind ode_engine(OdeMethod method, bool meshes);
 EngineKind bullet_engine();
 
-/// The world that our engine moves.
+/// The world of our engine; other engines have none.
 const World& world_of(const DynamicEngine& ours);
 
 /// Our engine on more than a scene: its contacts.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "bench/dynamic_engine.h"
 #include "bench/heap_race.h"
@@ -25,11 +24,7 @@ namespace {
 constexpr double h = 1e-3;
 
 /// [us] of this thread
-double cpu() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e6 * double(t.tv_sec) + 1e-3 * double(t.tv_nsec);
-}
+double cpu() { return 1e6 * cpu_seconds(); }
 
 double middle(std::vector<double> values) {
   if (values.empty()) return NAN;
@@ -209,7 +204,7 @@ void measure_heaps(const std::vector<EngineKind>& engines, bool brief, Table& ta
   }
   if (brief) return;
   for (const EngineKind& kind : engines)
-    table.add("time grows with the power of bodies", "bin of boxes", kind.name,
+    table.add("exponent of time over bodies", "bin of boxes", kind.name,
               growth_exponent(all, kind.name));
   table.add("ODE quick step / ours, time", "bin of boxes, 100 bodies", "ours", ode / ours);
 }

@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "bench/heap_scenes.h"
+#include "bench/report.h"
 #include "clench/geometry/query/penetration.h"
 
 namespace clench::bench {
 
 namespace {
 
-double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-// The same measure for all engines: of the triangles, where the engine has put them.
-double deepest(const DynamicEngine& engine, const DynamicScene& scene) {
+// Largest penetration depth of two parts [m], by their triangles: the same measure for all engines.
+double max_depth(const DynamicEngine& engine, const DynamicScene& scene) {
   const int count = static_cast<int>(scene.parts.size());
   std::vector<std::shared_ptr<const Shape>> shapes;
   for (const Part& part : scene.parts) shapes.push_back(Shape::make(mesh_of(part), "part"));
@@ -36,14 +30,14 @@ double deepest(const DynamicEngine& engine, const DynamicScene& scene) {
 
 HeapFigures run_heap(const EngineKind& kind, const DynamicScene& scene, int bodies, int steps,
                      double h) {
-  constexpr int looks = 5;
+  constexpr int checks = 5;
   HeapFigures out{.scene = scene.name, .engine = kind.name, .bodies = bodies, .residual = NAN};
   const auto engine = kind.make(scene, h);
-  for (int look = 0; look < looks; ++look) {
-    const double start = thread_seconds();
-    engine->step(steps / looks);
-    out.seconds += thread_seconds() - start;
-    out.penetration = std::max(out.penetration, deepest(*engine, scene));
+  for (int check = 0; check < checks; ++check) {
+    const double start = cpu_seconds();
+    engine->step(steps / checks);
+    out.seconds += cpu_seconds() - start;
+    out.penetration = std::max(out.penetration, max_depth(*engine, scene));
   }
   out.fallen =
       scene.parts[scene.watched].X_W.position.z() - engine->pose(scene.watched).position.z();

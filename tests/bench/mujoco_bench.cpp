@@ -1,5 +1,6 @@
-// Grasps that were verified, shaken and lifted again in MuJoCo.
-//   bench_mujoco [--each] [--brief] [--limit COUNT] FILE...   FILE: as tests/bench/verdicts.lua and tables.lua write it
+// Shakes and lifts verified grasps in MuJoCo.
+//   bench_mujoco [--each] [--brief] [--limit COUNT] FILE...
+//   FILE  as tests/bench/verdicts.lua and tables.lua write it
 #include <cstdio>
 #include <iostream>
 

@@ -3,7 +3,6 @@
 //   bench_planning [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
-#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -51,13 +50,6 @@ std::vector<Scene> scenes() {
   out.push_back(
       {"Barrett + mug", root, at("robots/Barrett/Barrett.xml"), at("objects/mug.xml"), 1939});
   return out;
-}
-
-/// [s] of this thread
-double cpu() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 double resident_megabytes() {
@@ -126,13 +118,13 @@ Figures measure(const Scene& scene, const BenchOptions& options, Report& report)
   Chain beside = chain_of(world, who, seed);
   ContactEnergy energy(*beside.world, who, {});
   for (int b = 0; b < blocks; ++b) {
-    double start = cpu();
+    double start = cpu_seconds();
     own.search->run(steps);
-    own_time += cpu() - start;
+    own_time += cpu_seconds() - start;
     for (Peer& peer : peers) {
-      start = cpu();
+      start = cpu_seconds();
       peer.step->run(steps);
-      peer.time += cpu() - start;
+      peer.time += cpu_seconds() - start;
       const bool same = (own.search->values() - peer.step->values()).cwiseAbs().maxCoeff() < 1e-9 &&
                         std::abs(own.search->energy() - peer.step->energy()) <
                             1e-6 * std::abs(peer.step->energy());
@@ -142,14 +134,14 @@ Figures measure(const Scene& scene, const BenchOptions& options, Report& report)
     // energies of states near the chain's, each set and measured anew
     const HandState at = own.space->state(own.search->values());
     const Pose X_WO = beside.world->pose(who.object);
-    start = cpu();
+    start = cpu_seconds();
     for (int i = 0; i < steps; ++i, ++evaluated) {
       Pose X = X_WO * at.X_RH;
       X.position.x() += 1e-4 * i;
       beside.world->set_posture(who.hand, X, at.dofs);
       energy.value(*beside.world);
     }
-    energy_time += cpu() - start;
+    energy_time += cpu_seconds() - start;
   }
   out.ours = blocks * steps / own_time;
   out.evaluations = evaluated / energy_time;

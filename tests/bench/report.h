@@ -16,6 +16,9 @@ inline double now() {
       .count();
 }
 
+/// Processor time of this thread [s].
+double cpu_seconds();
+
 /// the answer of a question, and how long it took [us]
 template <class Ask>
 auto timed(std::vector<double>& times, Ask&& ask) {

@@ -27,9 +27,9 @@ local paths = {
 table_scene.hands = {"parallel_jaw", "adaptive_gripper", "barrett", "leap", "allegro"}
 table_scene.objects = {"mug", "phone", "cracker_box", "soup_can", "mustard", "banana", "apple", "screwdriver", "hammer", "baseball", "cup"}
 
-local mass, mu = 0.1, 0.6  -- of each object [kg], and between it and hands
-local weights = 10         -- of normal force with which hands press
-local settling = 3         -- [s]
+local mass, mu = 0.1, 0.6  -- mass of each object [kg], and friction between objects and hands
+local weights = 10         -- normal force of hands [weights of the object]
+local settling = 3         -- time until an object is at rest [s]
 
 local function is_there(path)
   local file = io.open(path, "rb")
@@ -37,7 +37,7 @@ local function is_there(path)
   return file ~= nil
 end
 
--- an object that was dropped by a millimetre, and has come to rest
+-- Drops the object from a millimetre above the table, and waits until it is at rest.
 local function rest(world, object)
   object.pose = {xyz = {0, 0, 0.001 - object.mesh.bounds.low.z}}
   world:run(settling)
@@ -57,7 +57,7 @@ function table_scene.load(hand_name, object_name)
   return {world = world, hand = hand, object = object, table = board, hand_name = hand_name, object_name = object_name}
 end
 
--- the hand as numbers, where all its DOFs are as near to 0 as they can be
+-- The hand as numbers, with every DOF at the value nearest to 0 within its limits.
 local function describe_hand(hand_name)
   local hand = clench.world():add_robot(paths[hand_name])
   local values = {}
@@ -66,7 +66,7 @@ local function describe_hand(hand_name)
   return describe.hand(hand)
 end
 
--- a grasp, and the torques with which the hand presses; joints of a DOF share its torque
+-- One grasp, with the torques with which the hand presses; joints of one DOF share its torque.
 local function row_of(scene, grasp, dofs)
   local hand, object = scene.hand, scene.object
   local placed = grasp:apply(scene.world, {hand = hand, object = object})

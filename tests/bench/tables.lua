@@ -1,7 +1,7 @@
 -- Grasps of objects at rest on a table: five hands, eleven objects of ours and of shared data, verified grasps in 8 s of one core.
 --   clench run tests/bench/tables.lua [--seconds S | --candidates N] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]
 --   --hands, --objects  a part of the table
---   --candidates        so many of each pair, instead of a time
+--   --candidates        number of candidates per pair, instead of a time
 --   --scenes            writes each pair and its grasps for bench_mujoco
 -- Aim: five verified grasps on nine of ten pairs whose narrowest graspable width fits the hand.
 package.path = "tests/bench/?.lua;" .. package.path
@@ -28,7 +28,7 @@ do
   end
 end
 
--- those of a list that were asked for
+-- The names of a list that an option selects.
 local function chosen(all, text, what)
   if not text then return all end
   local known, out = {}, {}
@@ -40,12 +40,12 @@ local function chosen(all, text, what)
   return out
 end
 
-local function best_reason(rejected)
-  local most, why = 0, "-"
+local function most_frequent(rejected)
+  local max, why = 0, "-"
   for reason, count in pairs(rejected) do
-    if count > most or count == most and reason < why then most, why = count, reason end
+    if count > max or count == max and reason < why then max, why = count, reason end
   end
-  return ("%s (%d)"):format(why, most)
+  return ("%s (%d)"):format(why, max)
 end
 
 local rows, fitting, with_enough = {}, 0, 0
@@ -73,7 +73,7 @@ for _, hand_name in ipairs(hands) do
       rows[#rows + 1] = {hand = hand_name, object = object_name, width = width or 0, opens = opens, candidates = report.candidates,
                          ms = 1000 * took / math.max(1, report.candidates), verified = verified}
       print(("%-18s %-12s %6.1f %6.1f %10d %8.1f %8d  %s"):format(hand_name, object_name, 1000 * (width or 0), 1000 * (opens or 0), report.candidates,
-        rows[#rows].ms, verified, best_reason(report.rejected)))
+        rows[#rows].ms, verified, most_frequent(report.rejected)))
       if options.scenes and verified > 0 then
         table_scene.save(scene, run.grasps, ("%s/%s_%s.json"):format(options.scenes, hand_name, object_name))
       end

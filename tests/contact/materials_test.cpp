@@ -119,7 +119,7 @@ TEST_CASE("materials of their own friction combine with each other and with the 
   CHECK(mu(name(high), "frictionless") == 0);
   CHECK(mu(name(smooth), "glass") == 0.2);
   CHECK(table.friction(table.index(name(low)), table.index("plastic")).kinetic == 0.3 - 0.1);
-  // what is set stays
+  // coefficients that were set explicitly are kept
   table.set_friction(name(low), name(high), {0.4, 0.4});
   table.add(low);
   CHECK(mu(name(low), name(high)) == 0.4);

@@ -10,7 +10,7 @@ namespace clench::test {
 
 using Eigen::Vector3d;
 
-// A prism or a ball of few facets whose formula alone says what it is.
+// A coarse prism or ball, whose contacts must follow from its formula.
 static ShapePtr solid(const Round& round, const Pose& X = {}) {
   Mesh mesh = ball(1, 6, 12);
   for (Vector3d& p : mesh.vertices) p = X * support(round, p.normalized());

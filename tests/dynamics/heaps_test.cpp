@@ -24,7 +24,7 @@ Vector3d direction_in(Random& random) {
 }
 
 /// Bodies of one to three kilograms in layers of four, each on some below it or on the ground, that
-/// arrive with velocities of their own; some contacts with torsion, some rows between bounds.
+/// arrive with random velocities; some contacts have torsion, some rows have bounds.
 TreeFriction random_heap(Random& random, int bodies) {
   TreeFriction heap;
   heap.clear();
@@ -139,13 +139,13 @@ TEST_CASE("heaps solved by their trees obey the laws of the assembled problem") 
     REQUIRE(solution.solved);
     CHECK(friction_residual(problem, solution.r) < 1e-11);
     CHECK((solution.u - problem.W * solution.r - problem.q).norm() < 1e-11);
-    // solutions are many, but each of both methods is one
+    // there are many solutions, and each method returns one of them
     CHECK(by_matrix.solve(problem, solution.r).iterations == 0);
     CHECK(by_trees.solve(heap, by_matrix.solve(problem, {}).r).iterations == 0);
   }
 }
 
-TEST_CASE("a heap with a number that is not finite is no heap") {
+TEST_CASE("a heap with a number that is not finite is not solved") {
   Random random(8);
   TreeFriction heap = random_heap(random, 8);
   heap.q[3] = NAN;
@@ -169,8 +169,8 @@ TEST_CASE("boxes that fall into a bin keep the balance of momentum and gain no e
     const double had = energy(), began = heap.world.time();
     REQUIRE(stepper.step(10));
     const DynamicState& state = *heap.world.dynamics();
-    // a step of constant force gains m g^2 h^2 / 2; bodies that were too near part at 0.1 m/s at
-    // most
+    // a step of constant force gains m g^2 h^2 / 2; bodies that were too near each other separate
+    // with at most 0.1 m/s
     CHECK(energy() - had < 0.5 * mass * 9.81 * 9.81 * h * h + 1e-4);
     if (std::abs(heap.world.time() - began - h) > 1e-9) continue;
     Vector3d force = {0, 0, -9.81 * mass};
@@ -189,7 +189,7 @@ TEST_CASE("boxes that fall into a bin keep the balance of momentum and gain no e
   for (const auto id : heap.boxes) CHECK(heap.world.pose(id).position.z() > 0.019);
 }
 
-TEST_CASE("the same heap moves by the same bits, whoever goes on with it") {
+TEST_CASE("a heap moves bit-identically when a new stepper continues") {
   HeapWorld one = bin(12), other = bin(12);
   Stepper stepper(one.world);
   for (int i = 0; i < 25; ++i) {
@@ -203,7 +203,7 @@ TEST_CASE("the same heap moves by the same bits, whoever goes on with it") {
   }
 }
 
-TEST_CASE("a tower of planks rests to the bit") {
+TEST_CASE("a tower of planks is bit-exactly at rest") {
   HeapWorld tower(0.5);
   for (int layer = 0; layer < 10; ++layer)
     for (int i = -1; i <= 1; ++i) {
@@ -220,7 +220,7 @@ TEST_CASE("a tower of planks rests to the bit") {
 
 // Each card of a pair bears half the weight w of the plank beside its own, m g: at its foot H =
 // (w / 2 + m g / 2) tan(lean) against N = w / 2 + m g.
-TEST_CASE("a house of cards stands with friction enough, and falls with too little") {
+TEST_CASE("a house of cards stands with enough friction, and falls with too little") {
   constexpr double thick = 0.002, length = 0.09, lean = 0.3, card = 0.005, plank = 0.012;
   const double needed =
       (plank / 4 + card / 2) / (plank / 4 + card) * std::tan(lean);  // two pairs bear the plank

@@ -73,7 +73,7 @@ local function note(value, source, depth)
   elseif type(value) == "table" and depth > 0 then
     note_members(value, source)
     local taken = 0
-    for i, item in next, value do  -- not what a metamethod says
+    for i, item in next, value do  -- pairs() would call a metamethod
       if taken >= 3 then break end
       if math.type(i) == "integer" then
         note(item, ("%s[%d]"):format(source, i), depth - 1)

@@ -5,9 +5,9 @@ local deadline = require "clench.deadline"
 local judge = dofile(here .. "judge.lua")
 local env = dofile(here .. "values.lua").environment()
 
--- a call of the engine is asked to stop after so many seconds, as by the time limit of a search
+-- time limit of a call of the engine, as the time limit of a search [s]
 local patience = 5
--- seconds of one call that are too many under sanitizers, which make a call ten times as long, of any values
+-- a call that takes longer, even under sanitizers, which slow it down tenfold, is a finding [s]
 local max_seconds = 30
 
 local impatience = "the statement takes too long"
@@ -44,7 +44,7 @@ function call.run(text, name, target, sensible)
   listen(name)
   local began = os.clock()
   local limit = deadline(patience)
-  -- a loop of a script, which has no time limit
+  -- stops loops of the statement itself, which call no engine
   debug.sethook(function()
     if os.clock() - began > patience then error(impatience, 0) end
   end, "", 1000000)

@@ -1,4 +1,4 @@
-// Round solids against what is found by looking at many points of them.
+// Round solids, compared with brute-force searches over many of their points.
 #include <doctest/doctest.h>
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// What of an MJCF file collides: bits, pairs, exclusions, carriers, and switches of the simulation.
+// Collisions of MJCF files: bits, pairs, exclusions, carriers, and switches of the simulation.
 #include "clench/io/mjcf/mjcf.h"
 #include "temporary.h"
 #include "told_robot.h"
@@ -83,7 +83,7 @@ TEST_CASE("bodies may be excluded from colliding with the world") {
       "<geom size='1'/></body></worldbody><contact><exclude body1='ball' "
       "body2='world'/></contact>");
   CHECK(told.world.never_meet.size() == 2);
-  // and the two of the world stand
+  // and the two bodies of the world are fixed
   CHECK(told.world.collision_bits.size() == 3);
   CHECK(told.told.list.empty());
 }

@@ -59,7 +59,7 @@ test("jaws begin where what is in the way leaves the pads room to get there", fu
   local free, blocked = 0, 0
   for i = 1, 60 do
     local state = next_start(i)
-    -- those that go on until the palm touches stop before
+    -- starts whose hand moves on until the palm touches are left out
     if state.reach < standoff + 0.03 then
       local direction = state.pose:rotate(clench.vec3(0, 0, 1))
       state = {pose = clench.pose {xyz = direction * state.reach} * state.pose, dofs = state.dofs}

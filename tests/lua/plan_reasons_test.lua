@@ -1,4 +1,4 @@
--- What a search says of itself: its assumptions, what is short, its progress, and from which sides its grasps come.
+-- Reports of a search: its assumptions, its diagnosis, its progress, and the sides from which its grasps come.
 local test, clench = require "test", require "clench"
 local assumptions = require "clench.plan.assumptions"
 local batch = require "clench.plan.batch"
@@ -26,7 +26,7 @@ test("a search that lacks friction says so, and how many would hold with more", 
   local looked_at, held, friction = words:match "why: of (%d+) closed candidates that hold too little, .-(%d+) with a friction of ([%d.]+) instead of 0.08 %(%-%-friction%)"
   t.ok(held, words)
   t.ok(tonumber(held) >= 1 and tonumber(held) <= tonumber(looked_at), words)
-  -- what it says is so
+  -- the diagnosis is right
   t.ok(#sample(scene(tonumber(friction))).grasps > 0)
 end)
 
@@ -39,13 +39,13 @@ test("a search that lacks normal force names the force ratio", function(t)
   t.ok(words:find("normal forces of at most 3 times the weight in all", 1, true), words)
 end)
 
-test("a search with grasps says nothing of what is short", function(t)
+test("a search with grasps has no diagnosis", function(t)
   local run = sample(scene(0.6))
   t.ok(#run.grasps > 0)
   t.equal(#run.report.causes, 0)
 end)
 
-test("what would help is told by the least that is enough", function(t)
+test("a diagnosis names the smallest change that is enough", function(t)
   local assumed = {friction = 0.4, force_ratio = 10}
   local function text(counts) return diagnosis.text(counts, assumed) end
   t.equal(text {looked_at = 0, friction = {0, 0}, force_ratio = {0, 0}, effort = {0}}, nil)
@@ -78,7 +78,7 @@ test("assumptions name values and sources", function(t)
   t.ok(of.lines[2]:find("assumed, as .-%.obj states none"), of.lines[2])
 end)
 
-test("progress tells candidates, grasps and the main causes, and a hint", function(t)
+test("progress shows candidates, grasps, the main causes and a hint", function(t)
   t.equal(batch.text {candidates = 64, grasps = 2, rejected = {a = 3, b = 9, c = 9, ["no time left"] = 50}}, "64 candidates, 2 grasps; b 9, c 9")
   t.equal(batch.text {candidates = 2, grasps = 0, rejected = {}, hint = "more"}, "2 candidates, 0 grasps; more")
   local states = {}
@@ -89,7 +89,7 @@ test("progress tells candidates, grasps and the main causes, and a hint", functi
   for i = 2, #states do t.ok(states[i][1] >= states[i - 1][1] and states[i][2] >= states[i - 1][2]) end
 end)
 
-test("a search goes on beyond count where it is asked to, and keeps the count", function(t)
+test("keep_searching continues beyond count, and returns count grasps", function(t)
   local hand, box = scene(0.6)
   local first = sample(hand, box, {candidates = 128, count = 3})
   t.equal(first.report.candidates, 64)
@@ -99,7 +99,7 @@ test("a search goes on beyond count where it is asked to, and keeps the count", 
   t.ok(all.grasps[1].epsilon >= first.grasps[1].epsilon)
 end)
 
-test("of more grasps than asked for those from other sides come first", function(t)
+test("if there are too many grasps, those from different sides are kept first", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/barrett/barrett.cfg"
   local ball = world:add_object(clench.shapes.sphere {0.035}, {name = "ball", mass = 0.1, pose = {xyz = {0, 0, 1}}})

@@ -98,7 +98,7 @@ end)
 
 test("starts that jaws have shifted are restored bit-exactly", function(t)
   local jaws, shifted = "models/hands/parallel_jaw/parallel_jaw.cfg", test.path ".search"
-  -- those of the second round that begin near others
+  -- 40 pieces include starts of the second round, which begin near found grasps
   record_in(shifted, 40, jaws, 1000)
   t.ok(clench.files.read_text(shifted):find('"moved":true', 1, true))
   local known, clean = journal.read(shifted)

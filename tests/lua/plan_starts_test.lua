@@ -73,7 +73,7 @@ test("sampling begins near grasps that held", function(t)
     local world = clench.world()
     local hand, banana = world:add_robot "models/hands/barrett/barrett.cfg", world:add_object("models/objects/banana.iv", {pose = {xyz = {0, 0, 2}}})
     local run = clench.plan.sample {hand = hand, object = banana, candidates = 320, refine = 0, verify = false, count = 1000, distance = 0, seed = seed}
-    -- starts number 3 and 4 of each four, from the second round on, are such: they hold more often
+    -- from the second round on, starts 3 and 4 of each four begin near found grasps: they hold more often
     for _, grasp in ipairs(run.grasps) do
       local number = grasp.info.number
       if number > 64 then

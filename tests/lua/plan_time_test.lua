@@ -17,7 +17,7 @@ test("a search whose time ends before its first candidate says so", function(t)
   t.equal(#run.report.causes, 1)
 end)
 
-test("an error by a deadline has a kind of its own", function(t)
+test("an error by a deadline has the kind timeout", function(t)
   local deadline, is_stopped, is_timeout = require "clench.deadline", require "clench.is_stopped", require "clench.is_timeout"
   local world = clench.world()
   local limit = deadline(0)

@@ -54,7 +54,7 @@ test("the best epsilon is found among any number of measures", function(t)
   t.equal(r.parsed.best_epsilon, 0.5)
 end)
 
-test("pairs that collide are asked for one after the other, up to a number", function(t)
+test("world:colliding returns the first pairs, up to max", function(t)
   local world = clench.world()
   for i = 1, 4 do world:add_obstacle("models/objects/cube.iv", {name = "c" .. i}) end
   local function names(...)
@@ -88,7 +88,7 @@ test("overlaps of thousands of bodies take one sweep", function(t)
   t.equal(r.error, nil)
   t.equal(#r.parsed.overlaps, 1)
   t.equal(r.parsed.overlaps[1][2], "last")
-  -- body by body it took 50 times as long as reading
+  -- separate queries for each body took 50 times as long as reading
   t.ok(clench.clock() - began < 10 * loading + 5, "quadratic")
   t.equal(#world.objects, 6001)
 end)

@@ -1,10 +1,10 @@
--- Round things roll as the closed formulas say, on planes and on meshes.
+-- Round bodies roll as the closed formulas predict, on planes and on meshes.
 local test, clench = require "test", require "clench"
 local shapes = clench.shapes
 
 local gravity, slope, radius = 9.81, math.rad(3), 0.05
 
--- A square plate whose upper side is z = 0, and one cut into triangles of 7 mm, both tilted about y.
+-- A square plate whose upper side is z = 0; fine: a smaller surface of squares of 15 mm, cut into triangles.
 local function plate(fine)
   if not fine then return shapes.move(shapes.box {2, 2, 0.1}, {0, 0, -0.05}) end
   local n, size, vertices, triangles = 40, 0.3, {}, {}
@@ -34,7 +34,7 @@ end
 
 local along_y = clench.pose {axis = {1, 0, 0}, angle = math.pi / 2}
 
--- I / (m r^2), of the solid
+-- I / (m r^2) of the solid capsule
 local capsule_length = 0.1
 local function capsule_inertia()
   local cylinder, ball = math.pi * radius ^ 2 * capsule_length, 4 / 3 * math.pi * radius ^ 3

@@ -1,4 +1,4 @@
--- Objects that stand on something: what supports them, how they are displaced and give way, and verdicts with and without a table.
+-- Objects on supports: their supports, displacements and yielding, and verdicts with and without a table.
 local test, clench = require "test", require "clench"
 local closing = require "clench.plan.closing"
 local supports = require "clench.plan.supports"
@@ -9,7 +9,7 @@ local free_height = 5  -- far from the table [m]
 
 local function path_of(hand) return ("models/hands/%s/%s.cfg"):format(hand, hand) end
 
--- a hand far away, and an object whose lowest point is `gap` above a table at z = 0
+-- A hand far away, and an object whose lowest point is `gap` [m] above a table at z = 0.
 local function stand(hand_name, object, gap, options)
   local world = clench.world()
   local hand = world:add_robot(path_of(hand_name), {pose = {xyz = {0, 0, 3}}})
@@ -39,7 +39,7 @@ test("a support is what an object touches, or overlaps by no more than the conta
   t.equal({#on.touched, #on.overlapped, #on.normals}, {0, 1, 0})
 end)
 
-test("giving way slides along supports, ends in a corner, and lets what hovers come down again", function(t)
+test("a yielding object slides along supports, stops in a corner, and may come down again when lifted", function(t)
   local hand, box = stand("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.08}, 2e-5)
   local still = clench.vec3(0, 0, 0)
   local on = supports.of(hand, box)
@@ -53,7 +53,7 @@ test("giving way slides along supports, ends in a corner, and lets what hovers c
   t.equal({on:permit(clench.vec3(1, 0, 0)), on:permit(clench.vec3(0, 1, 0))}, {false, true})
 end)
 
--- grasps of an object in free space from above and aside, with more than a centimetre below the hand
+-- Grasps of an object in free space from above and from the side; the hand stays more than 1 cm above the object's lowest point.
 local function grasps_in_air(hand_name, object, options)
   local world = clench.world()
   local hand = world:add_robot(path_of(hand_name))
@@ -114,7 +114,7 @@ test("a grasp that does not touch the table gets the same verdicts there as in f
   end
 end)
 
-test("jaws hold things on a table, and searches do not warn of what stands there exactly", function(t)
+test("jaws hold objects on a table, and searches do not warn of objects that stand exactly on it", function(t)
   local said = {}
   clench.log.sink(function(_, text) said[#said + 1] = text end)
   local counts = {}
@@ -142,7 +142,7 @@ test("an object that stands exactly on a table is moved and lifted", function(t)
   end
 end)
 
-test("where the table is in the way of the displaced hand the grasp is lost, and a shelf above is in the way of the lift", function(t)
+test("a shelf above the hand is in the way of the lift", function(t)
   local hand, box = stand("parallel_jaw", clench.shapes.box {0.03, 0.05, 0.12}, 2e-5, {mass = 0.1, material = "wood"})
   local run = clench.plan.sample {hand = hand, object = box, candidates = 64, count = 3, refine = 0}
   local grasp = run.grasps[1]

@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Blocks at random places, beside a diagonal that need not dominate.
+/// A matrix of random blocks whose symmetric part is positive definite.
 struct BlockMatrix {
   std::vector<int> sizes;
   std::vector<std::pair<int, int>> pairs;
@@ -27,7 +27,7 @@ struct BlockMatrix {
     }
     for (int k = 0; k < 2 * groups; ++k)
       if (const int i = below(groups), j = below(groups); i != j) pairs.emplace_back(i, j);
-    // a positive definite symmetric part, which pivots within blocks are enough for
+    // the symmetric part must be positive definite, as pivots are chosen within blocks only
     dense = MatrixXd::Zero(first.back(), first.back());
     for (const auto& [i, j] : pairs) {
       fill(random, i, j), fill(random, j, i);

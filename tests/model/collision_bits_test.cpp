@@ -42,7 +42,7 @@ TEST_CASE("bodies collide as their bits say, and pair by pair as a script says")
   world.set_collision(false, id[0], id[1]);
   CHECK(world.pairs_off() == before.pairs_off());
   CHECK(differences(world, before).empty());
-  // a pair that is switched on collides, whatever happens to others
+  // a pair that is switched on collides; other pairs are unaffected
   world.set_collision(true, id[0], id[2]);
   CHECK(world.may_collide(id[2], id[0]));
   CHECK_FALSE(world.may_collide(id[1], id[2]));

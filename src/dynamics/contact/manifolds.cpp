@@ -50,7 +50,7 @@ void update_torsion(ManifoldPoint& point) {
   point.torsion_force = force;
 }
 
-// What rolls leaves its points behind.
+// Points on round pieces do not follow the bodies: what rolls leaves them behind.
 static bool is_on_round(const ManifoldPoint& p) {
   return p.feature_a.kind == Feature::round || p.feature_b.kind == Feature::round;
 }
@@ -68,7 +68,8 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
     points[i].torsion_radius = before[k].torsion_radius;
     points[i].torsion_force = before[k].torsion_force;
   };
-  // both ends of a line that a round piece touches along lie on the same features
+  // where a round piece touches along a line, both ends of the line lie on the same features: of
+  // several points on the same features the nearest is taken
   for (size_t i = 0; i < points.size(); ++i) {
     size_t nearest = before.size();
     const auto away = [&](size_t k) { return (points[i].p_b - before[k].p_b).squaredNorm(); };
@@ -209,9 +210,9 @@ static bool are_of_one_robot(const World& world, const Manifold& m) {
   return world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
 }
 
-// Where a round piece has got into the other body beyond its middle: it is pushed back to the
-// surface that is nearest to that.
-static std::vector<Touch> way_back(const Shape& a, const Shape& b, const Pose& X_AB) {
+// The contact of a round piece whose centre lies inside the other body: it pushes the piece back to
+// the point of the surface that is nearest to the centre.
+static std::vector<Touch> push_back_touches(const Shape& a, const Shape& b, const Pose& X_AB) {
   std::vector<Touch> out;
   const auto add = [&](const Shape& mesh, const RoundPiece& piece, const Pose& X_MP, bool of_b) {
     const Eigen::Vector3d centre = X_MP * piece.X_SR.position;
@@ -237,7 +238,7 @@ static std::vector<Touch> way_back(const Shape& a, const Shape& b, const Pose& X
   return out;
 }
 
-// Sets the clearance.   returns  false: the points that it has serve on
+// Sets the clearance.   returns  false: the present points stay in use
 static bool find_points(World& world, Manifold& m, double limit,
                         std::vector<ManifoldPoint>& points) {
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
@@ -263,7 +264,7 @@ static bool find_points(World& world, Manifold& m, double limit,
     if (const auto out = moved_out(a, b, m.X_AB, threshold))
       touches = contact_set(a, b, X_AT = *out, {.threshold = threshold}, RoundIn::motion);
     else if (are_round(a, b, RoundIn::motion))
-      touches = way_back(a, b, m.X_AB);
+      touches = push_back_touches(a, b, m.X_AB);
     if (touches.empty()) return false;
   }
   const bool round = are_round(a, b, RoundIn::motion);

@@ -17,9 +17,9 @@ inline constexpr double manifold_reach = 0.02;
 /// way [m].
 double displacement(const Pose& X_AB, const Pose& other, const Shape& b);
 
-/// Of the surfaces of a pair where it is; negative where a round piece lies in the other body, 0 where
-/// they overlap otherwise [m].
-/// limit  what is farther apart is `limit`
+/// The gap between the surfaces of a pair, where its bodies are: negative where a round piece lies
+/// in the other body, 0 where they overlap otherwise [m].
+/// limit  the largest gap that is returned [m]
 double pair_gap(World& world, const Manifold& manifold, double limit);
 
 /// Brings the list of pairs up to date with what was added, removed, switched or moved far, and

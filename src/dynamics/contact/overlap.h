@@ -11,7 +11,7 @@ inline constexpr double deepest_parted =
 
 /// Where b would stand if it were moved straight out of a, on a short way along an axis of either
 /// or away from a's centre, until less than the threshold is between them; none where no such way
-/// of up to deepest_parted thresholds leads out. Round pieces are round.
+/// of up to deepest_parted thresholds leads out. Round pieces count by their formulas.
 /// threshold  > 0 [m]
 std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, double threshold);
 

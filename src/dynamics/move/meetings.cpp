@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "clench/base/watched.h"
@@ -37,8 +38,12 @@ double turn(const World& world, const Manifold& m, double dt) {
   return dt * (twists[m.a.index].angular.norm() + twists[m.b.index].angular.norm());
 }
 
-// The least size of a body along its axes [m]: no shorter path leads through it.
-double thickness(const Shape& shape) { return shape.bounds().size().minCoeff(); }
+// The least size of a body along its axes [m]: no shorter path leads through it. Of a surface that is
+// open the other body's counts.
+double thickness(const Shape& shape) {
+  return shape.closed() ? shape.bounds().size().minCoeff()
+                        : std::numeric_limits<double>::infinity();
+}
 
 // An upper bound of how far any point of a body moves in dt [m].
 double max_travel(const World& world, double dt) {
@@ -74,7 +79,7 @@ class Meetings {
   double dt_;
   std::vector<int> suspects_;  // manifolds that may change
   std::vector<PairBound> watched_;
-  std::vector<std::pair<int, double>> round_;      // manifolds, and bounds of their speeds
+  std::vector<std::pair<int, double>> round_;      // manifolds, and bounds of their speeds [m/s]
   std::vector<std::pair<int, Manifold>> arrived_;  // measured where they arrive
   // least time that passes: next to none where all start with a gap, as they may meet at any time
   std::optional<double> min_time_;
@@ -82,9 +87,9 @@ class Meetings {
   double overlap_time_;  // after which bodies that overlap are measured again
 };
 
-// Conservative advancement (see model/advance.h) of pairs with round pieces, which
-// model/advance knows as facets where they are round in motion alone.
-// returns  the time until the first of them meet, or `end` [s]
+// Conservative advancement (see model/advance.h) of pairs with round pieces: model/advance treats
+// those of RoundIn::motion as triangles.
+// returns  the time until the first of them collide, or `end` [s]
 double Meetings::advance_round(double end) {
   constexpr double aim = 0.2, there = 0.3;
   const double threshold = world_.contact_threshold();
@@ -172,8 +177,8 @@ void Meetings::follow(int number) {
     arrived_.emplace_back(number, std::move(there));
     return;
   }
-  // pairs within the threshold move on by a hundredth of a step, but not through each other; by less
-  // where it is known when they meet
+  // pairs within the threshold move on by a hundredth of a step, but not through each other; by
+  // less where it is known when they meet
   const double least = std::min(0.01 * step, dt_ * thin / path);
   if (touching) min_time_ = std::min(min_time_.value_or(dt_), least);
   if (looks)

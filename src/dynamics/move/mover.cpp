@@ -60,7 +60,7 @@ Mover::Mover(World& world, const System& system) : world_(world) {
   find_movers(system);
 }
 
-// Which bodies are placed by themselves, and which by what carries them.
+// Records which bodies are placed separately, and which by the bodies that carry them.
 void Mover::find_movers(const System& system) {
   part_of_.assign(system.places.size(), stands);
   for (const Articulation& tree : system.trees)

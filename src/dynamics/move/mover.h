@@ -16,10 +16,12 @@ class Mover {
 
   /// Puts everything where it is s after the start [s].
   void place(double s);
-  /// Puts two bodies where they are s after the start, while everything else may stay; all must be
-  /// placed again at the time of the last place() before others look at them.
+  /// Puts two bodies where they are s after the start [s]; other bodies may stay where they are.
+  /// Afterwards both must be put back, at the time of the last place(), before other code uses
+  /// their poses.
   void place_pair(double s, Id<Body> a, Id<Body> b);
-  /// The same as place(); then free bodies and robots that float have the velocity that keeps their momentum.
+  /// The same as place(); then free bodies and robots that float have the velocity that keeps their
+  /// momentum.
   void finish(double s);
 
  private:
@@ -60,10 +62,10 @@ class Mover {
 
   World& world_;
   double placed_ = -1;  // where everything is [s]; negative: nobody has been asked to move
-  // by the index of the body's id: its part, or one of those below
+  // by the index of the body's id: the index of its part, or one of these constants
   static constexpr int stands = -1, by_others = -2;
   std::vector<int> part_of_;
-  std::vector<Part> parts_;         // what is carried by others of them after these
+  std::vector<Part> parts_;         // carriers before what they carry
   std::vector<RobotStart> robots_;  // carriers before what they carry
   std::vector<Floating> floating_;
   struct Welded {

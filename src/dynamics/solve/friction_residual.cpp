@@ -51,7 +51,7 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-// admittance  of a block
+// admittance  returns that of a block
 template <class Problem, class Admittance>
 static FrictionFault fault_of(const Problem& problem, const Eigen::VectorXd& r,
                               const Eigen::VectorXd& u, double tolerance, Admittance admittance) {

@@ -9,7 +9,7 @@ namespace clench {
 
 using Eigen::VectorXd;
 
-// The fault of impulses, brought within their bounds; the best ones are kept.
+// Clamps impulses to their bounds and returns their fault [m/s]; `solution` keeps the best ones.
 double TreeFrictionSolver::measure(const TreeFriction& problem, double tolerance, VectorXd& r,
                                    FrictionSolution& solution) {
   for (const auto& block : problem.blocks)
@@ -24,7 +24,8 @@ double TreeFrictionSolver::measure(const TreeFriction& problem, double tolerance
   return fault.largest;
 }
 
-// A step without a center from r_.   returns  false: it gets hardly nearer
+// A Newton step from r_ without damping towards a center.   returns  false: it reduced the residual
+// too little, and r_ is unchanged
 bool TreeFrictionSolver::refine(const TreeFriction& problem, double tolerance, double& residual,
                                 FrictionSolution& solution) {
   constexpr double weak = 1e-6;
@@ -38,15 +39,17 @@ bool TreeFrictionSolver::refine(const TreeFriction& problem, double tolerance, d
   return true;
 }
 
-// Proximal points from r_ on, until they solve the problem or get no nearer.
+// Iterates proximal points from r_ until one solves the problem or the residual stops falling.
 void TreeFrictionSolver::approach(const TreeFriction& problem, double damping, double rho,
                                   double tolerance, const Progress& progress,
                                   FrictionSolution& solution) {
-  // of Newton's method for one damped problem; with few of them the damping was too strong
+  // iterations of Newton's method for one damped problem; if few are enough, the damping is too
+  // strong
   constexpr int max_iterations = 15, few = 4, some = 8;
-  // rounds without a tenth of the residual before them; faults below which states hardly change
-  // [m/s]
+  // patience: rounds in which the residual may fail to fall to a tenth
   constexpr int max_rounds = 40, patience = 8;
+  // near: residual below which states hardly change [m/s]; roughly: share of the natural map that a
+  // damped problem may keep
   constexpr double near = 1e-3, roughly = 0.3;
   double residual = measure(problem, tolerance, r_, solution), mark = residual;
   bool found = true;
@@ -90,7 +93,7 @@ FrictionSolution TreeFrictionSolver::solve(const TreeFriction& problem, const Ve
   newton_.set(problem);
   approach(problem, 1e-3, 1, options.tolerance, progress, solution);
   struct Start {
-    bool best;  // from the best impulses so far, or from none
+    bool best;  // true: from the best impulses so far; false: from zero
     double damping, rho;
   };
   constexpr Start starts[] = {{true, 1e-3, 3},  {false, 0.1, 1},   {false, 1e-3, 3},

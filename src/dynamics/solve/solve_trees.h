@@ -1,4 +1,4 @@
-// Solves large islands of contacts by the trees of bodies.
+// Solves large islands of contacts in the coordinates of their trees of bodies.
 #pragma once
 #include "clench/base/progress.h"
 #include "clench/dynamics/solve/tree_friction.h"
@@ -7,23 +7,25 @@
 namespace clench {
 
 struct TreeFrictionOptions {
-  /// Faults up to so much are none [m/s]; rounding is allowed for beside it, as in FrictionOptions.
+  /// Largest residual of a solution [m/s]; rounding is allowed for in addition, as in
+  /// FrictionOptions.
   double tolerance = 1e-12;
-  /// Starts anew from other impulses where the first start leads nowhere.
+  /// Try other initial impulses and dampings if the first ones fail.
   bool restarts = true;
 };
 
-/// What FrictionSolver does for a problem of many trees, of round cones: time grows little faster
-/// than the number of contacts. Of many solutions it is one near the warm start.
+/// Solves the same problem as FrictionSolver, with round cones only, for islands of many trees: no
+/// matrix of all rows is formed. Among many solutions it returns one near the warm start.
 ///
-/// Proximal points: damping pulls the impulses to where they are, and Newton's method solves the
-/// damped problem roughly; weaker damping gets nearer in fewer rounds, stronger damping is solved
-/// more surely. Once few states change, steps without a center end it.
+/// Proximal point method: damping pulls the impulses towards the present ones, and Newton's method
+/// solves the damped problem roughly. Weak damping needs fewer rounds, strong damping converges
+/// more reliably. Once few states change, Newton steps without damping finish the solution.
 class TreeFrictionSolver {
  public:
-  /// Keeps its memory, and nothing else: the same problem and warm start give the same bits.
-  /// problem      finished; of a number that is not finite: r = u = 0, residual infinite
-  /// warm_start   one impulse per row; where it solves the problem it is returned as it is
+  /// Keeps only scratch memory between calls: the same problem and warm start give the same bits.
+  /// problem      after finish(); if it has a number that is not finite: r = u = 0, residual
+  ///              infinite
+  /// warm_start   one impulse per row; returned unchanged if it solves the problem
   /// throws       Stopped
   FrictionSolution solve(const TreeFriction& problem, const Eigen::VectorXd& warm_start,
                          const TreeFrictionOptions& options = {}, const Progress& progress = {});

@@ -27,7 +27,7 @@ void TreeFriction::finish() {
     largest = std::max(largest, block.d);
   }
   for (Block& block : blocks) block.moves = block.d > 1e-30 * largest && block.d > 1e-200;
-  // the same force counts as much at one contact of two bodies as at another
+  // all contacts of one pair of bodies have the same weight
   for (size_t begin = 0, end; begin < blocks.size(); begin = end) {
     double sum = 0;
     for (end = begin;
@@ -41,7 +41,7 @@ void TreeFriction::finish() {
 
 namespace {
 
-// Six coordinates and three rows nearly always: loops of known length.
+// For the most frequent sizes, six coordinates and three rows: loops of known length.
 template <int Coordinates, int Rows>
 void add_product(const double* Y, const double* r, double* z) {
   for (int k = 0; k < Rows; ++k)

@@ -1,5 +1,5 @@
-// A friction problem by the trees of bodies that its rows act on: products with J M^-1 J^T, without
-// the matrix.
+// A friction problem stored by the trees of bodies that its rows act on: products with J M^-1 J^T
+// without forming that matrix.
 #pragma once
 #include <array>
 
@@ -7,33 +7,33 @@
 
 namespace clench {
 
-/// The problem of FrictionProblem with W = Y^T Y + compliance, where Y = L^-1 J^T has a block of
-/// columns for each tree that a block of rows acts on: two at most. Time and memory of all products
-/// grow with the rows, not with their square. Its trees have one motion each, z = Y r: coordinates
-/// in which every mass is 1.
+/// The problem of FrictionProblem with W = Y^T Y + compliance, where Y = L^-1 J^T: each block of
+/// rows acts on at most two trees, and has a block of columns of Y for each. Time and memory of
+/// products grow with the number of rows, not with its square. z = Y r is the motion of the trees,
+/// in coordinates in which every mass is 1.
 struct TreeFriction {
   struct Side {
     int tree = -1;  ///< -1: none
-    int at = 0;     ///< of its first number in `columns`
+    int at = 0;     ///< index of its first number in `columns`
   };
   struct Block : FrictionProblem::Block {
     std::array<Side, 2> sides = {};
     double compliance = 0;  ///< of a bounded row
     double d = 0;           ///< mean of the diagonal of W over its rows
-    double weight = 0;      ///< of contacts of one pair the mean of d; else d
+    double weight = 0;      ///< of damping: mean of d over the contacts of a pair of bodies; else d
     bool moves = true;      ///< false: no impulse changes its velocity
   };
   std::vector<Block> blocks;    ///< they cover the rows in order
-  std::vector<int> first;       ///< by tree: its first coordinate; then their number
-  std::vector<double> columns;  ///< of each side: coordinates x rows
-  Eigen::VectorXd q;
+  std::vector<int> first;       ///< by tree: its first coordinate; last: number of coordinates
+  std::vector<double> columns;  ///< of each side: coordinates x rows, by columns
+  Eigen::VectorXd q;            ///< velocities of the rows without impulses, as in FrictionProblem
 
-  /// Forgets all; trees come first, then blocks with their sides.
+  /// Removes trees and blocks. Then add all trees, and after them the blocks with their sides.
   void clear();
   void add_tree(int size) { first.push_back(first.back() + size); }
-  /// A side of the last block.   Y  its rows' columns
+  /// Adds a side to the last block.   Y  columns of the block's rows
   void add_side(int tree, const Eigen::Ref<const Eigen::MatrixXd>& Y);
-  /// Finds d, weights and what moves; after the last block.
+  /// Computes d, weight and moves of all blocks; to be called after the last block.
   void finish();
 
   int rows() const { return static_cast<int>(q.size()); }
@@ -51,7 +51,7 @@ struct TreeFriction {
   void add_velocity(const Block& block, const Eigen::VectorXd& z, double* u) const;
   /// u = q + compliance r + Y^T z
   void velocities(const Eigen::VectorXd& r, const Eigen::VectorXd& z, Eigen::VectorXd& u) const;
-  /// The same problem with its matrix.
+  /// The same problem with its matrix W.
   FrictionProblem assembled() const;
 };
 

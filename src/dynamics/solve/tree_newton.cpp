@@ -31,7 +31,7 @@ void TreeNewton::set(const TreeFriction& problem) {
   }
 }
 
-// The square of the natural map of a contact; sets its state.
+// Returns the squared norm of the natural map of a contact, and sets the state of the contact.
 double TreeNewton::classify_contact(const TreeFriction::Block& block, size_t number,
                                     const double* r, const double* u) {
   const double normal = r[0] - rho_ * u[0] / block.d;
@@ -66,7 +66,7 @@ double TreeNewton::classify_contact(const TreeFriction::Block& block, size_t num
 }
 
 // Sets the states of all blocks at impulses r with velocities u.
-// returns  half the square of the natural map, as an energy
+// returns  half the squared norm of the natural map, weighted by d
 double TreeNewton::classify(const TreeFriction& problem, const VectorXd& r, const VectorXd& u,
                             double rho) {
   rho_ = rho;
@@ -89,7 +89,7 @@ double TreeNewton::classify(const TreeFriction& problem, const VectorXd& r, cons
   return energy / 2;
 }
 
-// Directions across t: one of two, two of three.
+// Unit directions across t.   returns  how many: one of two tangents, two of three
 static int across(int tangents, const double* t, double directions[2][3]) {
   if (tangents < 2) return 0;
   if (tangents == 2) {
@@ -105,7 +105,8 @@ static int across(int tangents, const double* t, double directions[2][3]) {
   return 2;
 }
 
-// Directions of r that the state leaves free have one equation each; the others are decided by it.
+// Computes the law of a block from its state: the state fixes some directions of r, and each of the
+// others has one equation.
 void TreeNewton::find_law(const TreeFriction::Block& block, size_t number, double damping,
                           const double* r, const double* u, Law& law) const {
   const int size = block.size();
@@ -137,7 +138,7 @@ void TreeNewton::find_sliding_law(const TreeFriction::Block& block, size_t numbe
                                   const double* r, const double* u, Law& law) const {
   const int size = block.size();
   const double beta = slide_[4 * number], *t = &slide_[4 * number + 1];
-  // friction follows the normal
+  // friction is proportional to the normal impulse
   double along = 0;
   for (int k = 0; k < block.tangents; ++k) along += t[k] * r[1 + k];
   law.G[0] = 1 / by;
@@ -212,7 +213,8 @@ void TreeNewton::add_to_system(const TreeFriction& problem, const TreeFriction::
     }
 }
 
-// One step from r, whose states are known.   u  its velocities, with the damping
+// One Newton step from r, after visit() has set the states there.   u  velocities at r, with the
+// damping
 bool TreeNewton::step(const TreeFriction& problem, double damping, const VectorXd& r,
                       const VectorXd& u, VectorXd& next) {
   laws_.resize(problem.blocks.size());
@@ -253,7 +255,7 @@ bool TreeNewton::slides() const {
   return std::ranges::find(states_, State::slides) != states_.end();
 }
 
-// Half the square of the natural map at impulses, with the damping; sets the states and velocities.
+// Returns half the squared norm of the natural map at r, with the damping; sets states and u.
 double TreeNewton::visit(const TreeFriction& problem, const Pull& pull, const VectorXd& r,
                          VectorXd& u) {
   check_stop();
@@ -266,8 +268,8 @@ double TreeNewton::visit(const TreeFriction& problem, const Pull& pull, const Ve
   return classify(problem, r, u, pull.rho);
 }
 
-// Shortens a step to `next_` that leads uphill: half, a quarter, an eighth of it.
-// returns  the energy at the best of them
+// Line search for a step to `next_` that does not reduce the energy: tries a half, a quarter and an
+// eighth of it.   returns  the energy at the best of them
 double TreeNewton::shorten(const TreeFriction& problem, const Pull& pull, double energy,
                            double next_energy, const VectorXd& r) {
   full_ = next_;
@@ -279,7 +281,7 @@ double TreeNewton::shorten(const TreeFriction& problem, const Pull& pull, double
     if (value < lowest || !std::isfinite(lowest)) lowest = value, best = fraction;
     if (value < energy * (1 - 1e-4 * fraction)) break;
   }
-  // uphill everywhere: the whole step leads farthest away from where it is stuck
+  // no part reduces the energy: take the full step, to leave the neighbourhood
   if (!(lowest < energy)) best = 1;
   if (best == last) return lowest;
   next_ = r + best * (full_ - r);

@@ -1,14 +1,14 @@
-// Newton's method for contacts with friction by the trees of bodies: its systems have one unknown
-// per coordinate, and are as sparse as the contacts.
+// Newton's method for contacts with friction in the coordinates of trees of bodies: its systems
+// have one unknown per coordinate, and are as sparse as the contacts.
 #pragma once
 #include "clench/dynamics/solve/tree_friction.h"
 #include "clench/math/block_lu.h"
 
 namespace clench {
 
-/// The steps of FrictionNewton with the impulses eliminated instead of the velocities. Given the
-/// states of all blocks, the impulses of a block follow from the velocities of its own rows, dr =
-/// change - G Y^T dz; the motion of the trees solves (1 + Y G Y^T) dz = Y change.
+/// Takes the steps of FrictionNewton, but eliminates the impulses instead of the velocities. Given
+/// the states of all blocks, the impulses of a block follow from the velocities of its rows,
+/// dr = change - G Y^T dz; the motion of the trees solves (1 + Y G Y^T) dz = Y change.
 ///
 /// source  Alart & Curnier (1991), A mixed formulation for frictional contact problems prone to
 ///         Newton like solution methods; Rockafellar (1976), Monotone operators and the proximal
@@ -19,25 +19,26 @@ class TreeNewton {
     bool converged = false;
     int iterations = 0;
   };
-  /// A damping that pulls impulses to a center: rows gain damping * weight * (r - center).
+  /// Damping towards a center: the velocities of rows gain damping * weight * (r - center).
   struct Pull {
     double damping = 0;
     const Eigen::VectorXd& center;
     double rho = 1;  ///< the natural map's weight of velocities, by which states are chosen
   };
-  /// Lays out the systems of a problem; before all others.
+  /// Lays out the systems of a problem; to be called before solve() and refine().
   void set(const TreeFriction& problem);
-  /// Solves a damped problem, or reduces its natural map to `enough` of what it is at r.
-  /// r  from there on; the result, or where there is none the least fault found
+  /// Solves a damped problem, or reduces the norm of its natural map to `enough` times that at r.
+  /// r  in: initial impulses; out: the result, or the best impulses found if it does not converge
   End solve(const TreeFriction& problem, const Pull& pull, double enough, int max_iterations,
             Eigen::VectorXd& r);
-  /// One step towards a solution of the problem without damping.
+  /// One step from r towards a solution of the undamped problem.
+  /// damping  regularizes the step, > 0
   /// returns  false: the system is singular
   bool refine(const TreeFriction& problem, double damping, Eigen::VectorXd& r);
 
  private:
   enum class State : char { fixed, low, high, free, sticks, slides };
-  struct Law {  // of one block, by columns
+  struct Law {  // of one block: dr = change - G Y^T dz; G by columns
     double G[16];
     double change[4];
   };
@@ -60,9 +61,10 @@ class TreeNewton {
 
   double rho_ = 1;
   std::vector<State> states_;
-  std::vector<double> slide_;  // four per block: friction over what the natural map has, direction
+  // four per block that slides: friction over the norm of the tangential part, and its direction
+  std::vector<double> slide_;
   std::vector<Law> laws_;
-  std::vector<std::array<int, 4>> places_;  // by block: its blocks of the system; -1: none
+  std::vector<std::array<int, 4>> places_;  // by block: its four blocks of the system; -1: none
   BlockLu system_;
   Eigen::VectorXd motion_, u_, next_, u_next_, full_, best_;
 };

@@ -17,9 +17,9 @@ static constexpr double tolerance = 1e-12, failed_above = 1e-9;
 static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
 static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
 
-// Islands of so many trees and rows are solved by their trees; others by the matrix of their rows,
-// which takes the square of their number of memory and its cube of time. Where the first fails the
-// second is tried up to its own number of rows.
+// Islands of at least heap_trees and heap_rows are solved by their trees; others by the matrix of
+// their rows, whose memory grows with the square of the rows and whose time with the cube. Islands
+// of up to max_dense_rows that the first method fails to solve are solved by the second.
 static constexpr size_t heap_trees = 6;
 static constexpr Eigen::Index heap_rows = 60, max_dense_rows = 240;
 
@@ -112,7 +112,7 @@ void IslandSolver::assemble(const StepProblem& problem, const Island& island) {
   }
 }
 
-// The island by its trees: the columns of its blocks.
+// Sets trees_ to the problem of the island: its trees, and the columns of its blocks.
 void IslandSolver::gather_trees(const System& system, const StepProblem& problem,
                                 const Island& island) {
   trees_.clear();
@@ -161,7 +161,8 @@ FrictionSolution IslandSolver::solve_dense(const StepProblem& problem, const Isl
   return solution;
 }
 
-// In a heap demands of stabilization contradict each other often: they are given up soon.
+// In heaps, the velocities that stabilization asks for often contradict each other: they are left
+// out before any other start is tried.
 FrictionSolution IslandSolver::solve_heap(const System& system, const StepProblem& problem,
                                           const Island& island, const FrictionOptions& options,
                                           const Progress& progress) {

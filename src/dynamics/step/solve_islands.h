@@ -6,11 +6,11 @@
 
 namespace clench {
 
-/// Small islands are solved by the matrix of their rows, large ones by their trees.
-/// Keeps its memory from step to step, and nothing else: the same problem gives the same bits.
+/// Small islands are solved by the matrix of their rows, large ones in the coordinates of their
+/// trees. Keeps only scratch memory from step to step: the same problem gives the same bits.
 class IslandSolver {
  public:
-  /// An island at rest keeps its forces as long as they hold it, and then stands still to the bit.
+  /// An island at rest keeps its forces as long as they hold it, and is then bit-exactly at rest.
   /// throws  Stopped
   StepSolution solve(const System& system, const StepProblem& problem,
                      const DynamicSettings& settings, const Progress& progress);
@@ -39,7 +39,7 @@ class IslandSolver {
   FrictionSolver solver_;
   TreeFriction trees_;
   TreeFrictionSolver tree_solver_;
-  std::vector<int> local_tree_;  // by tree of the step: its number in its island
+  std::vector<int> local_tree_;  // by tree of the step: its index in its island
 };
 
 }  // namespace clench

@@ -19,7 +19,7 @@ struct Sphere {
   double radius = 0;                                 ///< [m]
 };
 
-/// Holds them.
+/// A sphere that contains the corners.
 Sphere sphere_about(Simplex corners);
 
 /// A point against a solid.
@@ -76,9 +76,9 @@ class DepthField {
 
   /// Values at the corners whose linear interpolation is nowhere in the simplex below the depth.
   GameRow row(int triangle, Simplex corners) const;
-  /// The same of what the surface is near the simplex, few triangles, given to take(row, triangle): the
-  /// signed distance from the plane of a triangle where nothing near is in front of it, and the
-  /// distance from several triangles where these bound a convex part of the outside.
+  /// The same of the few triangles near the simplex, passed to take(row, triangle): the signed
+  /// distance from the plane of a triangle where nothing near is in front of it, and the distance
+  /// from several triangles where these bound a convex part of the outside.
   void local_rows(Simplex corners, const Sphere& ball, const NearTriangles& near,
                   FunctionRef<void(const GameRow&, int)> take) const;
   /// The same of the bounding box's face number `side`, 0 to 5.

@@ -42,7 +42,8 @@ class NearestPair {
 
 }  // namespace
 
-// Can nothing have come within the limit since the pair was last measured, nor one into the other?
+// Is it certain, from the motion since the last measurement, that the shapes are still farther
+// apart than the limit, and not inside each other?
 static bool stayed_clear(const Shape& a, const Shape& b, const Pose& X_AB, double limit,
                          const PairCache* cache) {
   if (!cache || cache->measured.shapes != fingerprint(a, b)) return false;

@@ -23,7 +23,8 @@ inline uint64_t fingerprint(const Shape& a, const Shape& b) {
 /// No point of b moves more between the two poses of it, rounding of coordinates included [m]
 double motion_bound(const Shape& b, const Pose& from, const Pose& to);
 
-/// X_AB with a unit quaternion.   throws Error where it has none or is not finite
+/// X_AB with its quaternion normalized.
+/// throws  Error where the quaternion is far from unit, or the position is not finite or too far
 Pose checked_pose(const Pose& X_AB);
 
 struct PairCache;

@@ -1,6 +1,8 @@
-// Exact queries between triangle meshes. Shape b stands at X_AB in the frame of shape a; every
-// result is in the frame of a. The surface of a closed mesh bounds a solid: one body inside another
-// collides. All throw Error when a number is missing or infinite or a quaternion is not unit.
+// Exact queries between triangle meshes; round pieces of RoundIn::all are measured by their
+// formulas, and named by their first triangles. Shape b stands at X_AB in the frame of shape a;
+// every result is in the frame of a. The surface of a closed mesh bounds a solid: one body inside
+// another collides. All throw Error when a number is missing or infinite or a quaternion is not
+// unit.
 #pragma once
 #include <Eigen/Core>
 #include <array>

@@ -7,7 +7,7 @@
 
 namespace clench {
 
-// Is a corner clearly within the radius, so that the rest of the triangle need not be looked at?
+// Is a corner clearly within the radius? Then the distance of the triangle need not be computed.
 static bool has_corner_within(const Corners& corners, const Eigen::Vector3d& p, double radius) {
   if (radius <= 0) return false;
   const double clearly = (1 - 1e-9) * radius * radius;

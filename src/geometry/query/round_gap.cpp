@@ -11,16 +11,18 @@ using Eigen::Vector3d;
 
 namespace {
 
-// The least value of a function on [low, high] that falls and then rises, by its slope, which
-// `at` gives beside the value.
-template <class At>
-double where_slope_changes(double low, double high, At&& slope_at) {
-  constexpr int most = 200;
+// Where a function that falls and then rises has its minimum on [low, high]; slope_at(x) is its
+// slope.
+template <class SlopeAt>
+double minimum_by_slope(double low, double high, SlopeAt&& slope_at) {
+  constexpr int max_iterations = 200;
   double below = slope_at(low), above = slope_at(high);
   if (below >= 0) return low;
   if (above <= 0) return high;
-  // regula falsi with halving of the end that stays (Illinois), and bisection where that is slow
-  for (int i = 0; i < most && high - low > 1e-15 * (std::abs(low) + std::abs(high)); ++i) {
+  // regula falsi that halves the slope at the end it keeps (Illinois), and bisection every third
+  // time
+  for (int i = 0; i < max_iterations && high - low > 1e-15 * (std::abs(low) + std::abs(high));
+       ++i) {
     double x = low + (high - low) * (-below / (above - below));
     if (i % 3 == 2 || !(x > low && x < high)) x = low + (high - low) / 2;
     if (!(x > low && x < high)) break;
@@ -37,6 +39,11 @@ double where_slope_changes(double low, double high, At&& slope_at) {
   return low + (high - low) / 2;
 }
 
+// From the middle of a capsule to the upper end of its axis.
+Vector3d axis_end(const PlacedRound& capsule) {
+  return capsule.X.rotation * Vector3d(0, 0, capsule.solid.half);
+}
+
 void keep_nearer(NearPlace& best, const NearPlace& place) {
   if (place.distance < best.distance) best = place;
 }
@@ -51,23 +58,23 @@ NearPlace nearest_on_segment(const PlacedRound& round, const Vector3d& p, const 
   const Vector3d way = q - p;
   if (way.isZero(0)) return round.nearest_to(p);
   if (round.solid.kind == Round::capsule) {
-    const Vector3d end = round.X.rotation * Vector3d(0, 0, round.solid.half);
+    const Vector3d end = axis_end(round);
     const Closest c = segment_segment(round.X.position - end, round.X.position + end, p, q);
     return round.nearest_to(c.q);
   }
   const Pose into = round.X.inverse();
   const Vector3d from = into * p, along = into.rotation * way;
-  const double s = where_slope_changes(
+  const double s = minimum_by_slope(
       0, 1, [&](double t) { return nearest(round.solid, from + t * along).normal.dot(along); });
   return round.nearest_to(p + s * way);
 }
 
-// Inside a triangle the nearest place has the solid's extreme point straight above it; a solid that
-// the plane cuts has a point of it between its two extremes.
+// A nearest place inside the triangle lies straight below the solid's extreme point. If the plane
+// cuts the solid, the place is taken from the segment between the solid's two extreme points.
 NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle) {
   if (round.solid.is_ball()) return round.nearest_to(point_triangle(round.X.position, triangle).q);
   if (round.solid.kind == Round::capsule) {
-    const Vector3d end = round.X.rotation * Vector3d(0, 0, round.solid.half);
+    const Vector3d end = axis_end(round);
     const Vector3d from = round.X.position - end, to = round.X.position + end;
     return round.nearest_to(triangle_triangle({from, to, to}, triangle).q);
   }
@@ -97,21 +104,21 @@ namespace {
 
 RoundGap swapped(const RoundGap& gap) { return {gap.gap, gap.p_b, gap.p_a, -gap.normal}; }
 
-// a place of b's surface or solid, against a
+// The gap between a and a place of b's surface or solid.
 RoundGap gap_at(const NearPlace& place) {
   return {place.distance, place.point - place.distance * place.normal, place.point, place.normal};
 }
 
-// of a capsule b: its axis, and what is within its radius
+// The gap between a and a capsule b: from the axis of b, less its radius.
 RoundGap gap_of_capsule(const PlacedRound& a, const PlacedRound& b) {
   const double radius = b.solid.radii.x();
-  const Vector3d end = b.X.rotation * Vector3d(0, 0, b.solid.half);
+  const Vector3d end = axis_end(b);
   const NearPlace place = nearest_on_segment(a, b.X.position - end, b.X.position + end);
   return {place.distance - radius, place.point - place.distance * place.normal,
           place.point - radius * place.normal, place.normal};
 }
 
-// the place of the rim at z = height of a cylinder that is nearest to a
+// The place nearest to a on the rim of a cylinder b at z = height.
 NearPlace nearest_on_rim(const PlacedRound& a, const PlacedRound& b, double height) {
   constexpr int samples = 24;
   constexpr double step = 2 * std::numbers::pi / samples;
@@ -125,14 +132,14 @@ NearPlace nearest_on_rim(const PlacedRound& a, const PlacedRound& b, double heig
     distances[i] = a.nearest_to(at(i * step)).distance;
     if (distances[i] < distances[best]) best = i;
   }
-  // beside the best sample, and beside others that are no farther than a step may bring nearer
+  // search beside the best sample, and beside others that are farther by no more than one step
   NearPlace out;
   for (int i = 0; i < samples; ++i) {
     const double before = distances[(i + samples - 1) % samples],
                  after = distances[(i + 1) % samples];
     if (distances[i] > before || distances[i] > after) continue;
     if (distances[i] > distances[best] + step * radius) continue;
-    const double angle = where_slope_changes((i - 1) * step, (i + 1) * step, [&](double t) {
+    const double angle = minimum_by_slope((i - 1) * step, (i + 1) * step, [&](double t) {
       const Vector3d tangent = b.X.rotation * Vector3d(-std::sin(t), std::cos(t), 0);
       return a.nearest_to(at(t)).normal.dot(tangent);
     });
@@ -141,8 +148,8 @@ NearPlace nearest_on_rim(const PlacedRound& a, const PlacedRound& b, double heig
   return out;
 }
 
-// The nearest place of a cylinder lies on a rim, or inside a cap and then straight above the other's
-// extreme point, or on its side and then abreast of the axis.
+// The nearest place of a cylinder lies on a rim, inside a cap, where it is straight above the
+// extreme point of the other solid, or on the side, where it is abreast of the axis.
 RoundGap gap_of_cylinder(const PlacedRound& a, const PlacedRound& b) {
   const double radius = b.solid.radii.x(), half = b.solid.half;
   NearPlace best;
@@ -167,18 +174,19 @@ RoundGap gap_of_cylinder(const PlacedRound& a, const PlacedRound& b) {
                   {middle.distance - radius, middle.point - radius * middle.normal, middle.normal});
   }
   if (best.distance <= 0) return gap_at(best);
-  // what pierces a cap touches neither rim nor axis
+  // a solid that pierces a cap may touch neither rim nor axis
   const Vector3d end = a.X.rotation * core_of(a.solid).end;
   const NearPlace pierced = nearest_on_segment(b, a.X.position - end, a.X.position + end);
   return pierced.distance < 0 ? swapped(gap_at(pierced)) : gap_at(best);
 }
 
-// How far apart two ellipsoids are along n, from a into b; the largest over all n is their gap.
+// Separation of two ellipsoids along n, from a into b; its maximum over all n is their gap.
 double gap_along(const PlacedRound& a, const PlacedRound& b, const Vector3d& n) {
   return n.dot(b.farthest(-n) - a.farthest(n));
 }
 
-// Climbs to the direction of the largest gap: where it points from one extreme point to the other.
+// Newton's method for the direction of the largest separation, which points from one extreme point
+// to the other.
 RoundGap gap_of_ellipsoids(const PlacedRound& a, const PlacedRound& b) {
   Vector3d n = (b.centre() - a.centre()).stableNormalized();
   if (n.isZero()) n = Vector3d::UnitZ();
@@ -187,7 +195,7 @@ RoundGap gap_of_ellipsoids(const PlacedRound& a, const PlacedRound& b) {
     return R * round.solid.radii.cwiseAbs2().asDiagonal() * R.transpose();
   };
   const Eigen::Matrix3d A = shape(a), B = shape(b);
-  // of sqrt(n' S n): its second derivative
+  // second derivative of sqrt(v' S v)
   const auto curvature = [](const Eigen::Matrix3d& S, const Vector3d& v) -> Eigen::Matrix3d {
     const Vector3d Sv = S * v;
     const double h = std::sqrt(v.dot(Sv));
@@ -223,7 +231,7 @@ RoundGap gap_between(const PlacedRound& a, const PlacedRound& b) {
   if (a.solid.kind == Round::capsule) return swapped(gap_of_capsule(b, a));
   if (b.solid.kind == Round::cylinder) {
     const RoundGap gap = gap_of_cylinder(a, b);
-    // of two that overlap one may show it alone
+    // an overlap of two cylinders may show in one of the two orders alone
     if (gap.gap <= 0 || a.solid.kind != Round::cylinder) return gap;
     const RoundGap back = swapped(gap_of_cylinder(b, a));
     return back.gap < gap.gap ? back : gap;

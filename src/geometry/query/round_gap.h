@@ -1,4 +1,4 @@
-// Where a round solid comes nearest to a segment, a circle, a triangle or another round solid.
+// Where a round solid comes nearest to a segment, a triangle or another round solid.
 #pragma once
 #include <limits>
 
@@ -7,17 +7,17 @@
 
 namespace clench {
 
-/// A place near a round solid, in one frame with it.
+/// A place near a round solid, in the frame that the solid is placed in.
 struct NearPlace {
   double distance = std::numeric_limits<double>::infinity();  ///< negative inside the solid [m]
-  Eigen::Vector3d point;                                      ///< the place
+  Eigen::Vector3d point;                                      ///< the place [m]
   Eigen::Vector3d normal;  ///< unit, of the solid's surface, towards the place
 };
 
-/// A solid in the frame of what it is compared with.
+/// A round solid in the frame of the thing that it is compared with.
 struct PlacedRound {
   Round solid;
-  Pose X;
+  Pose X;  ///< frame of the solid in that frame
 
   NearPlace nearest_to(const Eigen::Vector3d& p) const {
     const NearSkin skin = nearest(solid, X.inverse() * p);
@@ -34,15 +34,14 @@ struct PlacedRound {
 NearPlace nearest_on_segment(const PlacedRound& round, const Eigen::Vector3d& p,
                              const Eigen::Vector3d& q);
 
-/// The same on a triangle; one that passes through the solid gives a place inside it.
+/// The same on a triangle. If the triangle passes through the solid, the place is inside the solid.
 NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle);
 
-/// Two round solids.
+/// The gap between two round solids a and b.
 struct RoundGap {
-  /// of the surfaces, to 1e-9 of their size; where they overlap, how deep the one lies in the other,
-  /// negative [m]
+  /// of the surfaces, to 1e-9 of their size; where the solids overlap, minus the depth [m]
   double gap = 0;
-  Eigen::Vector3d p_a, p_b;  ///< where they are nearest, on both surfaces
+  Eigen::Vector3d p_a, p_b;  ///< the nearest points, on both surfaces [m]
   Eigen::Vector3d normal;    ///< unit, from a into b
 };
 RoundGap gap_between(const PlacedRound& a, const PlacedRound& b);

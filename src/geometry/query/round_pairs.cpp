@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "clench/base/watched.h"
 #include "clench/geometry/query/placement.h"
@@ -20,17 +21,17 @@ ShapeParts::ShapeParts(const Shape& of, RoundIn where) : shape(&of), facets(&of)
 }
 
 std::vector<int> triangles_near(const Shape& piece_of, int piece, const Shape& facets,
-                                const Pose& X_SP, double limit) {
+                                const Pose& X_FP, double limit) {
   const double reach = limit + core_of(piece_of.rounds().pieces[piece].solid).around;
   std::vector<int> out;
-  for (const TrianglePair& pair : pairs_within(facets, piece_of.core(piece), X_SP, reach))
+  for (const TrianglePair& pair : pairs_within(facets, piece_of.core(piece), X_FP, reach))
     out.push_back(pair.triangle_a);
   return out;
 }
 
 namespace {
 
-// The nearest place of facets to a round piece.
+// The place of facets nearest to a round piece, in the frame of the facets.
 struct FacetPlace : NearPlace {
   int triangle = -1;
 };
@@ -45,8 +46,8 @@ class FacetQuery {
         round_{piece_of.rounds().pieces[piece].solid, X_FP * piece_of.rounds().pieces[piece].X_SR} {
   }
 
-  /// nothing nearer than the limit: no triangle; the piece's axis in the solid of the facets: a
-  /// distance of 0
+  /// returns  triangle -1 if nothing is nearer than the limit; distance 0 if the piece's axis
+  ///          meets the facets or lies inside their solid
   FacetPlace nearest_place(double limit) const {
     const double around = core_of(round_.solid).around;
     const Distance core = distance(facets_, piece_of_.core(piece_), X_FP_, limit + around);
@@ -88,7 +89,7 @@ class FacetQuery {
   PlacedRound round_;
 };
 
-// All pairs of parts of two shapes, the nearest so far.
+// Finds the nearest of all pairs of parts of two shapes.
 class PartsQuery {
  public:
   PartsQuery(const Shape& a, const Shape& b, const Pose& X_AB, RoundIn where, double limit)
@@ -99,12 +100,12 @@ class PartsQuery {
   Distance find(PairCache* cache) {
     look_at_rounds();
     if (a_.facets && b_.facets) facets(cache);
-    return best_;
+    return deep_ ? *deep_ : best_;
   }
 
   bool meet(PairCache* cache) {
     look_at_rounds();
-    return best_.distance <= 0 ||
+    return deep_ || best_.distance <= 0 ||
            (a_.facets && b_.facets && colliding(*a_.facets, *b_.facets, X_AB_, cache));
   }
 
@@ -118,9 +119,19 @@ class PartsQuery {
     for (size_t j = 0; a_.facets && j < b_.rounds.size(); ++j) check(), facets_of_a(j);
   }
 
+  // Parts that overlap so deeply that no way out is seen count before all others.
+  // deepest  how deep the parts may lie in each other
+  void offer(const Distance& found, double deepest) {
+    if (found.distance <= -deepest || found.distance == 0) {
+      if (!deep_) deep_ = found, deep_->distance = 0;
+    } else if (found.distance < limit()) {
+      best_ = found;
+    }
+  }
+
   double limit() const { return std::min(limit_, best_.distance); }
 
-  // Is a ball about one farther from a ball about the other than what is looked for?
+  // Is the distance between two bounding balls at least the distance searched for?
   bool apart(const Vector3d& p, double radius_p, const Vector3d& q, double radius_q) const {
     return (p - q).norm() - radius_p - radius_q >= std::max(limit(), 0.0);
   }
@@ -134,7 +145,8 @@ class PartsQuery {
     const Pose X_AR = X_AB_ * b.X_SR;
     if (apart(a.X_SR.position, radius_of(a), X_AR.position, radius_of(b))) return;
     const RoundGap gap = gap_between({a.solid, a.X_SR}, {b.solid, X_AR});
-    if (gap.gap < limit()) best_ = {gap.gap, gap.p_a, gap.p_b, a.first, b.first};
+    offer({gap.gap, gap.p_a, gap.p_b, a.first, b.first},
+          std::min(inner_radius(a.solid), inner_radius(b.solid)));
   }
 
   void facets_of_b(size_t i) {
@@ -144,8 +156,9 @@ class PartsQuery {
     const FacetPlace place = FacetQuery(*a_.shape, static_cast<int>(i), *b_.facets, X_AB_.inverse())
                                  .nearest_place(limit());
     if (place.triangle < 0) return;
-    best_ = {place.distance, X_AB_ * Vector3d(place.point - place.distance * place.normal),
-             X_AB_ * place.point, a.first, b_.triangle(place.triangle)};
+    offer({place.distance, X_AB_ * Vector3d(place.point - place.distance * place.normal),
+           X_AB_ * place.point, a.first, b_.triangle(place.triangle)},
+          inner_radius(a.solid));
   }
 
   void facets_of_a(size_t j) {
@@ -155,23 +168,24 @@ class PartsQuery {
     const FacetPlace place =
         FacetQuery(*b_.shape, static_cast<int>(j), *a_.facets, X_AB_).nearest_place(limit());
     if (place.triangle < 0) return;
-    best_ = {place.distance, place.point, place.point - place.distance * place.normal,
-             a_.triangle(place.triangle), b.first};
+    offer({place.distance, place.point, place.point - place.distance * place.normal,
+           a_.triangle(place.triangle), b.first},
+          inner_radius(b.solid));
   }
 
   void facets(PairCache* cache) {
     const double here = std::max(limit(), 0.0);
-    const Distance found = distance(*a_.facets, *b_.facets, X_AB_, here, cache);
-    if (!(found.distance < best_.distance) || found.distance >= limit_) return;
-    best_ = found;
-    best_.triangle_a = a_.triangle(found.triangle_a);
-    best_.triangle_b = b_.triangle(found.triangle_b);
+    Distance found = distance(*a_.facets, *b_.facets, X_AB_, here, cache);
+    found.triangle_a = a_.triangle(found.triangle_a);
+    found.triangle_b = b_.triangle(found.triangle_b);
+    offer(found, no_limit);
   }
 
   ShapeParts a_, b_;
   Pose X_AB_;
   double limit_;
   Distance best_;
+  std::optional<Distance> deep_;
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ bool lies_on(const Mesh& mesh, const RoundPiece& piece) {
   return true;
 }
 
-// of the whole mesh: does it lie on the solid, and fill it?
+// Do all vertices of the mesh lie on the solid, and does the mesh fill it?
 static bool stands_for(const Mesh& mesh, double volume, const RoundPiece& piece) {
   return piece.solid.radii.x() > 0 && volume >= filled * volume_of(piece.solid) &&
          lies_on(mesh, piece);
@@ -59,7 +59,7 @@ static std::optional<RoundPiece> ball_of(const Mesh& mesh, const Bounds& bounds)
                     .X_SR = Pose::translation(middle + centre)};
 }
 
-// a cylinder or a capsule about an axis through the centroid that reaches as far as the vertices
+// The cylinder or capsule about an axis through the centroid that extends to the farthest vertices.
 static RoundPiece about_axis(const Mesh& mesh, const Vector3d& centroid, const Vector3d& axis,
                              Round::Kind kind) {
   double low = 0, high = 0, radius = 0;
@@ -76,8 +76,8 @@ static RoundPiece about_axis(const Mesh& mesh, const Vector3d& centroid, const V
           .X_SR = {turn, centroid + (low + high) / 2 * axis}};
 }
 
-// Axes about which the mesh may turn: the solid, the vertices and the faces each have one, and not
-// all of them have a second of equal size.
+// Candidates for an axis of symmetry: the principal axes of the solid, the vertices and the faces.
+// Where two principal moments of one of them are equal, those of another may differ.
 static std::vector<Vector3d> axes_of(const Mesh& mesh, const MassProperties& solid) {
   Matrix3d points = Matrix3d::Zero(), faces = Matrix3d::Zero();
   for (const Vector3d& v : mesh.vertices)
@@ -137,7 +137,7 @@ std::vector<RoundPiece> round_parts(const Mesh& mesh) {
       for (int& v : t) v = std::ranges::lower_bound(numbers, std::pair(v, 0))->second;
       alone.triangles.push_back(t);
     }
-    if (begun[part]) {  // its other triangles stand elsewhere: it is no solid
+    if (begun[part]) {  // its triangles do not follow one another
       std::erase_if(out, [&](const RoundPiece& piece) { return part_of(piece.first) == part; });
     } else if (auto piece = round_of(alone); piece && find_faults(alone).closed()) {
       piece->first = first;

@@ -1,4 +1,4 @@
-// Meshes that stand for round solids.
+// Recognizes meshes that are tessellations of round solids.
 #pragma once
 #include <optional>
 
@@ -15,8 +15,8 @@ std::optional<RoundPiece> round_of(const Mesh& mesh);
 /// Do all vertices of the piece's triangles lie on its surface, to a millionth of its size?
 bool lies_on(const Mesh& mesh, const RoundPiece& piece);
 
-/// round_of each of its connected parts whose triangles follow one another; of the others
-/// nothing.
+/// The solids of connected parts of a mesh, as round_of() finds them. Parts whose triangles do not
+/// follow one another are left out.
 std::vector<RoundPiece> round_parts(const Mesh& mesh);
 
 }  // namespace clench

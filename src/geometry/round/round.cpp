@@ -45,14 +45,15 @@ static NearSkin nearest_of_cylinder(const Round& round, const Vector3d& p) {
 // sum (r_i p_i / (t + r_i^2))^2 = 1, which Newton's method finds from below: the sum falls and is
 // convex.
 static NearSkin nearest_of_ellipsoid(const Round& round, const Vector3d& p) {
-  constexpr double no_coordinate = 1e-13;  // of the largest semi-axis: the distance moves by less
-  constexpr int most = 100;
+  // coordinates below this part of the largest semi-axis count as this: the distance changes less
+  constexpr double min_coordinate = 1e-13;
+  constexpr int max_iterations = 100;
   const Vector3d& r = round.radii;
   const Vector3d squared = r.cwiseAbs2();
-  const Vector3d q = p.cwiseAbs().cwiseMax(no_coordinate * r.maxCoeff());
+  const Vector3d q = p.cwiseAbs().cwiseMax(min_coordinate * r.maxCoeff());
   double t = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) t = std::max(t, r[k] * q[k] - squared[k]);
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < max_iterations; ++i) {
     double value = -1, slope = 0;
     for (int k = 0; k < 3; ++k) {
       const double part = r[k] * q[k] / (t + squared[k]);

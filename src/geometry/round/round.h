@@ -1,5 +1,5 @@
-// Round solids as their formulas give them: they touch and roll as what they are, while the
-// triangles that stand for them are seen, weighed and hit by rays.
+// Round solids by their formulas. Contacts and rolling use the formulas; pictures, masses and rays
+// use the triangles of the mesh.
 #pragma once
 #include <Eigen/Core>
 
@@ -10,7 +10,7 @@ namespace clench {
 /// A convex solid about the origin of its own frame, with its axis along z.
 struct Round {
   enum Kind {
-    capsule,   ///< all within radii.x of the segment from z = -half to half; half 0: a ball
+    capsule,   ///< points within radii.x of the segment from z = -half to half; half 0: a ball
     cylinder,  ///< of radius radii.x, from z = -half to half
     ellipsoid  ///< of semi-axes radii
   };
@@ -32,43 +32,43 @@ struct Round {
 
 inline constexpr const char* round_kinds[] = {"capsule", "cylinder", "ellipsoid"};
 
-/// A solid is the segment of its long axis, along `axis`, and what lies within `around` of it, or
-/// less.
+/// A segment about the origin along an axis of a solid: the solid contains the segment, and all
+/// points of the solid lie within `around` of it.
 struct Core {
   Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< the other end is -end [m]
   double around = 0;                              ///< [m]
 };
 Core core_of(const Round& round);
 
-/// A round solid that triangles of a mesh stand for.
+/// A round solid, and the triangles of a mesh that represent it.
 struct RoundPiece {
   Round solid;
-  Pose X_SR;                 ///< its frame in the shape's
-  int first = 0, count = 0;  ///< of the triangles
+  Pose X_SR;                 ///< frame of the solid in that of the shape
+  int first = 0, count = 0;  ///< of its triangles: the first, and how many follow one another
 };
 
 /// The radius of the largest ball inside [m].
 double inner_radius(const Round& round);
 
-/// The surface nearest to a point.
+/// The nearest point of the surface, by distance and normal.
 struct NearSkin {
   double distance = 0;     ///< negative inside [m]
-  Eigen::Vector3d normal;  ///< unit, outward, where the surface is nearest
+  Eigen::Vector3d normal;  ///< unit, outward, at the nearest point of the surface
 };
 
-/// Of a point in the solid's frame. The distance is convex in p, and the normal its gradient; where
-/// several points are nearest it is the normal of one of them.
+/// The surface nearest to p [m], in the solid's frame. The distance is convex in p, and the normal
+/// is its gradient; where several points of the surface are nearest, the normal of one of them.
 ///
 /// source  D. Eberly (2013), "Distance from a Point to an Ellipse, an Ellipsoid, or a
 ///         Hyperellipsoid", for ellipsoids
 NearSkin nearest(const Round& round, const Eigen::Vector3d& p);
 
-/// The point farthest along a unit direction, in the solid's frame; where a segment or a disc is
-/// equally far, its middle.
+/// The point farthest along a unit direction [m], in the solid's frame; where a segment or a disc
+/// is equally far, its middle.
 Eigen::Vector3d support(const Round& round, const Eigen::Vector3d& direction);
 
-/// All that lies not more than `slack` [m] below the farthest point along a direction, as far as
-/// it is flat: a point, or a segment between two, or a disc.
+/// The flat part of a solid's surface that is farthest along a direction: a point, a segment or a
+/// disc.
 struct FlatPart {
   enum Kind { point, segment, disc };
   Kind kind = point;
@@ -77,7 +77,9 @@ struct FlatPart {
   Eigen::Vector3d x = Eigen::Vector3d::Zero(), y = x;  ///< of a disc, to its rim [m]
 };
 
-/// In the solid's frame. The x of a disc points where it lies lowest.
+/// In the solid's frame. The x of a disc points to the farthest point of its rim.
+/// direction  unit
+/// slack      a segment or a disc whose points differ by no more along the direction is flat [m]
 FlatPart flat_part(const Round& round, const Eigen::Vector3d& direction, double slack);
 
 }  // namespace clench

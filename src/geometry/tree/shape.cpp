@@ -95,7 +95,7 @@ void Shape::set_rounds(RoundPieces rounds) {
   facets_ = make(std::move(rest));
 }
 
-// No point of a round piece is farther from p [m].
+// An upper bound of the distance from p to the points of a round piece [m].
 static double farthest_from(const RoundPiece& piece, const Eigen::Vector3d& p) {
   const Core core = core_of(piece.solid);
   const Eigen::Vector3d away = piece.X_SR.inverse() * p;

@@ -16,13 +16,13 @@ namespace clench {
 // bounding volumes over the triangles; its layout is nobody's business but the queries'
 class Tree;
 
-/// Where round solids count as round, and not as the triangles that stand for them.
+/// Which queries treat round pieces by their formulas instead of their triangles.
 enum class RoundIn {
-  all,    ///< wherever distances and contacts are found
-  motion  ///< in dynamics alone
+  all,    ///< all distances and contacts
+  motion  ///< those of dynamics alone
 };
 
-/// The round solids of a mesh, in the order of their triangles, of which none belongs to two.
+/// The round solids of a mesh, in the order of their triangles; no triangle belongs to two solids.
 struct RoundPieces {
   std::vector<RoundPiece> pieces;
   RoundIn in = RoundIn::all;
@@ -32,7 +32,8 @@ class Shape {
  public:
   using Extremes = std::array<Eigen::Vector3d, 6>;
 
-  /// A mesh given without round pieces that is a tessellation of one rolls as that.
+  /// A closed mesh without `rounds` that is a tessellation of a ball, capsule or cylinder gets that
+  /// as its round piece, for motion alone.
   /// throws Error when check_mesh does, `subject` names the mesh in it; Stopped
   static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh",
                                            const Progress& progress = {}, RoundPieces rounds = {});
@@ -50,21 +51,22 @@ class Shape {
   bool has_volume() const;
   /// closed and convex, and small enough to tell: see is_convex
   bool convex() const { return convex_; }
-  /// centre and radius [m] of a sphere that holds the mesh
+  /// centre and radius [m] of a sphere that contains the mesh, and round pieces of RoundIn::all
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
   const RoundPieces& rounds() const { return rounds_; }
-  /// Does it have round pieces that count there?
+  /// Does the shape have round pieces that count there?
   bool is_round(RoundIn where) const {
     return !rounds_.pieces.empty() && (where == RoundIn::motion || rounds_.in == RoundIn::all);
   }
-  /// The triangles that stand for no round piece, their numbers and those of their vertices here;
-  /// null without any.
-  /// Only of a shape with round pieces.
+  /// The triangles that belong to no round piece, as a shape; null if there are none. Set for
+  /// shapes with round pieces only.
   const std::shared_ptr<const Shape>& facets() const { return facets_; }
+  /// The index in mesh() of a triangle of facets().
   int facet(int number) const { return facet_numbers_[number]; }
+  /// The index in mesh() of a vertex of facets().
   int facet_vertex(int number) const { return facet_vertices_[number]; }
-  /// the axes of the round pieces, each a triangle without area
+  /// The axis of a round piece, as a triangle without area.
   const Shape& core(int piece) const { return *cores_[piece]; }
   /// one triangle of each connected part (vertices at one place connect), in index order
   const std::vector<int>& parts() const { return parts_; }

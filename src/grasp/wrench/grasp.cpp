@@ -15,7 +15,7 @@ namespace clench {
 
 namespace {
 
-// the patch of a site, and its torsion radius for the force that was last asked for
+// The patch of a site, and its torsion radius under the normal force of the last contact.
 struct Torsion {
   SoftPatch patch;
   double force = -1, radius = 0;  // [N], [m]

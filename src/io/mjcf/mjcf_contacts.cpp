@@ -97,10 +97,10 @@ MjcfListedBodies MjcfContacts::listed(
 
 namespace {
 
-/// Parts of the same bits: there are few kinds, so that pairs are counted and not visited.
+/// Parts with the same bits. There are few such groups, so pairs are counted without visiting them.
 struct PartGroup {
   std::vector<size_t> parts;
-  std::map<std::pair<int, int>, size_t> owners;  // how many parts each has
+  std::map<std::pair<int, int>, size_t> owners;  // number of parts of each owner
 };
 
 std::vector<PartGroup> groups_of(const std::vector<MjcfPart>& parts) {
@@ -119,7 +119,7 @@ std::vector<PartGroup> groups_of(const std::vector<MjcfPart>& parts) {
   return out;
 }
 
-/// Number of pairs of a part of each that are not of one owner.
+/// Number of pairs of a part of a and a part of b that have different owners.
 size_t pairs_between(const PartGroup& a, const PartGroup& b, bool same) {
   size_t all = a.parts.size() * b.parts.size();
   const PartGroup &less = a.owners.size() < b.owners.size() ? a : b, &more = &less == &a ? b : a;

@@ -22,7 +22,7 @@ struct MjcfBits {
     unsigned type = 0, affinity = 0;
     size_t count = 0;
   };
-  std::vector<Kind> kinds;          ///< of different bits, in their order
+  std::vector<Kind> kinds;          ///< geoms with the same bits, sorted by bits
   unsigned type = 0, affinity = 0;  ///< bits of any of them
   explicit MjcfBits(const std::vector<MjcfGeom>& geoms);
 };
@@ -35,14 +35,16 @@ using MjcfListedBodies = std::map<std::pair<size_t, size_t>, size_t>;
 struct MjcfPart {
   MjcfBits bits;
   bool fixed = false;              ///< to the world
-  std::pair<int, int> owner = {};  ///< parts of one robot have the same
+  std::pair<int, int> owner = {};  ///< equal for parts of one robot
   std::string name;
 };
 
-/// Pairs of parts, not of one robot, that do not collide.
+/// Pairs of parts with different owners that do not collide by their bits.
 struct MjcfKeptApart {
-  size_t by_bits = 0, fixed = 0;  ///< pairs of different bits; of fixed parts whose bits agree
-  std::vector<std::pair<size_t, size_t>> listed;  ///< of these, those of a <pair>, which collide
+  size_t by_bits = 0;  ///< pairs that share no bit, less those in `listed`
+  size_t fixed = 0;    ///< pairs that share a bit, both fixed to the world
+  /// pairs that share no bit, but collide because a <pair> lists geoms of theirs
+  std::vector<std::pair<size_t, size_t>> listed;
 };
 
 /// The first names of a list that may be long, and how many there are.
@@ -71,7 +73,8 @@ class MjcfContacts {
   ///         listed
   bool collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
                const std::string& name_a, const std::string& name_b);
-  /// Which parts do not collide? Remembers as collide() does.
+  /// Finds the parts that do not collide. Bodies of which only some pairs of geoms collide are
+  /// remembered, as by collide().
   MjcfKeptApart kept_apart(const std::vector<MjcfPart>& parts, const MjcfListedBodies& listed);
   /// Sets tree.model.never_meet and always_meet, whose excludes are there already: as MuJoCo, a
   /// link does not collide with what carries it, unless that is fixed to the world. `fixed_base`:

@@ -23,7 +23,7 @@ struct MjcfGeom {
   std::string name;      ///< empty: it has none
   bool paired = false;   ///< named by a <pair>, which defines what it collides with
 
-  OwnFriction friction;         ///< frictionless: condim is 1
+  OwnFriction friction;         ///< frictionless if condim is 1
   bool friction_given = false;  ///< by the geom or its class
 
   bool collides() const { return type != 0 || affinity != 0 || paired; }

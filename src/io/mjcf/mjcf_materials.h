@@ -1,4 +1,4 @@
-// Materials of bodies, by the friction of their geoms.
+// Materials of MJCF bodies, from the friction of their geoms.
 #pragma once
 #include <set>
 #include <string>
@@ -13,10 +13,10 @@ class MjcfMaterials {
   /// file  for messages
   explicit MjcfMaterials(std::string file) : file_(std::move(file)) {}
 
-  /// Material of a body, which has one: that of the geom, among those that collide, whose friction
-  /// prevails over the others'.
+  /// Material of a body: of its geoms that collide, the one with the highest priority, then with
+  /// the largest friction, decides. Friction 1 if no geom collides.
   std::string of(const std::vector<MjcfGeom>& geoms, const std::string& body);
-  /// All that were used.
+  /// All frictions that of() has used.
   std::vector<OwnFriction> list() const { return {frictions_.begin(), frictions_.end()}; }
   /// Warns, once, of bodies whose geoms differ.
   void tell(const FileCache& cache) const;

@@ -17,7 +17,7 @@ struct MjcfRobot {
   RobotSpec robot;
   MjcfTree tree;  ///< its model is what remains: joints after couplings, no links
   std::map<std::string, int> parts;  ///< links of the robot by the names of bodies; -1: the base
-  MjcfMaterials materials;           ///< of links whose friction the file gives
+  MjcfMaterials materials;           ///< of the links for which the file gives friction
 };
 
 class MjcfModel {
@@ -39,7 +39,7 @@ class MjcfModel {
   void scale_masses(MjcfTree& tree);
   /// The tree that begins with a body, as one of the robots of a scene.
   MjcfRobot scene_robot(const TopBody& body, bool first);
-  /// trunk       the body that the robot begins with, one of several; null: the robot is the only one
+  /// trunk       the body that the robot begins with, one of several; null: it is the only robot
   /// tells       also reports elements that concern no joint
   /// fixed_base  is its first body fixed to the world?
   MjcfRobot make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk, bool tells,

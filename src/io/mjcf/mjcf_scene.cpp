@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// each takes some 100 bytes of memory in the world
+// each pair takes some 100 bytes of memory in the world
 constexpr size_t max_excluded = 500'000;
 constexpr size_t max_robots = 1000;
 
@@ -32,7 +32,7 @@ struct ScenePart {
   bool fixed = false;           // to the world
 };
 
-/// Equal for parts of one robot, and for nothing else.
+/// Equal for parts of one robot, different for all others.
 std::pair<int, int> part_owner(const PartRef& ref) {
   return {static_cast<int>(ref.kind), ref.index};
 }
@@ -249,7 +249,7 @@ void SceneReader::dress_things() {
   }
 }
 
-/// Those of the scene that its parts have.
+/// The frictions of the scene that parts of the robot have.
 std::vector<OwnFriction> SceneReader::used_frictions(const RobotSpec& robot) const {
   std::set<std::string> materials = {robot.base.material};
   for (const LinkSpec& link : robot.links) materials.insert(link.body.material);
@@ -299,8 +299,8 @@ void SceneReader::exclude() {
   }
 }
 
-/// Gives the parts their bits, unless all parts collide with each other anyway; pairs of geoms that
-/// a <pair> lists collide whatever their bits say.
+/// Gives the parts their bits, unless all parts collide with each other anyway. Pairs of bodies
+/// with geoms that a <pair> lists collide whatever their bits are.
 void SceneReader::set_bits() {
   std::vector<MjcfPart> parts;
   for (const ScenePart& part : parts_)

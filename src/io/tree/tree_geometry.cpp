@@ -124,7 +124,7 @@ static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
   return out;
 }
 
-// Every two round pieces of two bodies are compared: of more than these the facets touch.
+// All pairs of round pieces of two bodies are compared; bodies with more pieces touch as triangles.
 static constexpr size_t max_round_pieces = 64;
 
 static RoundPieces rounds_of(const std::vector<GeometryPiece>& pieces) {

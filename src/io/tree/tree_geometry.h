@@ -26,7 +26,7 @@ struct GeometryPiece {
   Pose X_LG;                            ///< in the link, after scaling
   std::optional<PieceColor> color;      ///< over that of the file
   std::optional<MassProperties> solid;  ///< of a round shape, which its mesh only comes near
-  std::optional<Round> round = {};      ///< as which a round shape touches
+  std::optional<Round> round = {};      ///< the solid that a round shape touches as
 };
 
 /// Mass properties of what a piece shows, without its scale.

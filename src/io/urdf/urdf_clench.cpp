@@ -174,7 +174,7 @@ void ClenchReader::read_joint(const XmlElement& element) {
   values.fail("name", "no joint {}{}", in_quotes(name), did_you_mean(name, known));
 }
 
-/// The material of the friction that a link brings along.
+/// The material with the friction that a <link> gives.
 std::string ClenchReader::own_material(const XmlValues& values) {
   if (values.has("material"))
     values.fail("friction", "expected a material or a friction, got both");

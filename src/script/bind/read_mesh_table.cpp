@@ -35,7 +35,8 @@ static RoundPiece read_round(lua_State* L, int i, const std::string& subject) {
   return out;
 }
 
-// Each is a solid, and its triangles lie on it; they stand in order.
+// Checks that each solid is valid, that its triangles lie on it, and that solids are in the order
+// of their triangles.
 static void check_rounds(const MeshTable& table, const std::string& subject) {
   int next = 0, number = 0;
   for (const RoundPiece& piece : table.rounds.pieces) {

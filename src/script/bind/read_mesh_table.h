@@ -10,12 +10,12 @@ struct MeshTable {
   Mesh mesh;
   RoundPieces rounds;
 
-  /// factor  > 0
+  /// Scales all lengths.   factor  > 0
   void scale(double factor);
 };
 
-/// {vertices =, triangles =, round =}, as the shapes of the standard library are: `round` is true
-/// where parts may stand for round solids, which are then looked for, or a list of them.
+/// Reads {vertices =, triangles =, round =}, the format of shapes of the standard library. round:
+/// true searches the connected parts for round solids; a list names the solids.
 MeshTable read_mesh_table(lua_State* L, int i, const ReadOptions& reading);
 
 }  // namespace clench

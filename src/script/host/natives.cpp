@@ -45,8 +45,8 @@ static int suggest(lua_State* L) {
   return push(L, known.empty() ? "" : did_you_mean(string_at(L, 1), known));
 }
 
-// printable(text, kept): the text with one '?' for each character that a terminal or a page would
-// obey; `kept`: characters that stay, such as "\n\t"
+// printable(text, kept): the text with '?' in place of each character that a terminal or a page
+// would obey; `kept`: characters that are not replaced, such as "\n\t"
 static int make_printable(lua_State* L) {
   if (lua_type(L, 1) != LUA_TSTRING) check_string(L, 1, "text");  // text may have zero bytes
   const auto kept = given(L, 2) ? string_at(L, 2) : std::string_view();

@@ -40,8 +40,8 @@ struct StoredGrasp {
   std::vector<double> dofs,
       torques;  // torques: of the motors, beside what holds the posture; empty: none found
   double epsilon = 0, load = 0;
-  // radius of the patches of soft fingers, mean of all contacts: friction resists torques about the
-  // normal up to mu times the force times this [m]
+  // mean torsion radius of the contacts of soft fingers: friction resists torques about the normal
+  // up to mu times the force times this radius [m]
   double torsion_radius = 0;
   bool verified = false;  // by `clench plan --verify`
   int held = 0;           // in how many of the six directions study.shake held it

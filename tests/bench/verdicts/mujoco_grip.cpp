@@ -69,7 +69,7 @@ class GripFile {
         << ' ' << I(0, 1) << ' ' << I(0, 2) << ' ' << I(1, 2) << "\"/>";
     return out.str();
   }
-  // where patches resist torques about the normal, so do MuJoCo's points
+  // torsional friction of patches becomes that of MuJoCo's contact points
   std::string surface() const {
     std::ostringstream out;
     out << "condim=\"" << (grasp_.torsion_radius > 0 ? 4 : 3) << "\" friction=\"" << scene_.mu
@@ -247,7 +247,7 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
                            const GripOptions& options) {
   if (!scene.table) throw std::runtime_error("the scene has no table");
   MujocoGrip grip(scene, grasp, options, true);
-  const double height = 0.1, seconds = 1.5;  // [m], [s]
+  const double height = 0.1, lift_seconds = 1.5;  // [m], [s]
   const auto run = [&](double seconds, auto share_at) {
     const int steps = static_cast<int>(std::lround(seconds / time_step));
     for (int i = 1; i <= steps; ++i) {
@@ -258,7 +258,7 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
   run(options.grip_seconds, [](double part) { return part; });
   run(0.5, [](double) { return 1.0; });
   const Isometry3d gripped = grip.in_hand();
-  // as a cubic, which neither starts nor ends with a blow
+  // height as a cubic of time: the velocity is 0 at both ends
   run(lift_seconds, [&](double s) {
     grip.raise_to(height * s * s * (3 - 2 * s), height * 6 * s * (1 - s) / lift_seconds);
     return 1.0;

@@ -1,4 +1,4 @@
-// A grip in MuJoCo: its own collisions of convex pieces, its own contact model, its own solver.
+// A grip simulated by MuJoCo, with MuJoCo's collisions of convex pieces, contact model and solver.
 #pragma once
 #include <memory>
 
@@ -6,13 +6,13 @@
 
 namespace clench::bench {
 
-/// Steps of 1 ms; contacts as stiff as four of them allow. Joints of one DOF are coupled.
+/// Steps of 1 ms; the time constant of contacts is four steps. Joints of one DOF are coupled.
 std::unique_ptr<Grip> mujoco_grip(const GripScene& scene, const StoredGrasp& grasp,
                                   const GripOptions& options);
 
 struct LiftVerdict {
   bool held = false;
-  double moved = 0, turned = 0;  ///< of the object in the hand, in the end [m, rad]
+  double moved = 0, turned = 0;  ///< of the object relative to the hand, at the end [m, rad]
 };
 
 /// Under gravity the object rests on the scene's table while the hand presses; then the hand rises

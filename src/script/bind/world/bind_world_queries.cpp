@@ -37,7 +37,7 @@ static int collides(lua_State* L) {
   return push(L, clench::collides(*world, check_bodies(L, 2, "entity", world), &world->context()));
 }
 
-// the option `max`; absent: all
+// the option `max`; nullopt: all pairs
 static std::optional<size_t> max_pairs(lua_State* L, int options_at) {
   constexpr int all = -1;
   Table options(L, options_at);
@@ -119,7 +119,7 @@ Does anything collide that may, or one entity with anything? The fastest test: i
 Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 @param a? body|robot
 @param b? body|robot
-@param options? {max?: integer}  max: at most so many pairs, the first ones in the order in which bodies were made; all by default
+@param options? {max?: integer}  max: largest number of pairs, the first ones in creation order; all by default
 @return body[][]  pairs
 > #world:colliding()  --> 0
 > #world:colliding(nil, nil, {max = 10})  --> 0)"},

@@ -223,11 +223,11 @@ Switches collision on or off: for the whole world, for one entity against everyt
 > world:set_collision(false, hand, flask)
 > #world:contacts(hand, flask)  --> 0)"},
     {"set_collision_bits", guarded<set_collision_bits>, R"(
-Gives bodies bits, as `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the
-affinity of the other share a bit. Bodies that are fixed do not collide with each other. `world:set_collision(true, a, b)` makes a pair
-collide whatever its bits say.
+Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the
+affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair
+collide whatever its bits are.
 @param entity body|robot
-@param bits? {type?: integer, affinity?: integer, fixed?: boolean}  type and affinity: 1 by default; fixed: does it stand in the world? false by default
+@param bits? {type?: integer, affinity?: integer, fixed?: boolean}  type and affinity: 1 by default; fixed: is it fixed to the world? false by default
 > world:set_collision_bits(flask, {type = 2, affinity = 2})
 > world:set_collision_bits(hand, {type = 4})
 > #world:contacts(hand, flask)  --> 0)"},
