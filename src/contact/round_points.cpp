@@ -137,9 +137,13 @@ class MeshPoints {
       add_place(flat.part.middle + low * flat.part.half);
       add_place(flat.part.middle + high * flat.part.half);
     } else {
-      for (const Vector3d& arm : {flat.part.x, flat.part.y})
-        for (const double side : {1.0, -1.0})
-          if (const Vector3d rim = flat.part.middle + side * arm; inside(rim)) add_place(rim);
+      constexpr int rim_points = 8;
+      for (int k = 0; k < rim_points; ++k) {
+        const double angle = 2 * std::numbers::pi * k / rim_points;
+        const Vector3d rim =
+            flat.part.middle + std::cos(angle) * flat.part.x + std::sin(angle) * flat.part.y;
+        if (inside(rim)) add_place(rim);
+      }
       for (int k = 0; k < 3; ++k) {
         if (flat.over_disc(c[k])) add_place(flat.above(c[k]));
         const Vector3d way = c[(k + 1) % 3] - c[k];

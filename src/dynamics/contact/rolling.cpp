@@ -39,8 +39,6 @@ static double farther_reach(const Round& solid, const Pose& X_BR, const Vector3d
 
 double rolled_gap(const World& world, const Manifold& m, const ManifoldPoint& point, double h) {
   if (!world.dynamics()) return 0;
-  // a cylinder on its cap stands on points of its rim
-  constexpr double flat = 1e-2;
   double change = 0;
   for (const bool is_b : {false, true}) {
     const Feature& feature = is_b ? point.feature_b : point.feature_a;
@@ -52,7 +50,8 @@ double rolled_gap(const World& world, const Manifold& m, const ManifoldPoint& po
     const Vector3d n_W = world.pose(m.a).rotation * point.normal;
     const Vector3d n = back * Vector3d(is_b ? -n_W : n_W);
     const Vector3d n_R = piece.X_SR.rotation.conjugate() * n;
-    if (piece.solid.kind == Round::cylinder && std::hypot(n_R.x(), n_R.y()) < flat) continue;
+    // a cylinder on its cap stands on points of its rim
+    if (flat_part(piece.solid, n_R, world.contact_threshold()).kind == FlatPart::disc) continue;
     const Vector3d spin = back * world.dynamics()->twists[id.index].angular;
     change -=
         farther_reach(piece.solid, piece.X_SR, body.com, is_b ? point.p_b : point.p_a, n, spin, h);
