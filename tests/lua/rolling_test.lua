@@ -98,3 +98,93 @@ test("a capsule on its side touches a plate at two points, standing at one, with
   t.equal(standing[1].feature.kind, "round")
   t.close(standing[1].point, {0.1, 0.2, 5e-5}, 1e-9)
 end)
+
+-- A floor, and a body 24 um above it, turned by rpy.
+local function above_floor(shape, rpy, options)
+  local world = clench.world()
+  local floor = world:add_obstacle(plate(false), {name = "floor"})
+  options.pose = {xyz = {0, 0, 0.2}, rpy = rpy}
+  local body = world:add_object(shape, options)
+  local gap = world:distance(floor, body)
+  body.pose = clench.pose {xyz = {0, 0, 0.2 - gap + 2.4e-5}, rpy = rpy}
+  return world, body, floor
+end
+
+local function energy(world, body)
+  local spin = body.pose:inverse():rotate(body.velocity.angular)
+  local turning = 0
+  for i = 1, 3 do
+    for j = 1, 3 do turning = turning + spin[i] * body.inertia[i][j] * spin[j] end
+  end
+  return body.mass * gravity * body.pose.position.z + 0.5 * body.mass * body.velocity.linear:dot(body.velocity.linear) +
+         0.5 * turning
+end
+
+local wobbling = {
+  can = {shapes.cylinder {0.03, 0.06}, {0.4, 0, 0}, {0, 0, 3}},
+  ["falling can"] = {shapes.cylinder {0.03, 0.08}, {1.4, 0, 0}, {0, 0, 5}},
+  coin = {shapes.cylinder {0.012, 0.002}, {math.pi / 2 + 0.5, 0.2, 0}, {0, 0, 30}},
+  lid = {shapes.cylinder {0.0375, 0.0125}, {0.7, 0.2, 0}, {1, 0, 10}},
+  capsule = {shapes.capsule {0.01, 0.06}, {0.5, 0, 0}, {0, 0, 8}},
+}
+for _, name in ipairs {"can", "falling can", "coin", "lid", "capsule"} do
+  local case = wobbling[name]
+  test(name .. ": what wobbles on a floor neither sinks in nor gains energy; what is flat comes to rest", function(t)
+    local world, body, floor = above_floor(case[1], case[2], {mass = 0.05})
+    body.velocity = {angular = case[3]}
+    local most = 1.01 * energy(world, body)
+    for _ = 1, 400 do
+      world:run(0.01)
+      t.equal(#world:colliding(body, floor), 0)
+      t.ok(energy(world, body) <= most)
+    end
+    t.equal(world.report.failures, 0)
+    if name == "coin" or name == "lid" then t.close(body.velocity.linear:norm(), 0, 1e-3) end
+  end)
+end
+
+test("an ellipsoid that rocks and spins gains no energy, and loses little", function(t)
+  for _, radii in ipairs {{0.04, 0.04, 0.01}, {0.05, 0.01, 0.01}, {0.04, 0.03, 0.02}} do
+    local path = test.path(".xml", ([[<mujoco><worldbody><geom type="box" size="1 1 0.05" pos="0 0 -0.05"/>
+      <body name="b" pos="0 0 0.3"><freejoint/><geom type="ellipsoid" size="%g %g %g" mass="0.2"/></body>
+      </worldbody></mujoco>]]):format(table.unpack(radii)))
+    local world = clench.load(path)
+    local body, floor = world.objects[1], world.obstacles[1]
+    local rpy = {0.3, 0, 0}
+    body.pose = clench.pose {xyz = {0, 0, 0.3}, rpy = rpy}
+    body.pose = clench.pose {xyz = {0, 0, 0.3 - world:distance(floor, body) + 2.4e-5}, rpy = rpy}
+    body.velocity = {angular = {0, 0, 5}}
+    local rest = body.mass * gravity * math.min(table.unpack(radii))
+    local start = energy(world, body) - rest
+    for _ = 1, 100 do
+      world:run(0.01)
+      local now = energy(world, body) - rest
+      t.ok(now < 1.01 * start and now > 0.9 * start)
+    end
+    t.equal(world.report.impacts, 0)
+  end
+end)
+
+test("a part that lies deep in the floor is pushed out, whatever else touches beside it", function(t)
+  local deep = shapes.move(shapes.sphere {0.02}, {0.05, 0, -0.005})
+  local shallow = shapes.move(shapes.sphere {0.02}, {-0.05, 0, 0.0199})
+  for _, parts in ipairs {{deep, shallow}, {shallow, deep}} do
+    local world = clench.world()
+    world:add_obstacle(plate(false), {name = "floor"})
+    local body = world:add_object(shapes.union(parts), {mass = 0.2})
+    world:run(0.8)
+    t.ok(body.pose.position.z > 0.01)
+  end
+end)
+
+test("what rolls over an open surface meets it once", function(t)
+  for _, shape in ipairs {shapes.cylinder {0.02, 0.05}, shapes.sphere {0.02}} do
+    local world = clench.world()
+    world:add_obstacle {vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, triangles = {{1, 2, 3}, {1, 3, 4}}}
+    local body = world:add_object(shape, {mass = 0.2, pose = {xyz = {-0.5, 0, 0.02003}, rpy = {math.pi / 2, 0, 0}}})
+    body.velocity = {linear = {0.5, 0, 0}, angular = {0, 25, 0}}
+    world:run(1)
+    t.ok(world.report.impacts < 10)
+    t.close(body.velocity.linear.x, 0.5, 1e-3)
+  end
+end)
