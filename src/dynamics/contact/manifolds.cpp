@@ -214,7 +214,9 @@ static bool are_of_one_robot(const World& world, const Manifold& m) {
 // the point of the surface that is nearest to the centre.
 static std::vector<Touch> push_back_touches(const Shape& a, const Shape& b, const Pose& X_AB) {
   std::vector<Touch> out;
-  const auto add = [&](const Shape& mesh, const RoundPiece& piece, const Pose& X_MP, bool of_b) {
+  const auto add = [&](const Shape& mesh, const Shape& piece_of, size_t number, const Pose& X_MP,
+                       bool of_b) {
+    const RoundPiece& piece = piece_of.rounds().pieces[number];
     const Eigen::Vector3d centre = X_MP * piece.X_SR.position;
     if (!out.empty() || !contains(mesh, centre)) return;
     const ClosestPoint near = closest_point(mesh, centre);
@@ -227,14 +229,14 @@ static std::vector<Touch> push_back_touches(const Shape& a, const Shape& b, cons
                 normal,
                 normal.dot(deepest - near.point),
                 {Feature::triangle, near.triangle, -1},
-                {Feature::round, 0, -1}};
+                {Feature::round, static_cast<int>(number), -1}};
     if (!of_b)
       touch = {X_AB * deepest, X_AB * near.point, X_AB.rotation * Eigen::Vector3d(-normal),
                touch.gap,      touch.feature_b,   touch.feature_a};
     out.push_back(touch);
   };
-  for (const RoundPiece& piece : b.rounds().pieces) add(a, piece, X_AB, true);
-  for (const RoundPiece& piece : a.rounds().pieces) add(b, piece, X_AB.inverse(), false);
+  for (size_t k = 0; k < b.rounds().pieces.size(); ++k) add(a, b, k, X_AB, true);
+  for (size_t k = 0; k < a.rounds().pieces.size(); ++k) add(b, a, k, X_AB.inverse(), false);
   return out;
 }
 

@@ -180,8 +180,10 @@ FrictionSolution IslandSolver::solve_heap(const System& system, const StepProble
   }
   if (solution.solved || problem_.q.size() > max_dense_rows) return solution;
   assemble(problem, island);
-  solution = solver_.solve(problem_, warm_start_, options, progress);
-  solution.iterations += iterations;
+  const FrictionSolution dense = solver_.solve(problem_, warm_start_, options, progress);
+  iterations += dense.iterations;
+  if (dense.solved || dense.residual < solution.residual) solution = dense;
+  solution.iterations = iterations;
   solution.fell_back = true;
   return solution;
 }
