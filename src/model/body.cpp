@@ -14,6 +14,8 @@ Body make_body(const BodySpec& spec, BodyKind kind) {
   body.mesh_report = spec.mesh_report;
   body.appearance = spec.appearance;
   body.mass = spec.mass;
+  body.material_from = spec.material_from;
+  body.mass_from = spec.mass_from;
   body.com = com_of(spec);
   body.inertia_per_mass = inertia_of(spec);
   body.elastic_modulus = spec.elastic_modulus;

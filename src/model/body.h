@@ -23,6 +23,7 @@ struct Body {
   Appearance appearance;
   int material = 0;                       ///< index into the world's table
   double mass = 0;                        ///< [kg]
+  Origin material_from = Origin::assumed, mass_from = Origin::assumed;
   Eigen::Vector3d com;                    ///< in the body frame [m]
   Eigen::Matrix3d inertia_per_mass;       ///< about com, body axes [m^2]
   std::optional<double> elastic_modulus;  ///< [Pa]

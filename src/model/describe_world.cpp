@@ -40,6 +40,8 @@ BodySpec Describer::body(Id<Body> id) const {
   out.appearance = b.appearance;
   out.material = world_.materials().name(b.material);
   out.mass = b.mass;
+  out.material_from = b.material_from;
+  out.mass_from = b.mass_from;
   out.com = b.com;
   out.inertia_per_mass = b.inertia_per_mass;
   out.elastic_modulus = b.elastic_modulus;

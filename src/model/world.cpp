@@ -396,11 +396,13 @@ void World::add_friction(const OwnFriction& own) { edit_settings().materials.add
 
 void World::set_material(Id<Body> id, std::string_view material) {
   edit(id).material = settings_->materials.index(material);
+  edit(id).material_from = Origin::script;
 }
 
 void World::set_mass(Id<Body> id, double mass) {
   check(mass_rule, mass, the_body(body(id).name));
   edit(id).mass = mass;
+  edit(id).mass_from = Origin::script;
 }
 
 void World::set_com(Id<Body> id, const Eigen::Vector3d& com) {

@@ -11,12 +11,14 @@ void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& pl
                   const Listeners& listeners, std::span<const BodySpec* const> obstacles) {
   std::vector<std::string> neither, weightless, of_nothing, balls, uniform;
   const auto look = [&](const BodySpec* body) {
-    if (!body->shape) return;
-    if (!body->mass_given && !body->material_given)
+    if (!body->shape || body->assumptions_told) return;
+    const bool mass_assumed = body->mass_from == Origin::assumed,
+               material_assumed = body->material_from == Origin::assumed;
+    if (mass_assumed && material_assumed)
       neither.push_back(body->name);
-    else if (!body->mass_given)
+    else if (mass_assumed)
       weightless.push_back(body->name);
-    else if (!body->material_given)
+    else if (material_assumed)
       of_nothing.push_back(body->name);
   };
   for (const BodySpec* body : bodies) {

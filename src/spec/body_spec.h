@@ -21,6 +21,9 @@ struct Appearance {
   ShapePtr visual = {};  ///< drawn instead of the body's shape; null: that shape itself
 };
 
+/// Where a value comes from.
+enum class Origin : char { assumed, file, script };
+
 struct BodySpec {
   std::string name;    ///< file stem unless the user says otherwise
   std::string source;  ///< file it was read from, as it was named; empty when made in a script
@@ -30,7 +33,8 @@ struct BodySpec {
   Appearance appearance;
   std::string material = "wood";
   double mass = 0.3;                                ///< [kg]
-  bool material_given = false, mass_given = false;  ///< do they come from a file or a script?
+  Origin material_from = Origin::assumed, mass_from = Origin::assumed;
+  bool assumptions_told = false;  ///< was it told that material or mass are assumed?
   bool inertia_told = false;  ///< was it told where an inertia not given comes from?
   /// centre of mass in the body frame [m]; else from the shape
   std::optional<Eigen::Vector3d> com;

@@ -81,8 +81,9 @@ std::string doubt_gravity(const Eigen::Vector3d& gravity) {
 // of a file that gives a mass
 static std::string doubt_given_mass(const BodySpec& body) {
   // the smallest mass stands for 0
-  return body.mass_given && body.mass > mass_rule.min ? doubt_mass(body.mass, body.shape.get())
-                                                      : "";
+  return (body.mass_from != Origin::assumed || body.assumptions_told) && body.mass > mass_rule.min
+             ? doubt_mass(body.mass, body.shape.get())
+             : "";
 }
 
 void check_plausible_object(const BodySpec& body, const std::string& place,

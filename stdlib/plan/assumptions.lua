@@ -2,35 +2,17 @@
 local name_list = require "clench.name_list"
 local assumptions = {}
 
-local max_searched = 1 << 20  -- the part of a file that is searched for words [bytes]
-
 local function file_name(path) return path:match "[^/]*$" end
 
--- Does a file contain one of these words?
-local function mentions(path, words)
-  local file = path ~= "" and io.open(path, "rb")
-  if not file then return false end
-  local text = (file:read(max_searched) or ""):lower()
-  file:close()
-  for _, word in ipairs(words) do
-    if text:find(word, 1, true) then return true end
+-- The source of a value of a body, or of the bodies of a hand, named by `field`: "assumed" if it is assumed for any of them.
+local function source_of(thing, field, bodies)
+  local from
+  for _, body in ipairs(bodies) do
+    if body.mesh and from ~= "assumed" then from = body[field] end
   end
-  return false
-end
-
-local material_words, mass_words = {"material", "friction"}, {"mass", "weight", "density"}
-
--- files of meshes state neither materials nor masses
-local mesh_formats = {obj = true, stl = true, ply = true, off = true, glb = true, gltf = true, dae = true}
-
--- "set by the script", "from its file", or that the value is assumed
-local function source_of(thing, words)
-  if thing.source == "" then return "set by the script" end
-  local extension = thing.source:match "%.(%w+)$"
-  if extension and mesh_formats[extension:lower()] then words = {} end
-  if extension == "urdf" and words == material_words then words = {"<clench"} end
-  if mentions(thing.source, words) then return "from its file" end
-  return ("assumed, as %s states none"):format(file_name(thing.source))
+  if from == "script" then return "set by the script" end
+  if from == "file" then return "from its file" end
+  return thing.source == "" and "assumed" or ("assumed, as %s states none"):format(file_name(thing.source))
 end
 
 -- Coefficients between the hand's materials and that of the object, the lowest first.
@@ -54,13 +36,13 @@ local function friction_line(hand, object, given)
   if #list == 0 then return nil, "friction: none, as the hand has no surface" end
   if given.friction then return list[1].mu, ("friction %.3g between hand and object (--friction)"):format(list[1].mu) end
   for i, pair in ipairs(list) do parts[i] = ("%.3g of %s on %s"):format(pair.mu, pair.material, object.material) end
-  local of_object = given.material and "--material" or source_of(object, material_words)
+  local of_object = given.material and "--material" or source_of(object, "material_from", {object})
   return list[1].mu, ("friction %s (material of the hand: %s; of the object: %s)"):format(name_list(parts),
-    source_of(hand, material_words), of_object)
+    source_of(hand, "material_from", hand.bodies), of_object)
 end
 
 local function mass_line(object, given)
-  return object.mass, ("mass %.4g kg (%s)"):format(object.mass, given.mass and "--mass" or source_of(object, mass_words))
+  return object.mass, ("mass %.4g kg (%s)"):format(object.mass, given.mass and "--mass" or source_of(object, "mass_from", {object}))
 end
 
 -- Smallest and largest effort of the motors that close the hand [N m or N], and the number of motors without limits.

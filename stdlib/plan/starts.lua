@@ -260,7 +260,7 @@ end
 
 -- Finds a direction across the line from which jaws reach the points without collision: at a random depth, or else with little more than the ends
 -- of their pads.
--- returns  the approach direction, and the distance from the middle of the points to the middle of the pads along it [m]; nil if there is none
+-- returns  the approach direction, and the distance from the middle of the points to the middle of the pads along it [m]; nil without such a direction
 local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   for _ = 1, sides do
     local direction, part = approach_across(hand, line, random), random:uniform(-0.7, 0.7)

@@ -21,10 +21,12 @@ DynamicScene stack_of_ten(double gap) {
   return scene;
 }
 
-DynamicScene boxes_in_a_bin(double) {
-  constexpr double half = 0.15, wall = 0.04, height = 0.5;
-  DynamicScene scene{.name = "boxes in a bin"};
-  scene.parts.push_back({.size = {1, 1, 0.1}, .X_W = Pose::translation({0, 0, -0.05})});
+Part ground_part() { return {.size = {2, 2, 0.1}, .X_W = Pose::translation({0, 0, -0.05})}; }
+
+DynamicScene empty_bin(const std::string& name, double half, double height) {
+  constexpr double wall = 0.04;
+  DynamicScene scene{.name = name};
+  scene.parts.push_back(ground_part());
   for (const double side : {-1.0, 1.0}) {
     const double at = side * (half + wall / 2);
     scene.parts.push_back({.size = {wall, 2 * half + 2 * wall, height},
@@ -32,6 +34,11 @@ DynamicScene boxes_in_a_bin(double) {
     scene.parts.push_back(
         {.size = {2 * half, wall, height}, .X_W = Pose::translation({0, at, height / 2})});
   }
+  return scene;
+}
+
+DynamicScene boxes_in_a_bin(double) {
+  DynamicScene scene = empty_bin("boxes in a bin", 0.15, 0.5);
   Random random(3);
   for (int i = 0; i < 20; ++i) {
     const Vector3d size(random.uniform(0.03, 0.08), random.uniform(0.03, 0.08),

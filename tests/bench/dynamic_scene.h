@@ -41,6 +41,12 @@ struct DynamicScene {
   int watched = 0;  ///< the part that counts
 };
 
+/// A plate whose upper side is z = 0.
+Part ground_part();
+/// Four walls on the ground.
+/// half  of the free width [m]
+DynamicScene empty_bin(const std::string& name, double half, double height);
+
 /// gap  between bodies that touch: each engine rests at its own [m]
 DynamicScene stack_of_ten(double gap);
 /// 20 boxes of many sizes that fall turned, one after another, into a bin of 30 cm.

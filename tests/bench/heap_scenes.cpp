@@ -12,22 +12,6 @@ namespace clench::bench {
 
 using Eigen::Vector3d;
 
-static Part ground_part() { return {.size = {2, 2, 0.1}, .X_W = Pose::translation({0, 0, -0.05})}; }
-
-static DynamicScene empty_bin(const std::string& name, double half, double height) {
-  constexpr double wall = 0.04;
-  DynamicScene scene{.name = name};
-  scene.parts.push_back(ground_part());
-  for (const double side : {-1.0, 1.0}) {
-    const double at = side * (half + wall / 2);
-    scene.parts.push_back({.size = {wall, 2 * half + 2 * wall, height},
-                           .X_W = Pose::translation({at, 0, height / 2})});
-    scene.parts.push_back(
-        {.size = {2 * half, wall, height}, .X_W = Pose::translation({0, at, height / 2})});
-  }
-  return scene;
-}
-
 DynamicScene bin_of_boxes(int count) {
   constexpr double density = 800;
   DynamicScene scene = empty_bin("bin of boxes", 0.15, 0.8);

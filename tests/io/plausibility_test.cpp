@@ -51,7 +51,7 @@ TEST_CASE("an object of less than a millimetre or more than 3 m is suspicious") 
 
 TEST_CASE("a mass is suspicious when no metal is a tenth as dense, or air is denser") {
   BodySpec body = box_of(0.1);  // of 1/6 litre
-  body.mass_given = true;
+  body.mass_from = Origin::file;
   for (const double mass : {0.0002, 0.3, 3.8, 40.0}) {
     body.mass = mass;
     CHECK(suspicions_of(body).empty());
@@ -63,11 +63,11 @@ TEST_CASE("a mass is suspicious when no metal is a tenth as dense, or air is den
   CHECK(suspicions_of(body) ==
         Sentences{"a.obj: its mass of 0.0001 kg makes 0.6 kg/m^3: is its unit right?"});
   // of a mass that nobody gave, and of a surface that bounds nothing, nothing is said
-  body.mass_given = false;
+  body.mass_from = Origin::assumed;
   CHECK(suspicions_of(body).empty());
   LinkSpec link;
   link.body = box_of(0.1);
-  link.body.name = "thumb", link.body.mass_given = true, link.body.mass = 60;
+  link.body.name = "thumb", link.body.mass_from = Origin::file, link.body.mass = 60;
   CHECK(suspicions_of(robot_of(link, {})) ==
         Sentences{"a.cfg: parts ten times denser than any metal, or lighter than air: 'thumb': is "
                   "the unit of their mass right?"});

@@ -34,8 +34,8 @@ using Sentences = std::vector<std::string>;
 
 TEST_CASE("what nobody gives is told of each body that has it") {
   BodySpec full = named("full", test::box(1, 1, 1)), weightless = full, bare = full, frame;
-  full.mass_given = full.material_given = true;
-  weightless.name = "weightless", weightless.material_given = true;
+  full.mass_from = full.material_from = Origin::file;
+  weightless.name = "weightless", weightless.material_from = Origin::file;
   bare.name = "bare";
   frame.name = "frame";
   const Told told({full, weightless, bare, frame, bare});
@@ -70,7 +70,8 @@ TEST_CASE("of obstacles masses and materials are told, and no inertia") {
   Mesh open = test::box(1, 1, 1);
   open.triangles.pop_back();
   BodySpec full = named("full", test::box(1, 1, 1)), wall = named("wall", open);
-  full.mass_given = full.material_given = full.inertia_told = true;
+  full.mass_from = full.material_from = Origin::file;
+  full.inertia_told = true;
   const Told told({full}, {wall, full});
   CHECK(told.notes == Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is "
                                 "assumed: 'wall'"});

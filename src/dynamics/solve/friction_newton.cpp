@@ -16,43 +16,11 @@ double FrictionNewton::classify(const ScaledFriction& problem, const VectorXd& r
   states_.resize(problem.blocks.size()), slide_.resize(4 * problem.blocks.size());
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
     const auto& block = problem.blocks[i];
-    const int row = block.row;
-    const double normal = r[row] - rho_ * u[row] / block.d;
-    if (!block.moves) {
+    if (block.moves)
+      square += natural_map(block, block.d, rho_, &r[block.row], &u[block.row], states_[i],
+                            &slide_[4 * i]);
+    else
       states_[i] = State::fixed;
-    } else if (!block.is_contact()) {
-      states_[i] = normal <= block.low    ? State::low
-                   : normal >= block.high ? State::high
-                                          : State::free;
-      const double fault = r[row] - std::clamp(normal, block.low, block.high);
-      square += fault * fault;
-    } else if (!(normal > 0)) {
-      states_[i] = State::fixed;
-      for (int k = 0; k <= block.tangents; ++k) square += r[row + k] * r[row + k];
-    } else {
-      square += (r[row] - normal) * (r[row] - normal);
-      double* t = &slide_[4 * i + 1];
-      double length = 0;
-      for (int k = 0; k < block.tangents; ++k) {
-        t[k] = r[row + 1 + k] - rho_ * u[row + 1 + k] / block.d;
-        length += t[k] * t[k];
-      }
-      length = std::sqrt(length);
-      const double friction = block.mu * normal;
-      if (length <= friction && block.mu > 0) {
-        states_[i] = State::sticks;
-        for (int k = 1; k <= block.tangents; ++k)
-          square += rho_ * rho_ * u[row + k] * u[row + k] / (block.d * block.d);
-        continue;
-      }
-      states_[i] = State::slides;
-      slide_[4 * i] = length > 0 ? friction / length : 0;
-      for (int k = 0; k < block.tangents; ++k) {
-        if (length > 0) t[k] /= length;
-        const double fault = r[row + 1 + k] - friction * t[k];
-        square += fault * fault;
-      }
-    }
   }
   return square / 2;
 }

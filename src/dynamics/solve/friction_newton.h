@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clench/base/progress.h"
+#include "clench/dynamics/solve/natural_map.h"
 #include "clench/dynamics/solve/scaled_friction.h"
 #include "clench/math/decompositions.h"
 
@@ -49,7 +50,7 @@ class FrictionNewton {
   void watch(const Progress& progress) { progress_ = progress; }
 
  private:
-  enum class State : char { fixed, low, high, free, sticks, slides };
+  using State = BlockState;
   /// A free direction of impulses and its equation: of a row, u = 0; along the normal of a sliding
   /// contact, whose friction follows, the same; across the sliding, factor t.u + diagonal t.r = 0.
   struct Direction {

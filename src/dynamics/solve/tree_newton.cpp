@@ -31,40 +31,6 @@ void TreeNewton::set(const TreeFriction& problem) {
   }
 }
 
-// Returns the squared norm of the natural map of a contact, and sets the state of the contact.
-double TreeNewton::classify_contact(const TreeFriction::Block& block, size_t number,
-                                    const double* r, const double* u) {
-  const double normal = r[0] - rho_ * u[0] / block.d;
-  double square = 0, length = 0;
-  if (!(normal > 0)) {
-    states_[number] = State::fixed;
-    for (int k = 0; k <= block.tangents; ++k) square += r[k] * r[k];
-    return square;
-  }
-  square = (r[0] - normal) * (r[0] - normal);
-  double* t = &slide_[4 * number + 1];
-  for (int k = 0; k < block.tangents; ++k) {
-    t[k] = r[1 + k] - rho_ * u[1 + k] / block.d;
-    length += t[k] * t[k];
-  }
-  length = std::sqrt(length);
-  const double friction = block.mu * normal;
-  if (length <= friction && block.mu > 0) {
-    states_[number] = State::sticks;
-    for (int k = 1; k <= block.tangents; ++k)
-      square += rho_ * rho_ * u[k] * u[k] / (block.d * block.d);
-    return square;
-  }
-  states_[number] = State::slides;
-  slide_[4 * number] = length > 0 ? friction / length : 0;
-  for (int k = 0; k < block.tangents; ++k) {
-    if (length > 0) t[k] /= length;
-    const double fault = r[1 + k] - friction * t[k];
-    square += fault * fault;
-  }
-  return square;
-}
-
 // Sets the states of all blocks at impulses r with velocities u.
 // returns  half the squared norm of the natural map, weighted by d
 double TreeNewton::classify(const TreeFriction& problem, const VectorXd& r, const VectorXd& u,
@@ -74,17 +40,11 @@ double TreeNewton::classify(const TreeFriction& problem, const VectorXd& r, cons
   double energy = 0;
   for (size_t i = 0; i < problem.blocks.size(); ++i) {
     const auto& block = problem.blocks[i];
-    const int row = block.row;
-    if (!block.moves) {
+    if (block.moves)
+      energy += block.d * natural_map(block, block.d, rho, &r[block.row], &u[block.row], states_[i],
+                                      &slide_[4 * i]);
+    else
       states_[i] = State::fixed;
-    } else if (block.is_contact()) {
-      energy += block.d * classify_contact(block, i, &r[row], &u[row]);
-    } else {
-      const double next = r[row] - rho * u[row] / block.d;
-      states_[i] = next <= block.low ? State::low : next >= block.high ? State::high : State::free;
-      const double fault = r[row] - std::clamp(next, block.low, block.high);
-      energy += block.d * fault * fault;
-    }
   }
   return energy / 2;
 }

@@ -1,6 +1,7 @@
 // Newton's method for contacts with friction in the coordinates of trees of bodies: its systems
 // have one unknown per coordinate, and are as sparse as the contacts.
 #pragma once
+#include "clench/dynamics/solve/natural_map.h"
 #include "clench/dynamics/solve/tree_friction.h"
 #include "clench/math/block_lu.h"
 
@@ -37,15 +38,13 @@ class TreeNewton {
   bool refine(const TreeFriction& problem, double damping, Eigen::VectorXd& r);
 
  private:
-  enum class State : char { fixed, low, high, free, sticks, slides };
+  using State = BlockState;
   struct Law {  // of one block: dr = change - G Y^T dz; G by columns
     double G[16];
     double change[4];
   };
   double classify(const TreeFriction& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
                   double rho);
-  double classify_contact(const TreeFriction::Block& block, size_t number, const double* r,
-                          const double* u);
   void find_law(const TreeFriction::Block& block, size_t number, double damping, const double* r,
                 const double* u, Law& law) const;
   void find_sliding_law(const TreeFriction::Block& block, size_t number, double by, const double* r,

@@ -105,7 +105,7 @@ void read_mass(const XmlElement& body, const FileCache& cache, Repairs& repairs,
     out.mass =
         number_of(mass, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
         units::gram;
-    out.mass_given = true;
+    out.mass_from = Origin::file;
   }
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimetre;
@@ -122,7 +122,7 @@ void read_mass(const XmlElement& body, const FileCache& cache, Repairs& repairs,
 void read_matter(const XmlElement& body, const FileCache& cache, Repairs& repairs, BodySpec& out) {
   if (const XmlElement material = body.child("material")) {
     out.material = material.text();
-    out.material_given = true;
+    out.material_from = Origin::file;
     errors_at(material, [&] { check_material(out.material); });
   }
   if (const XmlElement youngs = body.child("youngs")) {

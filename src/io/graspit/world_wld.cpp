@@ -123,7 +123,7 @@ void WldReader::read_body(Role role) {
       lines_.next();
       errors_at(material, [&] { check_material(material.text()); });
       placed.body.material = material.text();
-      placed.body.material_given = true;
+      placed.body.material_from = Origin::file;
     }
   }
   placed.X_WB = pose();

@@ -69,7 +69,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
     if (key == "material") {
       errors_at(line, [&] { check_material(line.word(1)); });
       body.material = line.word(1);
-      body.material_given = true;
+      body.material_from = Origin::file;
     } else if (key == "youngs") {
       body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
       if (const std::string doubt = doubt_modulus(*body.elastic_modulus); !doubt.empty())
@@ -80,7 +80,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.mass =
           number_of(line, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
           units::gram;
-      body.mass_given = true;
+      body.mass_from = Origin::file;
     } else if (key == "cog") {
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *

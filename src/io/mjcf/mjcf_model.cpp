@@ -179,7 +179,10 @@ void MjcfModel::set_materials(MjcfTree& tree, MjcfMaterials& materials) const {
   for (size_t i = 0; i < tree.geoms.size(); ++i) {
     BodySpec& body = tree.model.links[i].body;
     const bool given = is_friction_given(tree.geoms[i]);
-    if (given) body.material = materials.of(tree.geoms[i], body.name);
+    if (given) {
+      body.material = materials.of(tree.geoms[i], body.name);
+      body.material_from = Origin::file;
+    }
     all_given = all_given && (given || !body.shape);
   }
   if (whole_ != std::string_view("world") && !all_given)

@@ -110,6 +110,7 @@ int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB,
   placed.role = role;
   placed.X_WB = X_WB;
   placed.body.material = materials_.of(geoms, name);
+  if (is_friction_given(geoms)) placed.body.material_from = Origin::file;
   world_.bodies.push_back(std::move(placed));
   world_.order.push_back({WorldEntry::Kind::body, number});
   const PartRef ref{WorldEntry::Kind::body, number, -1};
@@ -209,6 +210,7 @@ void SceneReader::add_robot(const TopBody& body, SceneBody& scene) {
     const auto& geoms = made.tree.geoms[made.tree.links.at(name)];
     BodySpec& part = link < 0 ? robot.base : robot.links[link].body;
     part.material = materials_.of(geoms, part.name);
+    if (is_friction_given(geoms)) part.material_from = Origin::file;
     const PartRef ref{WorldEntry::Kind::robot, number, link};
     add_part(ref, part.name, geoms, stands && (link < 0 || fixed[link]));
     by_name_[name] = {ref};
@@ -245,6 +247,7 @@ void SceneReader::dress_things() {
     BodySpec& body = things_.links[i].body;
     repair_names(body, thing_pieces_[i].place, cache_.options());
     body.material = std::move(world_.bodies[i].body.material);
+    body.material_from = world_.bodies[i].body.material_from;
     world_.bodies[i].body = std::move(body);
   }
 }

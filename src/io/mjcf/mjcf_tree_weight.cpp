@@ -45,7 +45,7 @@ std::optional<BodySpec> weigh_tree(const MjcfTree& tree, const std::vector<Pose>
     out.com = com;
     out.inertia_per_mass = inertia / mass;
   }
-  out.mass_given = true;
+  out.mass_from = Origin::file;
   return out;
 }
 

@@ -80,9 +80,12 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     body.appearance = visual.shape ? visual.appearance : collision.appearance;
     if (!same_surface(visual.shape, collision.shape)) body.appearance.visual = visual.shape;
     body.material = "plastic";
-    body.material_given = body.mass_given = body.inertia_told = true;  // or told here
+    body.assumptions_told = body.inertia_told = true;  // below
     if (visual.shape && !collision.shape) ghosts.push_back(body.name);
-    if (pieces[i].has_inertial) continue;
+    if (pieces[i].has_inertial) {
+      body.mass_from = Origin::file;
+      continue;
+    }
     const bool seen = !body.shape;  // its pieces for pictures alone
     const ShapePtr& shape = seen ? visual.shape : body.shape;
     const bool has_volume =

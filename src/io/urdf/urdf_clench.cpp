@@ -195,11 +195,12 @@ void ClenchReader::read_link(const XmlElement& element) {
   BodySpec& body = this->body(part(values, "name"));
   once(element, body.name);
   body.material = values.text("material", body.material);
+  if (values.has("material")) body.material_from = Origin::file;
   if (std::ranges::find(material_names, body.material) == material_names.end())
     values.fail("material", "unknown material {}{}", in_quotes(body.material),
                 instead_of(body.material, {material_names.begin(), material_names.end()}));
   for (const char* name : {"friction", "friction_priority", "frictionless"})
-    if (values.has(name)) body.material = own_material(values);
+    if (values.has(name)) body.material = own_material(values), body.material_from = Origin::file;
   if (values.has("elastic_modulus"))
     body.elastic_modulus = checked(values, "elastic_modulus", 0, elastic_modulus_rule);
   body.soft_layer = checked(values, "soft_layer", body.soft_layer, soft_layer_rule);

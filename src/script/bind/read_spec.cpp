@@ -69,8 +69,8 @@ static double mass_of(lua_State* L, const BodySpec& spec, double density) {
 
 static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.name = options.string("name", spec.name);
-  spec.material_given = spec.material_given || options.has("material");
-  spec.mass_given = spec.mass_given || options.has("mass") || options.has("density");
+  if (options.has("material")) spec.material_from = Origin::script;
+  if (options.has("mass") || options.has("density")) spec.mass_from = Origin::script;
   spec.material = options.string("material", spec.material);
   if (options.has("density")) {
     if (options.has("mass")) fail("{}: expected mass or density, got both", subject(L));

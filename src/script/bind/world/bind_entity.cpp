@@ -75,6 +75,10 @@ static void set_transparency(const Entity& body, double transparency) {
   body.world->set_appearance(body.id, appearance);
 }
 
+static const char* word_of_origin(Origin origin) {
+  return origin == Origin::assumed ? "assumed" : origin == Origin::file ? "file" : "script";
+}
+
 static const Entry entity_fields[] = {
     {"world", getter<[](const Entity& x) { return WorldHandle{x.world}; }>, R"(
 The world that it is in.
@@ -87,6 +91,15 @@ Name of its material, which decides its friction.
 > flask.material  --> rubber
 > flask.material = "ruber"  --> error: rubber)",
      setter<[](const Entity& x, const std::string& name) { x.world->set_material(x.id, name); }>},
+    {"material_from", getter<[](const Entity& x) { return word_of_origin(x->material_from); }>,
+     R"(
+Where the material comes from: its file, a script or option, or nowhere: then it is assumed.
+@type "assumed"|"file"|"script"
+> world:add_object("models/objects/flask.iv", {name = "other", material = "glass"}).material_from  --> script)"},
+    {"mass_from", getter<[](const Entity& x) { return word_of_origin(x->mass_from); }>, R"(
+Where the mass comes from, likewise.
+@type "assumed"|"file"|"script"
+> world:add_object(clench.shapes.box {0.01, 0.01, 0.01}, {name = "cube"}).mass_from  --> assumed)"},
     {"mass", getter<[](const Entity& x) { return x->mass; }>, R"(
 Its mass.
 @type number  [kg]
