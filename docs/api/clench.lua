@@ -154,6 +154,8 @@ local snapshot = {}
 ---@class entity
 ---@field world world # The world that it is in.
 ---@field material string # Name of its material, which decides its friction.
+---@field material_from "assumed"|"file"|"script" # Where the material comes from: its file, a script or option, or nowhere: then it is assumed.
+---@field mass_from "assumed"|"file"|"script" # Where the mass comes from, likewise.
 ---@field mass number # Its mass. [kg]
 ---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
