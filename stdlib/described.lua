@@ -14,7 +14,7 @@ return function(value)
   end
   if type(value) == "string" then
     local text = printable(value)
-    return #text > 40 and "'" .. text:sub(1, 37) .. "...'" or "'" .. text .. "'"
+    return #text > 120 and "'" .. text:sub(1, 117) .. "...'" or "'" .. text .. "'"
   end
   if value == nil then return "nothing" end
   if type(value) == "boolean" then return tostring(value) end

@@ -2,6 +2,7 @@
 --- Reads the one table that a function is called with: each value by name, with its bounds; what nobody
 --- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
 local raise = require "clench.raise"
+local coordinates = require "clench.coordinates"
 local described = require "clench.described"
 local module_name = require "clench.module_name"
 local name_list = require "clench.name_list"
@@ -71,7 +72,7 @@ end
 
 --- a point {x, y, z}; nil when it was not given and there is no default
 function Options:point(name, default)
-  local value = self:raw(name)
+  local value = coordinates(self:raw(name))
   if value == nil then return default end
   if not is_point(value, 3, 3, self.largest) then self:expected(name, "a point {x, y, z}", value) end
   return value
@@ -88,12 +89,14 @@ function Options:points(name, least, size)
   end
   if #value > max_points then self:expected(name, ("a list of at most %d points"):format(max_points), value) end
   -- a hole in the list is a point that is missing
+  local points = {}
   for i = 1, #value do
-    if not is_point(value[i], size, size, self.largest) then
+    points[i] = size == 3 and coordinates(value[i]) or value[i]
+    if not is_point(points[i], size, size, self.largest) then
       self:expected(name .. "[" .. i .. "]", "a point " .. form, value[i])
     end
   end
-  return value
+  return points
 end
 
 --- one of the words; the first of them when it was not given

@@ -23,6 +23,8 @@ int run_scripts(const RunOptions& options) {
   state.set_script("here");  // what is typed or piped stands where we stand
   catch_interrupts();
   if (!options.console) catch_endings();
+  // typed on the command line as into the console
+  if (!options.code.empty()) state.call("host.help", "install", {});
   bool ok = true;
   int signal = 0;
   {

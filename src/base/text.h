@@ -40,7 +40,7 @@ std::u32string letters_of(std::string_view text, bool or_latin1 = false);
 /// Characters as UTF-8.
 std::string text_of(std::u32string_view letters);
 /// What messages show of a file: at most so many characters of any one place.
-constexpr size_t max_excerpt = 40;
+constexpr size_t max_excerpt = 120;
 /// A word for a message: cut when long, unprintable characters as '?'.
 std::string excerpt(std::string_view text);
 /// The same in quotes; "nothing" when empty.

@@ -1,23 +1,11 @@
 --- The run of a world in which scripts take part: functions, then tasks, then a step, then listeners and observers.
-local callback_error = require "clench.callback_error"
-local error_text = require "clench.host.error_text"
+local calls = require "clench.dynamics.hook_calls"
 local error_value = require "clench.error_value"
 local described = require "clench.described"
-local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
 local task_order = require "clench.dynamics.task_order"
 
-local tiny = 1e-9  -- parts of a period, and seconds, that are rounding
-
--- The error of a function, task or condition, with its traceback. Ctrl-C is returned unchanged.
-local function explained(problem, name, trace, place)
-  if is_stopped(problem) then return problem end
-  problem = callback_error(problem, name, place)
-  local ours = getmetatable(problem) == error_value
-  local place, said = ours and problem.place or "", ours and problem.sentence or error_text(problem)
-  return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input",
-                       cause = ours and problem.cause or nil}, error_value)
-end
+local call, each, explained, is_due, tiny = calls.call, calls.each, calls.explained, calls.is_due, calls.tiny
 
 -- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if it has no such line
 local function line_of(thread)
@@ -28,24 +16,6 @@ local function line_of(thread)
     if at.currentline > 0 and at.source:sub(1, 8) ~= "@stdlib/" then return ("%s:%d: "):format(at.short_src, at.currentline) end
     level = level + 1
   end
-end
-
-local function call(handle, ...)
-  local ok, problem = xpcall(handle.fn, function(problem)
-    return explained(problem, handle.running or handle.name, debug.traceback("", 2):sub(2))
-  end, ...)
-  if not ok then error(problem, 0) end
-end
-
--- Is it time? Periods are multiples of 1 / rate of the world's time, also after that went back.
-local function is_due(handle, time)
-  local rate = handle.rate
-  if not rate then return true end
-  if not handle.next or time < handle.last then handle.next = math.ceil(time * rate - tiny) end
-  handle.last = time
-  if time * rate < handle.next - tiny then return false end
-  handle.next = math.floor(time * rate + tiny) + 1
-  return true
 end
 
 -- those that are done go
@@ -62,19 +32,6 @@ local function clear(list)
     end
   end
   for i = #list, kept + 1, -1 do list[i] = nil end
-end
-
--- Those that wait, in their order; those that are added meanwhile begin with the next step.
-local function each(list, visit)
-  for i = 1, list and #list or 0 do
-    if list[i].status == "waiting" then visit(list[i]) end
-  end
-end
-
-local function call_observers(world, list)
-  each(list, function(handle)
-    if is_due(handle, world.time) then call(handle, world) end
-  end)
 end
 
 -- How long the step that comes is, unless bodies meet in it: steps end at multiples of the time step, and with the run.
@@ -152,7 +109,7 @@ return function(hooks, world, seconds, stepping, step, events)
     hooks.runs = nil
     for _, name in ipairs {"controllers", "tasks", "listeners", "observers"} do clear(hooks[name]) end
   end})
-  call_observers(world, hooks.observers)
+  calls.observers(world, hooks.observers)
   local last = world.time + seconds  -- an observer may have restored another time
   -- as Stepper::step: less is no time
   while last - world.time > 1e-6 * world.time_step do
@@ -168,7 +125,7 @@ return function(hooks, world, seconds, stepping, step, events)
     if not step(stepping, last) then break end
     before = world.time
     if listens then tell(hooks.listeners, events(stepping, hooks[1])) end
-    call_observers(world, hooks.observers)
+    calls.observers(world, hooks.observers)
     last = last + (world.time - before)
     if #(hooks.tasks or {}) > 64 then clear(hooks.tasks) end
   end

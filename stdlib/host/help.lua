@@ -1,5 +1,6 @@
 --- help(x) in the console: what the documentation says of a value or of a name.
 local doc = require "clench.host.doc"
+local suggest = require "clench.suggest"
 local help = {}
 
 local function print_entry(subject, entry)
@@ -79,6 +80,19 @@ local function value_of(path)
   return value
 end
 
+-- names of everything, for a suggestion
+local function all_names(all)
+  local names, seen = {}, {}
+  local function add(_, entry)
+    local name = entry.name:match "[%w_]+$"
+    if not seen[name] then names[#names + 1] = name end
+    seen[name] = true
+  end
+  each(all, add)
+  for _, entry in ipairs(doc.packed_functions(all.files)) do add(nil, entry) end
+  return names
+end
+
 local function explain(x)
   local all, found = clench.entries(), false
   local meta = debug.getmetatable(x)
@@ -121,7 +135,8 @@ local function explain(x)
     end
   end
   if not found then
-    print("nothing is known of " .. require "clench.show"(x) .. (type(x) == "string" and "" or '; a field is explained by its name, as in help "hand.dofs"'))
+    local hint = type(x) == "string" and suggest(x:match "[%w_]*$", all_names(all))
+    print("nothing is known of " .. require "clench.show"(x) .. (hint or '; a field is explained by its name, as in help "hand.dofs"'))
   end
 end
 

@@ -1,4 +1,5 @@
 -- stdlib/shapes/loft.lua
+local vector = require "clench.shapes.vector"
 local within = require "clench.within"
 local read_options = require "clench.shapes.options"
 local skin = require "clench.shapes.skin"
@@ -17,8 +18,10 @@ return function(sections)
     local name = "ring " .. i
     if type(ring) ~= "table" then o:expected(name, "a list of points", ring) end
     if #ring < 3 and #ring ~= least then o:expected(name, "a list of at least 3 points, or one at an end", ring) end
+    local points = {}
     for k = 1, #ring do
-      local p = ring[k]
+      local p = vector.list(ring[k])
+      points[k] = p
       for axis = 1, 3 do
         local x = type(p) == "table" and p[axis]
         if not within(x, o.largest) then
@@ -30,7 +33,7 @@ return function(sections)
       count = count or #ring
       if #ring ~= count then o:fail("ring %d must have %d points like those before it, got %d", i, count, #ring) end
     end
-    rings[i] = ring
+    rings[i] = points
   end
   if #rings < 2 or not count then o:fail("expected two rings or more, one of them with an area, got %d", #rings) end
   o:done()

@@ -9,7 +9,7 @@ local measure = {}
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number[] low, number[] high  [m]
 function measure.bounds(shape)
-  mesh.check(shape, "shapes.bounds")
+  shape = mesh.check(shape, "shapes.bounds")
   local low, high = {math.huge, math.huge, math.huge}, {-math.huge, -math.huge, -math.huge}
   for _, p in ipairs(shape.vertices) do
     for k = 1, 3 do low[k], high[k] = math.min(low[k], p[k]), math.max(high[k], p[k]) end
@@ -26,8 +26,9 @@ function measure.volume(shape) return mesh.volume6(mesh.check(shape, "shapes.vol
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number area  [m^2]
 function measure.area(shape)
+  shape = mesh.check(shape, "shapes.area")
   local sum = 0
-  for _, t in ipairs(mesh.check(shape, "shapes.area").triangles) do
+  for _, t in ipairs(shape.triangles) do
     local a, b, c = shape.vertices[t[1]], shape.vertices[t[2]], shape.vertices[t[3]]
     sum = sum + 0.5 * vector.norm(vector.cross(vector.sub(b, a), vector.sub(c, a)))
   end
@@ -38,7 +39,7 @@ end
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return boolean closed, string? why  what is wrong, when it is not
 function measure.closed(shape)
-  mesh.check(shape, "shapes.closed")
+  shape = mesh.check(shape, "shapes.closed")
   local runs, count = {}, #shape.vertices + 1
   for i, t in ipairs(shape.triangles) do
     for k = 1, 3 do
@@ -64,7 +65,8 @@ end
 ---@return {volume: number, centroid: number[], inertia: number[][]} mass  [m^3, m]; inertia about the centroid for
 ---  unit mass [m^2]
 function measure.mass(shape)
-  local origin = mesh.check(shape, "shapes.mass").vertices[1]
+  shape = mesh.check(shape, "shapes.mass")
+  local origin = shape.vertices[1]
   local volume, first, second = 0, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}
   for _, t in ipairs(shape.triangles) do
     local corner = {}

@@ -24,8 +24,21 @@ local function check_vertex(subject, i, p)
   end
 end
 
---- throws one sentence when `shape` is not a mesh table; returns it
+-- a copy with vertices as lists, of a mesh or of a table that has vectors among its vertices; else the shape itself
+local function with_lists(shape)
+  local vectors = described(shape) == "a mesh"
+  if not vectors and (type(shape) ~= "table" or type(shape.vertices) ~= "table") then return shape end
+  local points = shape.vertices
+  for i = 1, #points do vectors = vectors or described(points[i]) == "a vec3" end
+  if not vectors then return shape end
+  local vertices = {}
+  for i = 1, #points do vertices[i] = vector.list(points[i]) end
+  return {vertices = vertices, triangles = shape.triangles, round = type(shape) == "table" and shape.round or nil}
+end
+
+--- A shape as a table of lists; meshes of bodies and vertices that are vectors are converted. Throws one sentence if it is no shape.
 function mesh.check(shape, subject)
+  shape = with_lists(shape)
   if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then
     fail(subject, "expected a shape {vertices = ..., triangles = ...}, got %s", described(shape))
   end

@@ -11,6 +11,7 @@ local function check_vector(subject, what, v)
   local function expected(got)
     raise(("%s: %s must be {x, y, z} of at most %g, got %s"):format(subject, what, mesh.largest, described(got)))
   end
+  v = vector.list(v)
   if type(v) ~= "table" then expected(v) end
   for k = 1, 3 do
     if not within(v[k], mesh.largest) then expected(v[k]) end
@@ -23,8 +24,8 @@ end
 ---@param offset number[]  {x, y, z} [m]
 ---@return table mesh
 function place.move(shape, offset)
-  mesh.check(shape, "shapes.move")
-  check_vector("shapes.move", "the offset", offset)
+  shape = mesh.check(shape, "shapes.move")
+  offset = check_vector("shapes.move", "the offset", offset)
   return mesh.map(shape, function(p) return vector.add(p, offset) end, "shapes.move")
 end
 
@@ -35,7 +36,7 @@ end
 ---@param about? number[]  a point of the axis, else the origin [m]
 ---@return table mesh
 function place.turn(shape, axis, angle, about)
-  mesh.check(shape, "shapes.turn")
+  shape = mesh.check(shape, "shapes.turn")
   local unit = vector.unit(check_vector("shapes.turn", "the axis", axis))
   if not unit then raise("shapes.turn: the axis must have a length, got {0, 0, 0}") end
   if type(angle) ~= "number" or angle ~= angle or math.abs(angle) == math.huge then
@@ -52,7 +53,8 @@ end
 ---@param factor number|number[]  > 0
 ---@return table mesh
 function place.scale(shape, factor)
-  mesh.check(shape, "shapes.scale")
+  shape = mesh.check(shape, "shapes.scale")
+  factor = vector.list(factor)
   local k = type(factor) == "table" and factor or {factor, factor, factor}
   for i = 1, 3 do
     if type(k[i]) ~= "number" or not (k[i] > 0 and k[i] < math.huge) then
@@ -67,7 +69,7 @@ end
 ---@param axis "x"|"y"|"z"
 ---@return table mesh
 function place.mirror(shape, axis)
-  mesh.check(shape, "shapes.mirror")
+  shape = mesh.check(shape, "shapes.mirror")
   local place_of = ({x = 1, y = 2, z = 3})[axis]
   if not place_of then raise("shapes.mirror: the axis must be 'x', 'y' or 'z', got " .. described(axis)) end
   return mesh.flip(mesh.map(shape, function(p)

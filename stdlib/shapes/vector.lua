@@ -1,6 +1,6 @@
 -- stdlib/shapes/vector.lua
 --- Vectors of three numbers, as far as the shapes need them.
-local vector = {}
+local vector = {list = require "clench.coordinates"}
 
 function vector.add(a, b) return {a[1] + b[1], a[2] + b[2], a[3] + b[3]} end
 --- with a point: integers would go round in products

@@ -508,3 +508,28 @@ test("the damping of a servo may be a ratio, to the critical one for the inertia
     t.close(robot.gains[1].kd, math.sqrt(4 * inertia), 1e-12)
   end
 end)
+
+test("logs and recordings of a world that a script steps are those of a run", function(t)
+  local function scene()
+    local world = clench.world {gravity = {0, 0, -9.81}}
+    world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "box", mass = 1, material = "wood"})
+    return world, world:log {quantities = {"energy", world:body "box"}, rate = 500}, world:record {rate = 100}
+  end
+  local world, log, film = scene()
+  for _ = 1, 50 do
+    local passed = world:move_bodies(world.time_step)
+    world:solve_velocities(passed)
+  end
+  local other, log_of_run, film_of_run = scene()
+  other:run(0.05)
+  t.equal(#log.rows, 26)
+  t.equal(log.rows, log_of_run.rows)
+  t.equal(film.times, film_of_run.times)
+  t.equal(#film.times, 6)
+  -- what is called there cannot step the world, and is named
+  world:log {quantities = {mine = function() world:run(1) end}}
+  t.fails(function() world:move_bodies(0.001) end, "the world runs already", "function 'mine' of world:log")
+  local fresh = clench.world()
+  fresh:log {quantities = {mine = function() error "broken" end}}
+  t.fails(function() fresh:solve_velocities(0.001) end, "broken", "function 'mine' of world:log")
+end)

@@ -117,3 +117,28 @@ test("a posture beyond the limits stops there, and says which DOFs did; degrees 
   t.ok(told[1]:find("DOF 2 stops at 2.513 rad, 60 were asked for; degrees? clench.rad(60) is 1.047", 1, true), told[1])
   t.equal(hand:set_posture(hand.pose, {0, 1, 1, 1}), nil)
 end)
+
+test("an assignment to a part of a copied table is an error that says what to write", function(t)
+  local world = clench.load "worlds/dlr_flask.wld"
+  local hand = world.robots[1]
+  local before = hand.dofs
+  t.fails(function() hand.dofs[2] = 0.3 end, "hand.dofs is a copy", "local copy = hand.dofs; copy[1] = ...; hand.dofs = copy")
+  t.fails(function() hand.dofs [ #before ]=0.3 end, "hand.dofs is a copy")
+  t.fails(function()
+    world.robots[1].dofs[2] = 0.3
+  end, "hand.dofs is a copy")
+  t.fails(function() world.dynamics.time_step = 0.01 end, "world.dynamics is a copy")
+  t.fails(function() hand.dofs[2] = hand.dofs[2] + 0.1 end, "hand.dofs is a copy")
+  t.fails(function() load "local hand = ...; hand.dofs[1] = 1" (hand) end, "hand.dofs is a copy")
+  t.equal(hand.dofs, before)
+  -- what only looks like it
+  local own, list = {dofs = {}}, hand.dofs
+  own.dofs[2], list[2] = hand.dofs[1], 0.3
+  own.dofs[2] = hand.dofs[2]
+  own.dofs = hand.dofs
+  own.dofs[2] = 0.3
+  if hand.dofs[2] == 0.3 then own.x = 1 end  -- hand.dofs[2] = 0.3
+  own[hand.dofs[1]] = 1
+  world.robots[1].dofs = list
+  t.equal(hand.dofs[2], 0.3)
+end)

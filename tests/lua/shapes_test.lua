@@ -223,7 +223,7 @@ end)
 test("bad numbers are refused with what was expected and what was got", function(t)
   local nan = 0 / 0
   t.fails(function() shapes.box {1, 2, -3} end, "shapes.box: z must be a number > 0, got -3")
-  t.fails(function() shapes.box {("x"):rep(5000), 1, 1} end, "got '" .. ("x"):rep(37) .. "...'")
+  t.fails(function() shapes.box {("x"):rep(5000), 1, 1} end, "got '" .. ("x"):rep(117) .. "...'")
   t.fails(function() shapes.box {"\27[2J", 1, 1} end, "got '?[2J'")
   t.fails(function() shapes.torus {1, 0.1, sides = 12345678901} end, "got 12345678901")
   t.fails(function() shapes.box {1, 2} end, "z must be a number > 0, got nothing")
@@ -330,4 +330,27 @@ test("messages of the standard library have no control characters, and of long n
   t.equal(ok, false)
   t.ok(#message < 1100 and utf8.len(tostring(message)), message)
   t.ok(message:find("expected any of radius, segments", 1, true), message)
+end)
+
+test("meshes of bodies and vectors count as shapes and points", function(t)
+  local clench = require "clench"
+  local vec3 = clench.vec3
+  local box = shapes.box {0.1, 0.2, 0.3}
+  local mesh = clench.world():add_object(box).mesh
+  t.close(shapes.volume(mesh), 0.006, 1e-12)
+  t.close(shapes.area(mesh), 0.22, 1e-12)
+  t.ok(shapes.closed(mesh))
+  t.close(shapes.mass(mesh).centroid[1], 0, 1e-12)
+  t.equal(shapes.bounds(shapes.move(mesh, vec3(1, 2, 3))), shapes.bounds(shapes.move(box, {1, 2, 3})))
+  t.equal(#shapes.union {mesh, box}.vertices, 16)
+  local tetrahedron = {vertices = {vec3(0, 0, 0), {1, 0, 0}, vec3(0, 1, 0), vec3(0, 0, 1)}, triangles = {{1, 3, 2}, {1, 2, 4}, {2, 3, 4}, {3, 1, 4}}}
+  for _, of in ipairs {shapes.volume, function(x) return shapes.volume(shapes.scale(x, vec3(1, 1, 1))) end,
+                       function(x) return shapes.volume(shapes.turn(x, vec3(0, 0, 1), 1, vec3(1, 0, 0))) end,
+                       function(x) return shapes.volume(shapes.mirror(x, "x")) end} do
+    t.close(of(tetrahedron), 1 / 6, 1e-12)
+  end
+  t.equal(shapes.capsule {0.01, from = vec3(0, 0, 0), to = vec3(0, 0, 1)}, shapes.capsule {0.01, from = {0, 0, 0}, to = {0, 0, 1}})
+  t.equal(shapes.loft {{vec3(0, 0, 0)}, {vec3(1, 0, 1), vec3(0, 1, 1), vec3(-1, -1, 1)}}, shapes.loft {{{0, 0, 0}}, {{1, 0, 1}, {0, 1, 1}, {-1, -1, 1}}})
+  t.equal(shapes.tube {{vec3(0, 0, 0), vec3(0, 0, 1)}, radius = 0.1}, shapes.tube {{{0, 0, 0}, {0, 0, 1}}, radius = 0.1})
+  t.fails(function() shapes.volume(clench.world()) end, "expected a shape {vertices = ..., triangles = ...}, got a world")
 end)

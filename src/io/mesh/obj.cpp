@@ -44,6 +44,7 @@ class ObjReader {
   void read_materials(const std::string& names);
   void read_material_file(const std::filesystem::path& path);
   void add_faces();
+  void note_objects();
   void warn_once(const std::string& about, const std::string& sentence) {
     warn_once(about, words_.place(), sentence);
   }
@@ -59,6 +60,8 @@ class ObjReader {
   std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
   std::map<std::string, Material> materials_;           // by the names that MTL files define
   size_t material_files_ = 0;                           // that were looked for
+  std::string object_;                                  // named by the last line "o NAME"
+  std::vector<std::string> objects_;                    // names of those with faces, in order
   std::set<std::string> warned_;
   std::vector<std::string> warnings_;
 };
@@ -113,6 +116,15 @@ void ObjReader::read_face() {
   if (faces_.size() >= max_mesh_triangles)
     words_.fail("expected at most {} faces", max_mesh_triangles);
   faces_.push_back({first, words_.line(), material_});
+  if (objects_.empty() || objects_.back() != object_) objects_.push_back(object_);
+}
+
+// Every object of the file becomes part of one body.
+void ObjReader::note_objects() {
+  if (objects_.size() < 2 || !input_.options.note) return;
+  if (objects_.front().empty()) objects_.front() = "without a name";
+  input_.options.note(fmt::format("{}: its {} objects ({}) are read as one body", words_.file(),
+                                  objects_.size(), name_list(objects_)));
 }
 
 void ObjReader::use_material(const std::string& name) {
@@ -122,13 +134,15 @@ void ObjReader::use_material(const std::string& name) {
 
 void ObjReader::read_other(std::string_view keyword) {
   static const std::set<std::string_view> silent = {
-      "vt",     "vn",         "vp",        "g",        "o",        "s",   "mg",   "usemap",
+      "vt",     "vn",         "vp",        "g",        "s",        "mg",  "usemap",
       "maplib", "shadow_obj", "trace_obj", "d_interp", "c_interp", "lod", "bevel"};
   static const std::set<std::string_view> free_form = {
       "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",  "parm",
       "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech", "stech"};
   if (silent.contains(keyword)) return;
-  if (keyword == "usemtl")
+  if (keyword == "o")
+    object_ = words_.rest();
+  else if (keyword == "usemtl")
     use_material(std::string(words_.rest()));
   else if (keyword == "mtllib")
     read_materials(std::string(words_.rest()));
@@ -232,6 +246,7 @@ bool ObjReader::read() {
       read_other(keyword);
   }
   add_faces();
+  note_objects();
   for (const auto& warning : warnings_) input_.warn(warning);
   if (!point_colors_.empty()) return point_colors_.size() == builder_.vertex_count();
   for (const auto& [name, used] : used_materials_)

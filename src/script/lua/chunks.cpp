@@ -3,6 +3,7 @@
 #include <cstring>
 #include <lua.hpp>
 
+#include "clench/script/lua/copied_table.h"
 #include "clench/script/lua/packed.h"
 
 namespace clench {
@@ -31,6 +32,7 @@ int load_text_file(lua_State* L, const char* path) {
 }
 
 int load_text(lua_State* L, const char* text, size_t size, const char* name) {
+  keep_chunk_text(L, text, size, name);
   return in_our_words(L, luaL_loadbufferx(L, text, size, name, "t"), plain_name(name));
 }
 

@@ -5,6 +5,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/script/lua/copied_table.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/members.h"
 #include "clench/script/lua/stack.h"
@@ -23,12 +24,19 @@ static int no_such_setter(lua_State* L) {
   fail("{} has no field {} to set{}", name, in_quotes(key), did_you_mean(key, known));
 }
 
+// the value of a field, a table, that is on top
+static int copied(lua_State* L) {
+  check_part_not_assigned(L, lua_tostring(L, lua_upvalueindex(owner)), lua_tostring(L, 2));
+  return 1;
+}
+
 static int member(lua_State* L) {
   lua_settop(L, 2);
   if (lua_type(L, 2) == LUA_TSTRING) {
     lua_pushvalue(L, 2);
     if (lua_rawget(L, lua_upvalueindex(in_methods)) != LUA_TNIL) return 1;
-    return get_field(L) ? 1 : guarded<no_such_member>(L);
+    if (!get_field(L)) return guarded<no_such_member>(L);
+    return lua_istable(L, -1) ? guarded<copied>(L) : 1;
   }
   if (lua_isnil(L, lua_upvalueindex(in_fallback))) return guarded<no_such_member>(L);
   lua_pushvalue(L, lua_upvalueindex(in_fallback));

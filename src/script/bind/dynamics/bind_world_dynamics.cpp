@@ -97,6 +97,7 @@ static void check_not_running(lua_State* L) {
 static int move_bodies(lua_State* L) {
   check_not_running(L);
   const double dt = check_time(L, 2, "dt", time_step_rule.min);
+  call_observers(L, self<WorldHandle>(L).world);  // of the start, before the first step
   return push(L, Stepper(world_of(L)).move(dt));
 }
 
@@ -104,6 +105,7 @@ static int solve_velocities(lua_State* L) {
   check_not_running(L);
   const double h = check_time(L, 2, "h", 1e-12);
   Stepper(world_of(L)).solve(h);
+  call_observers(L, self<WorldHandle>(L).world);
   return 0;
 }
 

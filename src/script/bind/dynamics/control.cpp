@@ -175,6 +175,14 @@ static int call_loop(lua_State* L) {
   return 0;
 }
 
+void call_observers(lua_State* L, const WorldPtr& world) {
+  if (!push_hooks(L, world, false)) return;
+  push_packed(L, "dynamics.observe");
+  lua_insert(L, -2);
+  push_object(L, WorldHandle{world});
+  protected_call(L, 2, 0);
+}
+
 void run_with_hooks(lua_State* L, const WorldPtr& world, double duration) {
   const int hooks = lua_gettop(L);
   lua_pushcfunction(L, guarded<call_loop>);

@@ -78,9 +78,25 @@ static int count_axes(Table& t) {
   return count;
 }
 
+// the smallest rotation that turns the one given axis to its direction
+static Quaterniond axis_of(Table& t) {
+  const int i = t.has("z_axis") ? 2 : t.has("y_axis") ? 1 : 0;
+  const Vector3d direction = t.vec3(axis_names[i]);
+  const double length = direction.stableNorm();
+  if (!(length > 1e-9)) fail("{}: {}: expected a direction, got zero", t.subject(), axis_names[i]);
+  const Vector3d unit = direction / length, axis = Vector3d::Unit(i);
+  // half a turn about the next axis, where every axis at a right angle would do
+  if (unit.dot(axis) < -1 + 1e-14) {
+    const Vector3d next = Vector3d::Unit((i + 1) % 3);
+    return Quaterniond(0, next.x(), next.y(), next.z());
+  }
+  return Quaterniond::FromTwoVectors(axis, unit);
+}
+
 static Quaterniond axes_of(Table& t) {
-  if (count_axes(t) != 2)
-    fail("{}: expected two of x_axis, y_axis and z_axis, got {}", t.subject(), count_axes(t));
+  if (count_axes(t) == 3)
+    fail("{}: expected one or two of x_axis, y_axis and z_axis, got all three", t.subject());
+  if (count_axes(t) == 1) return axis_of(t);
   const int i = t.has("z_axis") ? 2 : 0, j = i == 2 && t.has("x_axis") ? 0 : 1;
   const Vector3d a = t.vec3(axis_names[i]), b = t.vec3(axis_names[j]);
   const auto rotation = rotation_from_axes(i, a, j, b);
@@ -201,9 +217,10 @@ static int pose_as_json(lua_State* L) {
 static const Entry pose_functions[] = {
     {"pose", guarded<make_pose>, R"(
 A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
-@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where two of the frame's axes point, z_axis, else x_axis, exactly, the other as nearly as a right angle allows
+@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where one or two of the frame's axes point; of two, z_axis, else x_axis, exactly, the other as nearly as a right angle allows; one: by the smallest rotation (by half a turn about the next axis if it points backward)
 @return pose
 > clench.deg(clench.pose{axis = {0, 0, 2}, angle = clench.rad(90)}:angle())  --> 90.0
+> clench.pose{z_axis = {1, 0, 0}}:rotate{0, 1, 0}  --> (0, 1, 0)
 > clench.pose{z_axis = {0, 0, -1}, x_axis = {1, 0, 0.5}}:rotate{0, 1, 0}  --> (0, -1, 0)
 > clench.pose{xyz = {1, 2, 3}}  --> pose{xyz = {1, 2, 3}, quat = {1, 0, 0, 0}}
 > clench.pose{rpy = {0, 0, clench.rad(90)}} * {1, 0, 0}  --> (2.22045e-16, 1, 0)

@@ -1,0 +1,49 @@
+--- How functions that take part in a world's steps are called: when they are due, and with errors that name them.
+local callback_error = require "clench.callback_error"
+local error_text = require "clench.host.error_text"
+local error_value = require "clench.error_value"
+local is_stopped = require "clench.is_stopped"
+local calls = {tiny = 1e-9}  -- parts of a period, and seconds, that are rounding
+
+-- The error of a function, task or condition, with its traceback. Ctrl-C is returned unchanged.
+function calls.explained(problem, name, trace, place)
+  if is_stopped(problem) then return problem end
+  problem = callback_error(problem, name, place)
+  local ours = getmetatable(problem) == error_value
+  local place, said = ours and problem.place or "", ours and problem.sentence or error_text(problem)
+  return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input",
+                       cause = ours and problem.cause or nil}, error_value)
+end
+
+function calls.call(handle, ...)
+  local ok, problem = xpcall(handle.fn, function(problem)
+    return calls.explained(problem, handle.running or handle.name, debug.traceback("", 2):sub(2))
+  end, ...)
+  if not ok then error(problem, 0) end
+end
+
+-- Is it time? Periods are multiples of 1 / rate of the world's time, also after that went back.
+function calls.is_due(handle, time)
+  local rate = handle.rate
+  if not rate then return true end
+  if not handle.next or time < handle.last then handle.next = math.ceil(time * rate - calls.tiny) end
+  handle.last = time
+  if time * rate < handle.next - calls.tiny then return false end
+  handle.next = math.floor(time * rate + calls.tiny) + 1
+  return true
+end
+
+-- Those that wait, in their order; those that are added meanwhile begin with the next step.
+function calls.each(list, visit)
+  for i = 1, list and #list or 0 do
+    if list[i].status == "waiting" then visit(list[i]) end
+  end
+end
+
+function calls.observers(world, list)
+  calls.each(list, function(handle)
+    if calls.is_due(handle, world.time) then calls.call(handle, world) end
+  end)
+end
+
+return calls
