@@ -1,4 +1,5 @@
 --- Creates a class of the standard library. Methods defined on it check that they are called with a colon, on a value of the class.
+local classes = require "clench.classes"
 local raise = require "clench.raise"
 local described = require "clench.described"
 local getmetatable, rawset, type = debug.getmetatable, rawset, type
@@ -8,6 +9,7 @@ local getmetatable, rawset, type = debug.getmetatable, rawset, type
 return function(name)
   local class = {__name = name}
   class.__index = class
+  classes[name] = class
   return setmetatable(class, {__newindex = function(_, key, value)
     if type(value) == "function" then
       local method = value

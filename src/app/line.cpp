@@ -32,6 +32,7 @@ struct LineEditor::Terminal {
   HistEvent event = {};
   fs::path file;
   Complete complete;
+  Background background;
   std::string prompt;
   bool interrupted = false;
   bool pasting = false;  // is what comes pasted text?
@@ -86,8 +87,18 @@ static unsigned char complete_word(EditLine* edit, int) {
   return CC_REDISPLAY;
 }
 
+// clears the line that is typed, lets the background print, and shows the line again
+template <class Terminal>
+static void run_background(Terminal& terminal) {
+  std::fputs("\r\x1b[K", stdout);
+  terminal.background.run();
+  std::fflush(stdout);
+  el_set(terminal.edit, EL_REFRESH);
+}
+
 // a byte of the terminal: 1, its end: 0, Ctrl-C or a failure: -1
-static int read_byte(char& byte, bool& interrupted) {
+template <class Terminal>
+static int read_byte(Terminal& terminal, char& byte) {
   // the signal is let in while poll waits and at no other time, so that none comes unnoticed just
   // before
   sigset_t only, before;
@@ -96,11 +107,18 @@ static int read_byte(char& byte, bool& interrupted) {
   sigprocmask(SIG_BLOCK, &only, &before);
   int count = -1;
   for (;;) {
-    interrupted = take_interrupt();
-    if (interrupted) break;
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    const int ready = ppoll(&input, 1, nullptr, &before);
+    terminal.interrupted = take_interrupt();
+    if (terminal.interrupted) break;
+    // a negative descriptor is passed over
+    pollfd inputs[] = {{STDIN_FILENO, POLLIN, 0}, {terminal.background.descriptor, POLLIN, 0}};
+    const int ready = ppoll(inputs, 2, nullptr, &before);
     if (ready < 0 && errno == EINTR) continue;
+    if (inputs[0].revents == 0 && inputs[1].revents != 0) {
+      sigprocmask(SIG_SETMASK, &before, nullptr);
+      run_background(terminal);
+      sigprocmask(SIG_BLOCK, &only, nullptr);
+      continue;
+    }
     count = static_cast<int>(::read(STDIN_FILENO, &byte, 1));
     if (count >= 0 || errno != EINTR) break;
   }
@@ -127,7 +145,7 @@ static int next_byte(Terminal& terminal, char& byte) {
       pending.erase(0, 1);
       return 1;
     }
-    const int count = read_byte(byte, terminal.interrupted);
+    const int count = read_byte(terminal, byte);
     if (count <= 0 || (byte != '\x1b' && !(byte == '\t' && terminal.pasting))) return count;
     if (byte == '\t') {
       pending = byte;
@@ -137,8 +155,7 @@ static int next_byte(Terminal& terminal, char& byte) {
     std::string seen(1, byte);
     char next = 0;
     while ((paste_begins.starts_with(seen) || paste_ends.starts_with(seen)) &&
-           seen.size() < paste_begins.size() && goes_on() &&
-           read_byte(next, terminal.interrupted) > 0)
+           seen.size() < paste_begins.size() && goes_on() && read_byte(terminal, next) > 0)
       seen += next;
     if (seen != paste_begins && seen != paste_ends) {
       pending = seen.substr(1);
@@ -164,11 +181,13 @@ static int read_character(EditLine* edit, wchar_t* out) {
   }
 }
 
-LineEditor::LineEditor(fs::path history, Complete complete) : terminal_(new Terminal) {
+LineEditor::LineEditor(fs::path history, Complete complete, Background background)
+    : terminal_(new Terminal) {
   std::setlocale(LC_CTYPE, "C.UTF-8");
   Terminal& t = *terminal_;
   t.file = std::move(history);
   t.complete = std::move(complete);
+  t.background = std::move(background);
   t.edit = el_init("clench", stdin, stdout, stderr);
   t.history = history_init();
   el_set(t.edit, EL_CLIENTDATA, &t);

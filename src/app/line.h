@@ -13,9 +13,15 @@ class LineEditor {
   /// What the cursor's word may become: first the word as far as it is typed, then whole words.
   using Complete = std::function<std::vector<std::string>(const std::string& before_cursor)>;
   enum class Key { line, interrupted, end };
+  /// What runs while a line is typed: `run` is called whenever the descriptor is readable. It may
+  /// print; the typed line is shown again below.
+  struct Background {
+    int descriptor = -1;  ///< -1: nothing
+    std::function<void()> run;
+  };
 
   /// history  a file; made when something is remembered, and ignored when it cannot be
-  LineEditor(std::filesystem::path history, Complete complete);
+  LineEditor(std::filesystem::path history, Complete complete, Background background);
   ~LineEditor();
 
   /// Reads a line, without its end. interrupted: Ctrl-C; end: Ctrl-D.

@@ -1,5 +1,6 @@
 #include "clench/app/repl.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/line.h"
+#include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 #include "clench/script/lua/home.h"
 
@@ -71,13 +73,25 @@ static std::vector<std::string> file_names(const std::string& path) {
   return names;
 }
 
+// the event loop, which runs while the prompt waits
+static LineEditor::Background background_of(State& state) {
+  const auto descriptor = state.call("host.prompt", "descriptor", {});
+  if (!descriptor.ok) return {};
+  const auto run = [&state] {
+    const Interruptible running(state, 3);
+    const auto outcome = state.call("host.prompt", "run", {});
+    if (!outcome.ok) fmt::print(stderr, "{}\n", printable(outcome.error, "\n\t"));
+  };
+  return {std::stoi(descriptor.values.at(0)), run};
+}
+
 static int run_terminal(State& state) {
   const auto complete = [&state](const std::string& line) {
     const auto words = state.call("host.complete", "words", {line}).values;
     const bool file = words.size() == 1 && words[0].starts_with('\1');
     return file ? file_names(words[0].substr(1)) : words;
   };
-  LineEditor editor(history_file(), complete);
+  LineEditor editor(history_file(), complete, background_of(state));
   std::puts("Clench " CLENCH_VERSION
             ", Lua 5.4. Tab completes, help(x) explains, Ctrl-D or exit leaves.");
   std::string chunk, line;

@@ -1,22 +1,13 @@
 --- The run of a world in which scripts take part: functions, then tasks, then a step, then listeners and observers.
 local calls = require "clench.dynamics.hook_calls"
+local explained = require "clench.explained"
 local error_value = require "clench.error_value"
 local described = require "clench.described"
+local line_of = require "clench.line_of"
 local raise = require "clench.raise"
 local task_order = require "clench.dynamics.task_order"
 
-local call, each, explained, is_due, tiny = calls.call, calls.each, calls.explained, calls.is_due, calls.tiny
-
--- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if it has no such line
-local function line_of(thread)
-  local level = 0
-  while true do
-    local at = debug.getinfo(thread, level, "Sl")
-    if not at then return "" end
-    if at.currentline > 0 and at.source:sub(1, 8) ~= "@stdlib/" then return ("%s:%d: "):format(at.short_src, at.currentline) end
-    level = level + 1
-  end
-end
+local call, each, is_due, tiny = calls.call, calls.each, calls.is_due, calls.tiny
 
 -- those that are done go
 local function clear(list)

@@ -1,23 +1,10 @@
 --- How functions that take part in a world's steps are called: when they are due, and with errors that name them.
-local callback_error = require "clench.callback_error"
-local error_text = require "clench.host.error_text"
-local error_value = require "clench.error_value"
-local is_stopped = require "clench.is_stopped"
+local explained = require "clench.explained"
 local calls = {tiny = 1e-9}  -- parts of a period, and seconds, that are rounding
-
--- The error of a function, task or condition, with its traceback. Ctrl-C is returned unchanged.
-function calls.explained(problem, name, trace, place)
-  if is_stopped(problem) then return problem end
-  problem = callback_error(problem, name, place)
-  local ours = getmetatable(problem) == error_value
-  local place, said = ours and problem.place or "", ours and problem.sentence or error_text(problem)
-  return setmetatable({place = place, sentence = ("%s\nin a %s\n%s"):format(said, name, trace), kind = ours and problem.kind or "input",
-                       cause = ours and problem.cause or nil}, error_value)
-end
 
 function calls.call(handle, ...)
   local ok, problem = xpcall(handle.fn, function(problem)
-    return calls.explained(problem, handle.running or handle.name, debug.traceback("", 2):sub(2))
+    return explained(problem, handle.running or handle.name, debug.traceback("", 2):sub(2))
   end, ...)
   if not ok then error(problem, 0) end
 end

@@ -201,7 +201,7 @@ function batch.try(job, stats, next_state, options)
   end)
   stats.candidates, stats.hint = number, nil
   if number == 0 then stats.late_start = job:late_start() end
-  stats.complete = ended == true and not job.stopped and not job.cancelled and not journal:is_ended() and not out_of_time
+  stats.complete = ended == true and not job.stopped and not journal:is_ended() and not out_of_time
     and (exhausted or is_enough() or false)
   -- recorded pieces of later starts are kept if the search ends before them
   for _, piece in ipairs(options.journal and options.journal:rest() or {}) do take(piece.known, piece) end

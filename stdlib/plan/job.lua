@@ -10,7 +10,7 @@ local is_stopped = require "clench.is_stopped"
 local is_timeout = require "clench.is_timeout"
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
-local running = require "clench.plan.running"
+local loop_task = require "clench.loop_task"
 local script_line = require "clench.script_line"
 local supports = require "clench.plan.supports"
 local touch = require "clench.plan.touch"
@@ -50,7 +50,7 @@ function Job:annealing(options)
   return on_behalf_of(self.subject, clench.annealing, all)
 end
 
--- Waits while the search is paused. Meanwhile the given world has the state in which the script left it.
+-- Lets other coroutines of the loop run. Meanwhile the given world has the state in which the script left it.
 function Job:rest()
   self:end_deadline()
   local paused_at, here = clench.clock(), self.before and self.world:snapshot()
@@ -87,12 +87,10 @@ function Job:in_time(work)
   if not (over and is_timeout(result)) then error(result, 0) end
 end
 
---- Called between two pieces of work: false once the time has run out, Ctrl-C was pressed or the search was cancelled.
+--- Called between two pieces of work: false once the time has run out or Ctrl-C was pressed.
 function Job:goes_on()
-  local search = self.search
-  if search and search.pause_at and clench.clock() >= search.pause_at and not search.cancelled then self:rest() end
-  if search and search.cancelled then self.cancelled = true end
-  return not (self.stopped or self.cancelled) and self:has_time()
+  if self.in_loop and not self.stopped then self:rest() end
+  return not self.stopped and self:has_time()
 end
 
 function Job:has_time() return self.seconds == nil or clench.clock() - self.began < self.seconds end
@@ -105,7 +103,7 @@ end
 
 --- The sentence reported if the time ran out before the first candidate; nil: it did not.
 function Job:late_start()
-  if self.stopped or self.cancelled or self:has_time() then return end
+  if self.stopped or self:has_time() then return end
   return ("the search ended before its first candidate: for this hand and object its start takes longer than the %.6g s that were given; allow more"):format(self.seconds)
 end
 
@@ -263,7 +261,7 @@ return function(subject, given, own)
   if job.max_effort then job.hand.max_effort = job.max_effort end
   job.unlimited_efforts = drives.unlimited(job.hand)
   check_grasp_options(job)
-  job.search = running[coroutine.running()]
+  job.in_loop = coroutine.running() == loop_task.thread
   job.began = clench.clock()
   return job
 end

@@ -25,7 +25,7 @@ return function(job, found, told, options)
   local grasps = clench.grasps()
   for _, grasp in ipairs(options.spread and spread(job.hand, unlike, options.count) or unlike) do grasps:add(grasp) end
   told.grasps, told.alike, told.found = #grasps, alike, #found
-  told.seconds, told.stopped = job:elapsed(), job.stopped or job.cancelled
+  told.seconds, told.stopped = job:elapsed(), job.stopped
   told.assumptions = told.assumptions or assumptions.of(job.hand, job.object, nil, {})
   return setmetatable({grasps = grasps, report = report.new(job, told)}, Run)
 end

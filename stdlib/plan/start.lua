@@ -1,55 +1,17 @@
 -- stdlib/plan/start.lua
-local clock = clench.clock
-local class = require "clench.class"
 local described = require "clench.described"
 local raise = require "clench.raise"
-local running = require "clench.plan.running"
+require "clench.plan.run" -- the class of the result, and that of its report
 
-local Search = class "search"
-
-function Search:__tostring()
-  return ("%s, %s after %.3g s"):format(self.planner, self.done and "done" or "paused", self.elapsed)
-end
-
-local function check_seconds(seconds)
-  if seconds ~= nil and not (type(seconds) == "number" and seconds >= 0) then
-    raise(("search:resume: seconds must be a number >= 0, got %s"):format(described(seconds)))
-  end
-end
-
-function Search:resume(seconds)
-  check_seconds(seconds)
-  if self.done then return true end
-  if self.is_running then raise "search:resume: the search is running" end
-  local began = clock()
-  self.pause_at, self.is_running = seconds and began + seconds, true
-  local ok, result = coroutine.resume(self.thread)
-  self.is_running, self.elapsed = false, self.elapsed + clock() - began
-  if not ok then
-    self.done = true
-    error(result, 0)
-  end
-  if coroutine.status(self.thread) == "dead" then self.done, self.run = true, result end
-  return self.done
-end
-
-function Search:pause() self.pause_at = 0 end
-
-function Search:cancel()
-  self.cancelled = true
-  if not self.is_running then self:resume() end
-  return self.run
-end
-
---- A planner that is run piece by piece. It pauses between two pieces of work (1000 steps of annealing, 64 starts), and whether it
---- paused changes no byte of what it finds.
+--- A planner that runs in the background, as a `clench.job` on a copy of the world: the same grasps to the bit as by the planner itself.
+--- Energies and other functions of the script cannot be handed over; in a function of `clench.loop.spawn` a planner may use them, and other
+--- functions of the loop run between its pieces of work.
 ---@param planner string  "sample", "anneal", ...
----@param options table  of that planner; its `seconds` count while it runs, not while it is paused
----@return table search # paused. `search:resume(seconds?)` goes on, to the end or for so long, and says whether it is done; `search:pause()`, called by on_grasp or an energy, lets it pause at the next piece; `search:cancel()` ends it and gives the run with what was found so far. `done`; `run`, {grasps, report} once it is done; `elapsed` [s]
---- > search = clench.plan.start("sample", {hand = hand, object = flask, count = 2, refine = 2})
---- > while not search:resume(0.05) do end
---- > search.done, #search.run.grasps > 0  --> true, true
---- > clench.plan.start("sample", {hand = hand}):resume()  --> error: object must be a body, got nothing
+---@param options table  of that planner, without functions
+---@return job job # its events are the grasps, as they are found; `result()` is that of the planner, {grasps, report}, whose grasps belong to no world; `snapshot` is the progress of clench.plan.sample. When it is stopped, the grasps found so far are its events
+--- > job = clench.plan.start("sample", {hand = hand, object = flask, count = 2, refine = 2})
+--- > clench.loop.wait(job)
+--- > #job:result().grasps == 2, #job:events() >= 2  --> true, true
 --- > clench.plan.start("smple", {})  --> error: plan.start: planner: there is no 'smple'
 return function(planner, options)
   if type(planner) ~= "string" then raise(("plan.start: planner: expected a name, got %s"):format(described(planner))) end
@@ -58,8 +20,11 @@ return function(planner, options)
   end
   local known, plan = pcall(function() return clench.plan[planner] end)
   if not known then raise((tostring(plan):gsub("^.-plan: there", "plan.start: planner: there"))) end
-  local search = setmetatable({planner = "plan." .. planner, elapsed = 0, done = false}, Search)
-  search.thread = coroutine.create(function() return plan(options) end)
-  running[search.thread] = search
-  return search
+  if type(options) ~= "table" then raise(("plan.start: options: expected a table, got %s"):format(described(options))) end
+  for name, value in pairs(options) do
+    if type(value) == "function" then
+      raise(("plan.start: %s: a function of the script cannot run in the background; grasps and progress arrive as events and snapshot of the job"):format(tostring(name)))
+    end
+  end
+  return clench.job("clench.plan.background", {args = {planner, options}, name = "plan." .. planner})
 end

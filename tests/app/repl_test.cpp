@@ -128,6 +128,38 @@ TEST_CASE("on a terminal: results, errors, unfinished lines, Ctrl-D") {
   CHECK(terminal.wait_for_end() == 0);
 }
 
+TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line stays") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter("t = clench.loop.every(0.2, function() print('ti' .. 'ck') end)");
+  terminal.wait_for("> ");
+  terminal.type("6 * ");
+  terminal.wait_for("tick");
+  terminal.wait_for("tick");
+  terminal.wait_for("6 * ");
+  terminal.enter("7");
+  terminal.wait_for("42");
+  terminal.enter("t:remove() clench.loop.spawn(function() error 'in a loop' end)");
+  terminal.wait_for("in a loop");
+  terminal.wait_for("> ");
+  terminal.enter(
+      "job = clench.job(function() return 11 end) "
+      "clench.loop.spawn(function() clench.loop.wait(job) print(job:result() * 11) end)");
+  terminal.wait_for("121");
+  terminal.wait_for("> ");
+  // Ctrl-C ends what runs in the loop, and the session goes on
+  terminal.enter("clench.loop.spawn(function() print('bu' .. 'sy') while true do end end)");
+  terminal.wait_for("busy");
+  terminal.type("\x03");
+  terminal.wait_for("interrupted");
+  terminal.wait_for("> ");
+  terminal.enter("1 + 1");
+  terminal.wait_for("2");
+  terminal.type("\x04");
+  CHECK(terminal.wait_for_end() == 0);
+}
+
 TEST_CASE("Tab completes globals, fields and methods, and lists what is ambiguous") {
   const Folder home;
   Terminal terminal(home);

@@ -1,4 +1,4 @@
--- Planners that pause: they find to the byte what they find without, end when they are cancelled, and leave the world alone meanwhile.
+-- Planners in the background and in the loop: they find to the byte what they find alone, end when they are stopped, and leave the world as it is.
 local test, clench = require "test", require "clench"
 
 local function barrett_mug()
@@ -17,78 +17,69 @@ local function options_of(planner)
   return options, world
 end
 
-test("pauses change no byte of what any planner finds", function(t)
+test("in the background any planner finds the same bytes, and sends its grasps", function(t)
   for _, planner in ipairs {"sample", "random", "anneal", "antipodal", "loop", "guided", "primitive"} do
     local expected = clench.plan[planner](options_of(planner))
     local options, world = options_of(planner)
     local before = world:hash()
-    local search, pauses = clench.plan.start(planner, options), 0
-    t.ok(not search.done and search.run == nil)
-    while not search:resume(0) do
-      pauses = pauses + 1
-      t.equal(world:hash(), before)
-    end
-    t.ok(pauses > 0, planner)
-    t.equal(clench.json.encode(search.run.grasps), clench.json.encode(expected.grasps))
-    t.equal(search.run.report.stopped, nil)
-    t.ok(search:resume())
+    local job = clench.plan.start(planner, options)
+    t.ok(job:wait(120), planner)
+    local run = job:result()
+    t.equal(clench.json.encode(run.grasps), clench.json.encode(expected.grasps))
+    t.ok(#job:events() >= #expected.grasps, planner)
+    t.equal(world:hash(), before)
+    local function without_times(report) return (tostring(report):gsub("in [%d.e+-]+ s[^\n]*", "")) end
+    t.equal(without_times(run.report), without_times(expected.report))
+    t.equal(run.report.stopped, nil)
   end
 end)
 
-test("while an energy of the script is paused, its world is the script's", function(t)
+test("in a function of the loop a planner lets others run, and its world is the script's meanwhile", function(t)
   local world, hand, mug = barrett_mug()
-  local contact, expected = clench.energy.contact {hand = hand, object = mug}, nil
+  local contact = clench.energy.contact {hand = hand, object = mug}
   local function anneal() return {hand = hand, object = mug, steps = 2500, seed = 2, energy = function() return contact() end} end
-  expected = clench.plan.anneal(anneal())
-  local given, mine = hand.dofs, hand.dofs
+  local expected = clench.plan.anneal(anneal())
+  local given, mine, seen, run = hand.dofs, hand.dofs, 0, nil
   mine[2] = mine[2] + 0.01
-  local search = clench.plan.start("anneal", anneal())
-  t.ok(not search:resume(0))
-  t.equal(hand.dofs, given)
-  hand.dofs = mine
-  while not search:resume(0) do t.equal(hand.dofs, mine) end
+  clench.loop.spawn(function() run = clench.plan.anneal(anneal()) end)
+  clench.loop.spawn(function()
+    t.equal(hand.dofs, given)
+    hand.dofs = mine
+    while not run do
+      t.equal(hand.dofs, mine)
+      seen = seen + 1
+      coroutine.yield()
+    end
+  end)
+  clench.loop.run()
+  t.ok(seen > 1)
   t.equal(hand.dofs, mine)
-  t.equal(clench.json.encode(search.run.grasps), clench.json.encode(expected.grasps))
+  t.equal(clench.json.encode(run.grasps), clench.json.encode(expected.grasps))
 end)
 
-test("a search pauses where its script asks for it, and its time stands still meanwhile", function(t)
-  local options, search = options_of "sample", nil
-  options.count, options.seconds = 100000, 1
-  options.on_grasp = function() search:pause() end
-  search = clench.plan.start("sample", options)
-  t.ok(not search:resume())
-  local elapsed, began = search.elapsed, clench.clock()
-  while clench.clock() - began < 0.3 do end
-  t.equal(search.elapsed, elapsed)
-  options.on_grasp = nil
-  while not search:resume() do end
-  t.ok(search.elapsed > 0.9 and search.run.report.seconds < 1.6)
-end)
-
-test("a search that is cancelled gives what it had found, paused or running", function(t)
+test("a search that is stopped has sent what it had found", function(t)
   local options = options_of "random"
   options.count = 1000000
-  local search = clench.plan.start("random", options)
-  search:resume(0.2)
-  local run = search:cancel()
-  t.ok(search.done and #run.grasps > 0 and run.report.stopped and search:cancel() == run)
-  options.on_grasp = function() search:cancel() end
-  search = clench.plan.start("random", options)
-  t.ok(search:resume())
-  t.ok(#search.run.grasps > 0)
-  t.equal(search.run.report.candidates, 64)
+  local job, grasps = clench.plan.start("random", options), {}
+  while #grasps == 0 do
+    clench.loop.sleep(0.02)
+    for _, grasp in ipairs(job:events()) do grasps[#grasps + 1] = grasp end
+  end
+  local began = clench.clock()
+  job:stop()
+  t.ok(job:wait(20))
+  t.equal(job.state, "stopped")
+  t.ok(clench.clock() - began < 5)
+  t.ok(grasps[1].hand_name == options.hand.name and grasps[1].epsilon > 0)
 end)
 
-test("errors of a paused planner are told as always", function(t)
+test("errors of a planner in the background are told as always", function(t)
   t.fails(function() clench.plan.start(3) end, "plan.start: planner: expected a name, got 3")
   t.fails(function() clench.plan.start "smple" end, "did you mean 'sample'?")
   t.fails(function() clench.plan.start "online" end, "'online' is no search that ends")
-  local search = clench.plan.start("sample", {})
-  t.fails(function() search:resume() end, "plan.sample: hand must be a robot, got nothing")
-  t.ok(search.done)
-  t.fails(function() search:resume "x" end, "search:resume: seconds must be a number >= 0, got 'x'")
-  local options, own = options_of "random", nil
-  options.on_grasp = function() own:resume() end
-  own = clench.plan.start("random", options)
-  t.fails(function() own:resume() end, "search:resume: the search is running")
+  t.fails(function() clench.plan.start "sample" end, "plan.start: options: expected a table, got nothing")
+  t.fails(function() clench.plan.start("sample", {on_grasp = print}) end, "plan.start: on_grasp: a function of the script cannot run in the background")
+  local job = clench.plan.start("sample", {})
+  job:wait(20)
+  t.fails(function() job:result() end, "job 'plan.sample'", "plan.sample: hand must be a robot, got nothing")
 end)

@@ -61,11 +61,11 @@ test("no method of what the standard library returns answers junk with an error 
   local task = world:spawn(function() end)
   world:run(0.05)
   local run = clench.plan.random {hand = hand, object = object, count = 1, seed = 1}
-  local search = clench.plan.start("random", {hand = hand, object = object, count = 1, seed = 1})
+  local task_of_loop = clench.loop.spawn(function() end)
   local planner = clench.plan.online {hand = hand, object = object}
   local comparison = clench.study.compare(run.grasps, {world = world})
   local silent, list = clench.log.level "quiet", {}
-  for name, value in pairs {planner = planner, comparison = comparison, recording = recording, log = log, handle = task, run = run, report = run.report, search = search} do
+  for name, value in pairs {planner = planner, comparison = comparison, recording = recording, log = log, handle = task, run = run, report = run.report, task_of_loop = task_of_loop} do
     local methods = 0
     for key, fn in pairs(debug.getmetatable(value).__index) do
       if type(fn) == "function" then

@@ -33,7 +33,7 @@ namespace clench {
 // --- Libraries whose files say what they are for. ---
 
 extern const Library units_library, vec3_library, pose_library, random_library, progress_library,
-    log_library, parallel_library, json_library, catalog_library, convert_library, entries_library,
+    log_library, parallel_library, job_library, json_library, catalog_library, convert_library, entries_library,
     files_library, arrays_library, film_library, chart_library, plot_library, render_library,
     eigengrasps_library, wrench_space_library, grasp_library, grasps_library, measures_library;
 
@@ -65,6 +65,10 @@ extern const Class progress_class;
 
 template <>
 inline constexpr const Class* script_class<ProgressHandle> = &progress_class;
+
+// --- job: a function that runs beside the script. ---
+
+extern const Class job_class, this_job_class;
 
 // --- The log: the only thing that prints unasked. To stderr, or to a script's function. ---
 

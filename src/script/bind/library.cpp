@@ -17,7 +17,7 @@ std::span<const Library* const> all_libraries() {
       &wrench_space_library, &eigengrasps_library, &files_library,   &arrays_library,
       &film_library,         &render_library,      &chart_library,   &plot_library,
       &progress_library,     &grasps_library,      &energy_library,  &annealing_library,
-      &parallel_library,
+      &parallel_library,    &job_library,
   };
   return libraries;
 }
@@ -37,6 +37,7 @@ std::span<const Class* const> all_classes() {
       &projection_class,     &picture_class,
       &plot_class,           &progress_class,
       &grasps_class,         &energy_class,
+      &job_class,            &this_job_class,
       &annealing_class,      &world_settings_class,
       &world_queries_class,  &world_dynamics_class,
       &world_control_class,  &motion_class,

@@ -2,11 +2,52 @@
 
 #include "clench/base/error.h"
 #include "clench/script/bind/bind.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 
 namespace clench {
 
 static constexpr int max_depth = 100;
+
+// (name) -> the class of the standard library, or nil
+static int find_class(lua_State* L) {
+  push_packed(L, "classes");
+  lua_pushvalue(L, 1);
+  lua_rawget(L, -2);
+  return 1;
+}
+
+static void push_class(lua_State* L, const std::string& name) {
+  lua_pushcfunction(L, find_class);
+  lua_pushlstring(L, name.data(), name.size());
+  protected_call(L, 1, 1);
+}
+
+// of the table at the index; "": it is no object of the standard library
+static std::string class_name_of(lua_State* L, int index) {
+  if (!lua_getmetatable(L, index)) return {};
+  const int metatable = lua_gettop(L);
+  lua_pushliteral(L, "__name");
+  std::string name;
+  if (lua_rawget(L, metatable) == LUA_TSTRING) name = string_at(L, -1);
+  bool is_class = false;
+  if (!name.empty()) {
+    push_class(L, name);
+    is_class = lua_rawequal(L, -1, metatable);
+  }
+  lua_settop(L, metatable - 1);
+  return is_class ? name : std::string();
+}
+
+// of the table on top; a class that the state does not know leaves it a plain table
+static void set_class(lua_State* L, const std::string& name) {
+  push_class(L, name);
+  if (lua_istable(L, -1))
+    lua_setmetatable(L, -2);
+  else
+    lua_pop(L, 1);
+}
 
 Parcel::Parcel(lua_State* L, int index, const std::string& what) {
   Packing packing{L, {}};
@@ -62,7 +103,7 @@ Parcel::Node Parcel::pack_table(Packing& packing, int index, const std::string& 
     fields.emplace_back(std::move(name), std::move(value));
     lua_pop(L, 1);
   }
-  return {std::move(fields)};
+  return {std::move(fields), class_name_of(L, index)};
 }
 
 Parcel::Node Parcel::pack_object(Packing& packing, int index, const std::string& what) {
@@ -94,6 +135,7 @@ Parcel::Node Parcel::pack_object(Packing& packing, int index, const std::string&
 void Parcel::unpack(lua_State* L, const Node& node) {
   struct Visitor {
     lua_State* L;
+    const std::string& class_name;
     void operator()(std::monostate) const { lua_pushnil(L); }
     void operator()(bool b) const { lua_pushboolean(L, b); }
     void operator()(lua_Integer n) const { lua_pushinteger(L, n); }
@@ -107,10 +149,11 @@ void Parcel::unpack(lua_State* L, const Node& node) {
         unpack(L, value);
         lua_rawset(L, -3);
       }
+      if (!class_name.empty()) set_class(L, class_name);
     }
     void operator()(const Object& object) const { object(L); }
   };
-  std::visit(Visitor{L}, node.value);
+  std::visit(Visitor{L, node.class_name}, node.value);
 }
 
 }  // namespace clench

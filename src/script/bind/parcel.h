@@ -13,7 +13,7 @@
 
 namespace clench {
 
-/// Plain data, and copies of what scripts hold: worlds as clones with their bodies and robots,
+/// Plain data, objects of the standard library's classes that hold nothing else, and copies of what scripts hold: worlds as clones with their bodies and robots,
 /// snapshots, meshes, poses, vectors, random numbers, and grasps, which stand in no world
 /// afterwards, as those of files.
 class Parcel {
@@ -34,6 +34,7 @@ class Parcel {
   using Object = std::function<void(lua_State*)>;
   struct Node {
     std::variant<std::monostate, bool, lua_Integer, double, std::string, Fields, Object> value;
+    std::string class_name = {};  // of a table that is an object of the standard library
   };
   struct Packing {
     lua_State* L;

@@ -3,6 +3,7 @@
 #include "clench/base/hash.h"
 #include "clench/base/printable.h"
 #include "clench/base/suggest.h"
+#include "clench/script/host/bind_poller.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/deadline.h"
 #include "clench/script/lua/guard.h"
@@ -84,6 +85,8 @@ void add_natives(lua_State* L) {
                                          {"clench.deadline", guarded<deadline>},
                                          {"clench.printable", guarded<make_printable>},
                                          {"clench.fingerprint", guarded<fingerprint>},
+                                         {"clench.poller", guarded<new_poller>},
+                                         {"clench.has_jobs", guarded<has_jobs>},
                                          {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);

@@ -11,12 +11,11 @@
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/parcel.h"
 #include "clench/script/host/state.h"
+#include "clench/script/host/worker.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
-#include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/read.h"
-#include "clench/script/lua/setting.h"
 #include "clench/script/lua/stack.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -25,23 +24,13 @@ namespace clench {
 
 namespace {
 
-// of an item, or of what came before all of them
-struct TaskError {
-  std::string words, kind;  // no words: none; no kind: an error of Lua's
-};
-
 struct Outcome {
   Parcel value;
-  TaskError failure;
+  WorkerError failure;
 };
 
-// what the states do, as text or compiled, and what all of them are given
-struct Task {
-  std::string module, compiled;  // one of them
-  std::string name;              // of the function in messages
-  std::string path, cpath;       // where require looks
-  std::string script_folder, confine;
-  LogLevel log_level = LogLevel::info;
+// what the states do
+struct Task : WorkerTask {
   std::vector<Parcel> items;
 };
 
@@ -56,38 +45,13 @@ struct Worker {
       moments;  // of the shared worlds
 };
 
-void set_path(lua_State* L, const char* field, const std::string& path) {
-  lua_getglobal(L, LUA_LOADLIBNAME);
-  lua_pushlstring(L, path.data(), path.size());
-  lua_setfield(L, -2, field);
-  lua_pop(L, 1);
-}
-
-// (task, worker) -> function, shared
-int prepare(lua_State* L) {
-  const auto& task = *static_cast<const Task*>(lua_touserdata(L, 1));
-  auto& worker = *static_cast<Worker*>(lua_touserdata(L, 2));
-  set_path(L, "path", task.path);
-  set_path(L, "cpath", task.cpath);
-  if (task.module.empty()) {
-    const int status =
-        luaL_loadbufferx(L, task.compiled.data(), task.compiled.size(), task.name.c_str(), "b");
-    if (status != LUA_OK) fail("{}", string_at(L, -1));
-    // its one upvalue is _ENV, whatever it was outside
-    lua_pushglobaltable(L);
-    if (!lua_setupvalue(L, -2, 1)) lua_pop(L, 1);
-  } else {
-    lua_getglobal(L, "require");
-    lua_pushlstring(L, task.module.data(), task.module.size());
-    protected_call(L, 1, 1);
-    if (!lua_isfunction(L, -1))
-      fail("module '{}': expected one that returns a function, got {}", task.module,
-           described(L, -1));
-  }
+// (worker) -> shared
+int unpack_shared(lua_State* L) {
+  auto& worker = *static_cast<Worker*>(lua_touserdata(L, 1));
   worker.shared.unpack(L);
   for (const WorldPtr& world : worker.shared.worlds())
     worker.moments.emplace_back(world, world->snapshot());
-  return 2;
+  return 1;
 }
 
 struct Turn {
@@ -119,48 +83,13 @@ int take_turn(lua_State* L) {
   return 0;
 }
 
-// (error value) -> its words, its kind or nil
-int tell_error(lua_State* L) {
-  push_packed(L, "host.error_text");
-  lua_pushvalue(L, 1);
-  protected_call(L, 1, 1);
-  if (!lua_istable(L, 1)) return 1;
-  lua_pushliteral(L, "kind");
-  lua_rawget(L, 1);
-  return 2;
-}
-
-// pops the error's value
-TaskError take_error(lua_State* L) {
-  const auto words = [&](int index) {
-    return lua_type(L, index) == LUA_TSTRING ? std::string(string_at(L, index)) : std::string();
-  };
-  const int top = lua_gettop(L) - 1;
-  lua_pushcfunction(L, guarded<tell_error>);
-  lua_insert(L, -2);
-  TaskError out;
-  // the message is made without interruption, also for an item that was stopped
-  const lua_Hook hook = lua_gethook(L);
-  const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
-  lua_sethook(L, nullptr, 0, 0);
-  if (lua_pcall(L, 1, 2, 0) == LUA_OK) out = {words(-2), words(-1)};
-  lua_sethook(L, hook, mask, count);
-  if (out.words.empty()) out.words = "an error without words";
-  lua_settop(L, top);
-  return out;
-}
-
-bool make_ready(Worker& worker, const Task& task, TaskError& failure) {
+bool make_ready(Worker& worker, const Task& task, WorkerError& failure) {
   lua_State* L = worker.state.lua();
-  if (!task.script_folder.empty()) set_setting(L, Setting::modules, task.script_folder);
-  if (!task.confine.empty()) set_setting(L, Setting::confine, task.confine);
-  set_log_level(L, task.log_level);
-  worker.state.look_for_end();
-  lua_pushcfunction(L, guarded<prepare>);
-  lua_pushlightuserdata(L, const_cast<Task*>(&task));
+  if (!open_worker(worker.state, task, failure)) return false;
+  lua_pushcfunction(L, guarded<unpack_shared>);
   lua_pushlightuserdata(L, &worker);
-  if (lua_pcall(L, 2, 2, 0) == LUA_OK) return true;
-  failure = take_error(L);
+  if (lua_pcall(L, 1, 1, 0) == LUA_OK) return true;
+  failure = take_worker_error(L);
   return false;
 }
 
@@ -175,7 +104,7 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
   lua_pushvalue(L, 1);
   lua_pushvalue(L, 2);
   if (lua_pcall(L, 3, 0, 0) == LUA_OK) return;
-  outcome.failure = take_error(L);
+  outcome.failure = take_worker_error(L);
 }
 
 // --- the threads ---
@@ -220,7 +149,7 @@ class Crew {
 
   void run(Worker& worker) {
     const Watched watched{Progress(bar_of(worker.state.lua()))};
-    TaskError failure;
+    WorkerError failure;
     const bool ready = make_ready(worker, task_, failure);
     for (size_t i; ready && !ended_ && (i = next_++) < outcomes_.size();) {
       Outcome outcome;
@@ -250,43 +179,6 @@ class Crew {
 
 // --- in the state that calls ---
 
-int write_chunk(lua_State*, const void* data, size_t size, void* to) {
-  static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
-  return 0;
-}
-
-void read_function(lua_State* L, Task& task) {
-  if (lua_type(L, 1) == LUA_TSTRING) {
-    task.module = string_at(L, 1);
-    return;
-  }
-  if (!lua_isfunction(L, 1)) fail_expected({L, "", "task"}, "a function or a module's name", 1);
-  for (int i = 1; const char* name = lua_getupvalue(L, 1, i); ++i) {
-    lua_pop(L, 1);
-    if (std::string_view(name) != "_ENV" || i > 1)
-      fail(
-          "{}: function: it uses '{}' of the lines around it, which other states do not have; give "
-          "that in `shared`, "
-          "or as a part of each item",
-          subject(L), name);
-  }
-  lua_pushvalue(L, 1);
-  if (lua_dump(L, write_chunk, &task.compiled, 0) != 0)
-    fail("{}: function: expected one written in Lua", subject(L));
-  lua_pop(L, 1);
-}
-
-std::string package_path(lua_State* L, const char* field) {
-  std::string out;
-  if (lua_getglobal(L, LUA_LOADLIBNAME) == LUA_TTABLE) {
-    lua_pushstring(L, field);
-    if (lua_rawget(L, -2) == LUA_TSTRING) out = string_at(L, -1);
-    lua_pop(L, 1);
-  }
-  lua_pop(L, 1);
-  return out;
-}
-
 void read_items(lua_State* L, Task& task, const std::string& subject) {
   if (!lua_istable(L, 2)) fail("{}: items: expected a list, got {}", subject, described(L, 2));
   const auto count = static_cast<lua_Integer>(lua_rawlen(L, 2));
@@ -299,8 +191,8 @@ void read_items(lua_State* L, Task& task, const std::string& subject) {
 
 void push_outcome(lua_State* L, const Outcome* outcome) {
   if (outcome && outcome->failure.words.empty()) return outcome->value.unpack(L);
-  static const TaskError not_done{"stopped before it was done", "stopped"};
-  const TaskError& failure = outcome ? outcome->failure : not_done;
+  static const WorkerError not_done{"stopped before it was done", "stopped"};
+  const WorkerError& failure = outcome ? outcome->failure : not_done;
   lua_createtable(L, 0, 2);
   push(L, std::string_view(failure.words));
   lua_setfield(L, -2, "error");
@@ -312,8 +204,7 @@ void push_outcome(lua_State* L, const Outcome* outcome) {
 int map(lua_State* L) {
   lua_settop(L, 3);
   const std::string subject = clench::subject(L);
-  Task task;
-  read_function(L, task);
+  Task task{read_worker_task(L, 1), {}};
   read_items(L, task, subject);
   Table options(L, 3);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -329,13 +220,6 @@ int map(lua_State* L) {
   for (size_t i = 0; i < std::min<size_t>(threads, count); ++i)
     copies.emplace_back(L, shared, subject + ": shared");
   options.done();
-  task.name = "=" + subject;
-  task.path = package_path(L, "path");
-  task.cpath = package_path(L, "cpath");
-  task.script_folder = get_setting(L, Setting::modules);
-  task.confine = get_setting(L, Setting::confine);
-  task.log_level = log_level(L);
-
   lua_createtable(L, static_cast<int>(count), 0);
   const int results = lua_gettop(L);
   const auto tell = [&](size_t i) {

@@ -217,7 +217,11 @@ void State::interrupt() {
 void State::on_count(lua_State* L, lua_Debug*) {
   void* data = nullptr;
   lua_getallocf(L, &data);
-  if (!static_cast<State*>(data)->ended_) return;
+  State& state = *static_cast<State*>(data);
+  if (!state.ended_) state.paused_.wait(true);
+  if (!state.ended_) return;
+  // with every instruction from then on, so that all that catches it ends
+  lua_sethook(L, on_count, LUA_MASKCOUNT, 1);
   push_error_value(L, "stopped", "stopped");
   lua_error(L);
 }
@@ -227,6 +231,12 @@ void State::look_for_end() { lua_sethook(L_, on_count, LUA_MASKCOUNT, 1000); }
 void State::end() {
   ended_ = true;
   bar_->stop();
+  resume();
+}
+
+void State::resume() {
+  paused_ = false;
+  paused_.notify_all();
 }
 
 // takes what a call left above base off the stack

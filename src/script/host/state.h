@@ -66,6 +66,10 @@ class State {
   void look_for_end();
   /// Makes the running chunk fail with "stopped", uncatchably. May be called from any thread.
   void end();
+  /// Holds the running chunk, of a state that looks for its end, at its next instruction until
+  /// `resume` or `end` is called. May be called from any thread.
+  void pause() { paused_ = true; }
+  void resume();
 
  private:
   struct Memory {
@@ -89,7 +93,7 @@ class State {
   std::shared_ptr<Bar> bar_;               // what watches the engine
   lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
   std::atomic<int> interrupts_ = 0;        // since a run began
-  std::atomic<bool> ended_ = false;
+  std::atomic<bool> ended_ = false, paused_ = false;
   std::atomic<double> patient_until_ = 0;  // then an interruption can no longer be caught [s]
 };
 

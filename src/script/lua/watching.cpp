@@ -43,7 +43,13 @@ bool Bar::take_all() {
 }
 
 void Bar::show(double fraction, std::string_view text) {
-  if (scripts_ == 0) draw(fraction, text);
+  if (scripts_ == 0 || in_script_) draw(fraction, text);
+}
+
+void Bar::note_script(double fraction, std::string_view text) {
+  in_script_ = true;
+  note(fraction, text);
+  in_script_ = false;
 }
 
 void Bar::draw(double fraction, std::string_view text) {

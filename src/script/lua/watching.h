@@ -11,9 +11,10 @@ namespace clench {
 class Bar : public Watcher {
  public:
   Bar();
-  /// Of the engine's work; not while a script shows its own.
-  void show(double fraction, std::string_view text) override;
-  void show_script(double fraction, std::string_view text) { draw(fraction, text); }
+  /// Of a script's own loop; meanwhile the engine's work is not displayed.
+  void note_script(double fraction, std::string_view text);
+  /// Displays nothing from now on, as the bar of a state in another thread.
+  void hide() { terminal_ = false; }
 
   /// Work begins, and ends: the outermost takes the bar away.
   void begin();
@@ -31,12 +32,13 @@ class Bar : public Watcher {
   bool take_all();
 
  private:
+  void show(double fraction, std::string_view text) override;
   void draw(double fraction, std::string_view text);
 
   bool terminal_;
   int depth_ = 0, scripts_ = 0;
   double began_ = 0, last_ = 0;  // [s]
-  bool drawn_ = false;
+  bool drawn_ = false, in_script_ = false;
   std::atomic<bool> interrupted_ = false, out_of_time_ = false;
 };
 

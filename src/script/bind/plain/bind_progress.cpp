@@ -28,7 +28,7 @@ void ProgressHandle::close() {
 
 static void show(ProgressHandle& progress) {
   if (progress.open)
-    progress.bar->show_script(progress.total > 0 ? progress.done / progress.total : -1,
+    progress.bar->note_script(progress.total > 0 ? progress.done / progress.total : -1,
                               progress.text);
 }
 

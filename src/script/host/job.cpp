@@ -1,0 +1,260 @@
+#include "clench/script/host/job.h"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+#include "clench/base/error.h"
+#include "clench/base/watched.h"
+#include "clench/script/host/state.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/kept.h"
+#include "clench/script/lua/watching.h"
+
+namespace clench {
+
+// --- the bell ---
+
+Bell::Bell() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  if (descriptor_ < 0)
+    fail(ErrorKind::limit, "clench.job: no descriptor left: {}", std::strerror(errno));
+}
+
+Bell::~Bell() { ::close(descriptor_); }
+
+void Bell::ring() {
+  const uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(descriptor_, &one, sizeof one);
+}
+
+void Bell::clear() {
+  uint64_t count = 0;
+  [[maybe_unused]] const auto read = ::read(descriptor_, &count, sizeof count);
+}
+
+namespace {
+
+struct KeptBell {
+  std::shared_ptr<Bell> bell = std::make_shared<Bell>();
+};
+
+struct RunningJob {
+  Job* job = nullptr;
+};
+
+// Jobs that run at once, in the whole process: as many as there are cores, and at least two, so that
+// one that is endless does not hold up all others.
+class Slots {
+ public:
+  void take(const std::function<bool()>& given_up) {
+    std::unique_lock lock(mutex_);
+    while (free_ <= 0 && !given_up()) changed_.wait_for(lock, std::chrono::milliseconds(20));
+    --free_;
+  }
+  void give() {
+    const std::lock_guard lock(mutex_);
+    ++free_;
+    changed_.notify_one();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int free_ = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
+};
+
+Slots& slots() {
+  static Slots all;
+  return all;
+}
+
+thread_local bool holds_slot = false;
+
+// Of a job that waits for another: others run meanwhile.
+class SlotLent {
+ public:
+  SlotLent() : lent_(std::exchange(holds_slot, false)) {
+    if (lent_) slots().give();
+  }
+  ~SlotLent() {
+    if (!lent_) return;
+    slots().take([] { return false; });
+    holds_slot = true;
+  }
+  SlotLent(const SlotLent&) = delete;
+  SlotLent& operator=(const SlotLent&) = delete;
+
+ private:
+  bool lent_;
+};
+
+}  // namespace
+
+const std::shared_ptr<Bell>& bell_of(lua_State* L) { return kept<KeptBell>(L).bell; }
+
+Job* running_job(lua_State* L) { return kept<RunningJob>(L).job; }
+
+// --- the job ---
+
+Job::Job(Start start) : start_(std::move(start)) {
+  thread_ = std::jthread([this] { run(); });
+}
+
+Job::~Job() { stop(); }
+
+Job::Phase Job::phase() const {
+  const std::lock_guard lock(mutex_);
+  return phase_ == Phase::running && pause_asked_ ? Phase::paused : phase_;
+}
+
+static bool is_end(Job::Phase phase) {
+  return phase != Job::Phase::queued && phase != Job::Phase::running && phase != Job::Phase::paused;
+}
+
+bool Job::is_over() const { return is_end(phase()); }
+
+Watcher::State Job::progress() const {
+  const std::lock_guard lock(mutex_);
+  return watcher_ ? watcher_->state() : Watcher::State();
+}
+
+bool Job::wait(std::chrono::milliseconds time) const {
+  const SlotLent lent;
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, time, [this] { return is_end(phase_); });
+}
+
+void Job::stop() {
+  const std::lock_guard lock(mutex_);
+  stop_asked_ = true;
+  if (state_) state_->end();
+}
+
+void Job::pause() {
+  const std::lock_guard lock(mutex_);
+  pause_asked_ = !is_end(phase_);
+  if (state_ && pause_asked_) state_->pause();
+}
+
+void Job::resume() {
+  const std::lock_guard lock(mutex_);
+  pause_asked_ = false;
+  if (state_) state_->resume();
+}
+
+std::deque<Parcel> Job::take_events() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(events_, {});
+}
+
+std::shared_ptr<const Parcel> Job::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return snapshot_;
+}
+
+int Job::push_results(lua_State* L) const {
+  const std::lock_guard lock(mutex_);
+  if (!is_end(phase_))
+    fail("{}: job '{}' is not over yet; wait() waits for it", subject(L), name());
+  if (phase_ == Phase::stopped)
+    fail(ErrorKind::stale, "{}: job '{}' was stopped", subject(L), name());
+  if (phase_ == Phase::failed) {
+    const std::string sentence = fmt::format("job '{}': {}", name(), failure_.words);
+    if (failure_.kind.empty()) throw Error(sentence);
+    // a time limit of the function's own, which is no stop of the script that asks
+    const bool ended = failure_.kind == "stopped" || failure_.kind == "timeout";
+    throw Error(sentence, ended ? ErrorKind::limit : error_kind(failure_.kind));
+  }
+  for (const Parcel& result : results_) result.unpack(L);
+  return static_cast<int>(results_.size());
+}
+
+void Job::add_event(Parcel value) {
+  {
+    const std::lock_guard lock(mutex_);
+    events_.push_back(std::move(value));
+  }
+  start_.bell->ring();
+}
+
+void Job::show(Parcel value) {
+  {
+    const std::lock_guard lock(mutex_);
+    snapshot_ = std::make_shared<const Parcel>(std::move(value));
+  }
+  start_.bell->ring();
+}
+
+// (job, function) -> results
+int Job::call_function(lua_State* L) {
+  auto& job = *static_cast<Job*>(lua_touserdata(L, 1));
+  kept<RunningJob>(L).job = &job;
+  lua_remove(L, 1);
+  luaL_checkstack(L, job.start_.count + 10, "too many arguments");
+  job.start_.arguments.unpack(L);
+  for (int i = 1; i <= job.start_.count; ++i) lua_rawgeti(L, 2, i);
+  lua_remove(L, 2);
+  call_script(L, lua_gettop(L) - 1, LUA_MULTRET, fmt::format("job '{}'", job.name()));
+  std::vector<Parcel> results;
+  for (int i = 1; i <= lua_gettop(L); ++i)
+    results.emplace_back(L, i, fmt::format("job '{}': result {}", job.name(), i));
+  job.results_ = std::move(results);
+  return 0;
+}
+
+// returns  false: it failed, and why is told
+bool Job::run_function(State& state) {
+  lua_State* L = state.lua();
+  const Watched watched{Progress(bar_of(L))};
+  if (!open_worker(state, start_.task, failure_)) return false;
+  lua_pushcfunction(L, guarded<&Job::call_function>);
+  lua_insert(L, -2);
+  lua_pushlightuserdata(L, this);
+  lua_insert(L, -2);
+  if (lua_pcall(L, 2, 0, 0) == LUA_OK) return true;
+  failure_ = take_worker_error(L);
+  return false;
+}
+
+void Job::run() {
+  slots().take([this] {
+    const std::lock_guard lock(mutex_);
+    return stop_asked_;
+  });
+  holds_slot = true;
+  bool done = false;
+  try {
+    auto state = std::make_unique<State>(start_.memory);
+    State& opened = *state;
+    {
+      const std::lock_guard lock(mutex_);
+      state_ = std::move(state);
+      watcher_ = bar_of(opened.lua());
+      phase_ = Phase::running;
+      if (stop_asked_) opened.end();
+      if (pause_asked_) opened.pause();
+    }
+    done = run_function(opened);
+  } catch (const std::exception& error) {
+    failure_ = {error.what(), "limit"};
+  }
+  std::unique_ptr<State> state;
+  {
+    const std::lock_guard lock(mutex_);
+    state = std::move(state_);
+  }
+  state.reset();  // before the end is told: nothing of the job runs after it
+  {
+    const std::lock_guard lock(mutex_);
+    phase_ = stop_asked_ ? Phase::stopped : done ? Phase::done : Phase::failed;
+    pause_asked_ = false;
+    changed_.notify_all();
+  }
+  if (std::exchange(holds_slot, false)) slots().give();
+  start_.bell->ring();
+}
+
+}  // namespace clench

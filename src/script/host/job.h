@@ -1,0 +1,113 @@
+// A function of a script that runs in a thread and a state of its own, beside the state that started
+// it.
+#pragma once
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "clench/base/progress.h"
+#include "clench/script/bind/parcel.h"
+#include "clench/script/host/worker.h"
+
+namespace clench {
+
+class State;
+
+/// Tells that jobs of a state have something new: a descriptor that can be polled.
+class Bell {
+ public:
+  /// throws  Error when the system has no descriptor left
+  Bell();
+  ~Bell();
+  Bell(const Bell&) = delete;
+  Bell& operator=(const Bell&) = delete;
+
+  /// Readable after `ring`, until `clear`.
+  int descriptor() const { return descriptor_; }
+  /// May be called from any thread.
+  void ring();
+  void clear();
+
+ private:
+  int descriptor_;
+};
+
+class Job {
+ public:
+  enum class Phase { queued, running, paused, done, failed, stopped };
+
+  /// What a job is started with.
+  struct Start {
+    WorkerTask task;
+    std::string name;            ///< for messages
+    Parcel arguments;            ///< a list, of copies that share worlds
+    int count = 0;               ///< of the arguments
+    size_t memory = 0;           ///< of its state, [bytes]
+    std::shared_ptr<Bell> bell;  ///< rung for each event, and at the end
+  };
+
+  /// Starts it.
+  explicit Job(Start start);
+  /// Stops it and waits for its end.
+  ~Job();
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  const std::string& name() const { return start_.name; }
+  Phase phase() const;
+  bool is_over() const;
+  Watcher::State progress() const;
+  /// Waits at most so long.   returns  is it over?
+  bool wait(std::chrono::milliseconds time) const;
+
+  void stop();
+  void pause();
+  void resume();
+
+  /// What the job has sent since the last call, in order.
+  std::deque<Parcel> take_events();
+  /// The latest value that the job shows; null before the first.
+  std::shared_ptr<const Parcel> snapshot() const;
+  /// Leaves the values that the function returned on the stack.
+  /// returns  how many
+  /// throws  Error of the function, or if it was stopped, or is not over yet
+  int push_results(lua_State* L) const;
+
+  // --- called by the function itself, in its thread ---
+
+  void add_event(Parcel value);
+  void show(Parcel value);
+
+ private:
+  void run();
+  bool run_function(State& state);
+  static int call_function(lua_State* L);
+
+  Start start_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  Phase phase_ = Phase::queued;
+  bool stop_asked_ = false, pause_asked_ = false;
+  std::unique_ptr<State> state_;  // null before it runs and after
+  std::shared_ptr<Watcher> watcher_;
+  std::deque<Parcel> events_;
+  std::shared_ptr<const Parcel> snapshot_;
+  std::vector<Parcel> results_;
+  WorkerError failure_;
+  std::jthread thread_;  // the last member: joined before all else goes
+};
+
+using JobPtr = std::shared_ptr<Job>;
+
+/// The bell of a state's jobs.
+const std::shared_ptr<Bell>& bell_of(lua_State* L);
+
+/// The job whose function runs in the state; null: none.
+Job* running_job(lua_State* L);
+
+}  // namespace clench

@@ -1,0 +1,356 @@
+--- The event loop of a script: coroutines that wait for times, for descriptors and for jobs. A host with a loop of its own polls
+--- `descriptor()` and then calls `run(0)`. It follows the clock; simulated time is that of `world:spawn`.
+local class = require "clench.class"
+local clock = clench.clock
+local described = require "clench.described"
+local explained = require "clench.explained"
+local has_jobs = require "clench.has_jobs"
+local loop_task = require "clench.loop_task"
+local line_of = require "clench.line_of"
+local poller = require "clench.poller"()
+local raise = require "clench.raise"
+
+local loop = {}
+local ready = {}      -- tasks to resume, in order
+local waiting = {}    -- tasks that wait, by task: true
+local watches = {}    -- by descriptor: {readable = handles, writable = handles}
+local count = 0       -- of tasks so far, for an order among equal times
+local running, in_run, stop_asked = nil, false, false
+local run             -- below
+
+local Task = class "task of clench.loop"
+
+function Task:__tostring() return ("task of clench.loop (%s)"):format(self.status) end
+
+local function drop(task)
+  waiting[task] = nil
+  if task.watch then task.watch:remove() end
+  task.at, task.job, task.watch = nil, nil, nil
+end
+
+--- Ends it where it waits.
+function Task:remove()
+  if self.status ~= "waiting" or self == running then return end
+  drop(self)
+  self.status = "removed"
+  if self.thread then coroutine.close(self.thread) end
+end
+
+local Watch = class "watch of clench.loop"
+
+function Watch:__tostring() return ("watch of descriptor %d"):format(self.descriptor) end
+
+local function update(descriptor)
+  local of = watches[descriptor]
+  poller:watch(descriptor, #of.readable > 0, #of.writable > 0)
+  if #of.readable + #of.writable == 0 then watches[descriptor] = nil end
+end
+
+--- Ends it.
+function Watch:remove()
+  local of = watches[self.descriptor]
+  local list = of and of[self.event] or {}
+  for i, watch in ipairs(list) do
+    if watch == self then
+      table.remove(list, i)
+      update(self.descriptor)
+      break
+    end
+  end
+end
+
+local function check_time(what, seconds)
+  if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then
+    raise(("loop.%s: expected a time >= 0 in seconds, got %s"):format(what, described(seconds)))
+  end
+end
+
+local function check_function(what, f)
+  if type(f) ~= "function" then raise(("loop.%s: expected a function, got %s"):format(what, described(f))) end
+end
+
+local function check_event(what, event)
+  if event ~= nil and event ~= "readable" and event ~= "writable" then
+    raise(("loop.%s: expected 'readable' or 'writable', got %s"):format(what, described(event)))
+  end
+  return event or "readable"
+end
+
+local function add_watch(descriptor, event, f)
+  local watch = setmetatable({descriptor = descriptor, event = event, fn = f}, Watch)
+  watches[descriptor] = watches[descriptor] or {readable = {}, writable = {}}
+  local list = watches[descriptor][event]
+  list[#list + 1] = watch
+  local ok, problem = pcall(update, descriptor)
+  if not ok then
+    list[#list] = nil
+    if #watches[descriptor].readable + #watches[descriptor].writable == 0 then watches[descriptor] = nil end
+    error(problem, 0)
+  end
+  return watch
+end
+
+local function new_task(f, name)
+  count = count + 1
+  return setmetatable({status = "waiting", name = name, number = count, thread = coroutine.create(f)}, Task)
+end
+
+-- A host that polls the descriptor hears of it.
+local function add_ready(task)
+  ready[#ready + 1] = task
+  if not in_run then poller:set_timer(0) end
+end
+
+local function wake(task, ...)
+  drop(task)
+  task.values = table.pack(...)
+  add_ready(task)
+end
+
+--- Seconds of a clock that never goes back.
+---@return number  [s]
+--- > clench.loop.time() <= clench.loop.time()  --> true
+function loop.time() return clock() end
+
+--- Starts a function as a coroutine of the loop. It runs from the next `run` on.
+---@param f function
+---@return table task # `status`: "waiting", "running", "done", "failed" or "removed"; `task:remove()` ends it
+--- > words = {}
+--- > clench.loop.spawn(function() clench.loop.sleep(0.02) words[#words + 1] = "late" end)
+--- > clench.loop.spawn(function() words[#words + 1] = "soon" end)
+--- > clench.loop.run()
+--- > words  --> {"soon", "late"}
+function loop.spawn(f)
+  check_function("spawn", f)
+  local task = new_task(f, "function of loop.spawn")
+  add_ready(task)
+  return task
+end
+
+-- Of the coroutine that calls: yields until `task` is woken, with the values of `wake`.
+local function pause(task)
+  waiting[task] = true
+  return coroutine.yield(task)
+end
+
+-- the task whose own coroutine calls; nil: something else does
+local function calling() return running and coroutine.running() == running.thread and running or nil end
+
+--- Waits for so long. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop runs.
+---@param seconds number  [s]
+--- > clench.loop.sleep(-1)  --> error: expected a time >= 0 in seconds, got -1
+function loop.sleep(seconds)
+  check_time("sleep", seconds)
+  local task = calling()
+  if task then
+    task.at = clock() + seconds
+    pause(task)
+    return
+  end
+  local over = false
+  local timer = loop.after(seconds, function() over = true end)
+  local _ <close> = setmetatable({}, {__close = function() timer:remove() end})
+  while not over do run(seconds, timer) end
+end
+
+--- Waits for the end of a job, or until a descriptor is ready. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop
+--- runs.
+---@param what job|integer  a descriptor of a socket, a pipe, a terminal or a device
+---@param timeout? number  waits at most so long [s]
+---@param event? "readable"|"writable"  of a descriptor; "readable" by default
+---@return boolean ready  false: the time is over
+--- > job = clench.job(function() return 3 end)
+--- > clench.loop.wait(job, 10), job:result()  --> true, 3
+--- > clench.loop.wait(clench.job(function() while true do end end), 0.01)  --> false
+--- > clench.loop.wait("job")  --> error: expected a job or a descriptor, got 'job'
+function loop.wait(what, timeout, event)
+  local is_job = described(what) == "a job"
+  if not is_job and math.type(what) ~= "integer" then
+    raise(("loop.wait: expected a job or a descriptor, got %s"):format(described(what)))
+  end
+  if timeout ~= nil then check_time("wait", timeout) end
+  event = check_event("wait", event)
+  local task = calling()
+  if not task then
+    local result
+    local inner = loop.spawn(function() result = loop.wait(what, timeout, event) end)
+    local _ <close> = setmetatable({}, {__close = function() inner:remove() end})
+    while inner.status == "waiting" do run(nil, inner) end
+    return result
+  end
+  if is_job and what:wait(0) then return true end
+  task.at = timeout and clock() + timeout
+  if is_job then
+    task.job = what
+  else
+    task.watch = add_watch(what, event, function() wake(task, true) end)
+  end
+  return pause(task) == true
+end
+
+local function add_timer(name, seconds, f, period)
+  check_time(name, seconds)
+  check_function(name, f)
+  local task
+  task = new_task(function()
+    repeat
+      loop.sleep(math.max(0, task.next - clock()))
+      f()
+      task.next = math.max(task.next + (period or 0), clock())
+    until not period
+  end, "function of loop." .. name)
+  task.next = clock() + seconds
+  add_ready(task)
+  return task
+end
+
+--- Calls a function after some time, once.
+---@param seconds number  [s]
+---@param f function
+---@return table task # `task:remove()` ends it
+--- > clench.loop.after(0.01, function() late = true end)
+--- > clench.loop.run()
+--- > late  --> true
+function loop.after(seconds, f) return add_timer("after", seconds, f) end
+
+--- Calls a function again and again.
+---@param seconds number  between two calls, and before the first [s]
+---@param f function
+---@return table task # `task:remove()` ends it
+--- > calls = 0
+--- > timer = clench.loop.every(0.01, function() calls = calls + 1 end)
+--- > clench.loop.run(0.2)
+--- > timer:remove()
+--- > calls > 1  --> true
+function loop.every(seconds, f)
+  check_time("every", seconds)
+  if seconds == 0 then raise "loop.every: expected a time > 0, got 0" end
+  return add_timer("every", seconds, f, seconds)
+end
+
+--- Calls a function whenever a descriptor is ready.
+---@param descriptor integer  of a socket, a pipe, a terminal or a device
+---@param f fun(descriptor: integer)
+---@param event? "readable"|"writable"  "readable" by default
+---@return table watch # `watch:remove()` ends it
+--- > clench.loop.on(-1, print)  --> error: expected a descriptor >= 0, got -1
+--- > clench.loop.on(99999, print)  --> error: descriptor 99999 is not open
+function loop.on(descriptor, f, event)
+  if math.type(descriptor) ~= "integer" then raise(("loop.on: expected a descriptor, got %s"):format(described(descriptor))) end
+  check_function("on", f)
+  event = check_event("on", event)
+  return add_watch(descriptor, event, f)
+end
+
+--- The descriptor of the loop: readable when a time has come, a descriptor is ready or a job has something new. A host with a loop of its own
+--- polls it and calls `run(0)`.
+---@return integer
+--- > math.type(clench.loop.descriptor())  --> integer
+function loop.descriptor() return poller:descriptor() end
+
+--- Makes `run` return.
+--- > clench.loop.spawn(function() clench.loop.stop() end)
+--- > clench.loop.run()
+function loop.stop() stop_asked = true end
+
+-- the first time at which a task is to be woken; nil: none
+local function first_time()
+  local first
+  for task in pairs(waiting) do
+    if task.at and (not first or task.at < first) then first = task.at end
+  end
+  return first
+end
+
+-- wakes, in order, what has waited long enough and what waits for jobs that are over
+local function wake_due()
+  local now, due = clock(), {}
+  for task in pairs(waiting) do
+    local over = task.job and task.job:wait(0)
+    if over or task.at and task.at <= now then due[#due + 1] = {task = task, over = over == true, at = task.at or now} end
+  end
+  table.sort(due, function(a, b)
+    if a.at ~= b.at then return a.at < b.at end
+    return a.task.number < b.task.number
+  end)
+  for _, item in ipairs(due) do wake(item.task, item.over) end
+end
+
+local function resume(task)
+  if task.status ~= "waiting" then return end
+  local before = running
+  running, task.status, loop_task.thread = task, "running", task.thread
+  local values = task.values or table.pack()
+  task.values = nil
+  local ok, problem = coroutine.resume(task.thread, table.unpack(values, 1, values.n))
+  running, loop_task.thread = before, before and before.thread
+  if not ok then
+    task.status = "failed"
+    error(explained(problem, task.name, debug.traceback(task.thread, "", 0):sub(2), line_of(task.thread)), 0)
+  end
+  if coroutine.status(task.thread) == "dead" then
+    task.status = "done"
+    return
+  end
+  task.status = "waiting"
+  -- a yield of nothing waits for the next round
+  if problem ~= task then wake(task) end
+end
+
+local function call_watches(descriptor, event)
+  local of = watches[descriptor]
+  for _, watch in ipairs(of and {table.unpack(of[event])} or {}) do watch.fn(descriptor) end
+end
+
+local function has_work() return #ready > 0 or next(waiting) ~= nil or next(watches) ~= nil or has_jobs() end
+
+-- One round: what is ready runs, then at most `patience` seconds are waited for what comes.
+local function round(patience)
+  wake_due()
+  local now_ready = ready
+  ready = {}
+  while #now_ready > 0 do
+    local task = table.remove(now_ready, 1)
+    local ok, problem = pcall(resume, task)
+    if not ok then
+      for i, other in ipairs(now_ready) do table.insert(ready, i, other) end
+      error(problem, 0)
+    end
+    if stop_asked then
+      for i, other in ipairs(now_ready) do table.insert(ready, i, other) end
+      return
+    end
+  end
+  if #ready > 0 then patience = 0 end
+  local first = first_time()
+  if first then patience = math.min(patience, math.max(0, first - clock())) end
+  local events = poller:wait(patience)
+  for i = 1, #events, 2 do call_watches(events[i], events[i + 1]) end
+  wake_due()
+  first = first_time()
+  poller:set_timer(#ready > 0 and 0 or first and math.max(0, first - clock()) or -1)
+end
+
+-- as loop.run, or until a task no longer waits
+function run(seconds, task)
+  if in_run then raise "loop.run: the loop runs already" end
+  in_run, stop_asked = true, false
+  local _ <close> = setmetatable({}, {__close = function() in_run = false end})
+  local last = seconds and clock() + seconds
+  repeat
+    local left = last and last - clock() or math.huge
+    round(left > 0 and math.min(left, 3600) or 0)
+  until stop_asked or last and clock() >= last or task and task.status ~= "waiting" or not has_work()
+end
+
+--- Runs the loop: until nothing is left to wait for, or for so long, or until `stop`. An error of a coroutine ends it, and the others run on at
+--- the next call. Jobs of the script count as something to wait for.
+---@param seconds? number  0: what is ready, without waiting [s]
+--- > clench.loop.run(0)
+--- > clench.loop.run "1"  --> error: expected a time >= 0 in seconds, got '1'
+function loop.run(seconds)
+  if seconds ~= nil then check_time("run", seconds) end
+  run(seconds)
+end
+
+return loop

@@ -1,0 +1,162 @@
+-- Functions that run beside the script: their states, results, events and ends.
+local test, clench = require "test", require "clench"
+
+local function scene()
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  return world, world.robots[1], world.objects[1]
+end
+
+test("a job returns what its function returns, and all its events in order", function(t)
+  local job = clench.job(function(n, word)
+    local clench = require "clench"
+    for i = 1, n do
+      clench.this_job:event(i)
+      clench.this_job:show {square = i * i}
+    end
+    return word, nil, n
+  end, {args = {500, "done"}, name = "count"})
+  t.equal(tostring(job):match "^job 'count', ", "job 'count', ")
+  local events = {}
+  while not job:wait(0.001) do for _, event in ipairs(job:events()) do events[#events + 1] = event end end
+  for _, event in ipairs(job:events()) do events[#events + 1] = event end
+  t.equal(#events, 500)
+  for i = 1, 500 do t.equal(events[i], i) end
+  t.equal(table.pack(job:result()), {n = 3, "done", nil, 500})
+  t.equal(table.pack(job:result()), {n = 3, "done", nil, 500})  -- again
+  t.equal(job.snapshot, {square = 250000})
+  t.equal(job.state, "done")
+  job:stop()
+  t.equal(job.state, "done")  -- what is over stays as it is
+end)
+
+test("a job works on copies, and gives the same bits as the script", function(t)
+  local world, hand, mug = scene()
+  local before = world:hash()
+  local job = clench.job(function(h, m)
+    h:autograsp()
+    return h.dofs, #h.world:contacts(h, m), h.world == m.world
+  end, {args = {hand, mug}})
+  local together = clench.job(function(scene)
+    scene.hand:autograsp()
+    return scene.hand.world == scene.mug.world, scene.hand.dofs
+  end, {args = {{hand = hand, mug = mug}}})
+  t.ok(job:wait(30) and together:wait(30))
+  local dofs = job:result()
+  t.equal(world:hash(), before)
+  local same, dofs_of_other = together:result()
+  t.ok(same)  -- what one argument holds stays together
+  hand:autograsp()
+  t.equal(dofs_of_other, hand.dofs)
+  t.equal(#dofs, #hand.dofs)
+end)
+
+test("errors of a job reach whoever asks for its result", function(t)
+  local job = clench.job(function() error "no luck" end, {name = "lottery"})
+  job:wait(10)
+  t.equal(job.state, "failed")
+  t.fails(function() job:result() end, "job 'lottery'", "no luck")
+  job = clench.job(function() require("clench").load "no/such.wld" end)
+  job:wait(10)
+  local ok, problem = pcall(job.result, job)
+  t.ok(not ok)
+  t.equal(problem.kind, "file")
+  job = clench.job(function() return print end)
+  job:wait(10)
+  t.fails(function() job:result() end, "result 1: a function cannot be handed over")
+  local outside = 1
+  t.fails(function() clench.job(function() return outside end) end, "clench.job: function: it uses 'outside' of the lines around it")
+  t.fails(function() clench.job(3) end, "task: expected a function or a module's name, got 3")
+  t.fails(function() clench.job(function() end, {arg = {1}}) end, "unknown key 'arg'", "did you mean 'args'?")
+  t.fails(function() clench.job(function() end, {args = {print}}) end, "args[1]: a function cannot be handed over")
+  t.fails(function() clench.job(function() end, {args = 3}) end, "args: expected a list, got 3")
+  job = clench.job "no.such.module"
+  job:wait(10)
+  t.equal(job.state, "failed")
+  t.fails(function() job:result() end, "no.such.module")
+  t.equal(clench.this_job, nil)
+end)
+
+test("whatever a job does, it is stopped at once", function(t)
+  local _, hand, mug = scene()
+  local busy = {
+    function() while true do end end,
+    function() while true do pcall(function() while true do end end) end end,
+    function() coroutine.wrap(function() while true do end end)() end,
+    function(h, m) require("clench").plan.sample {hand = h, object = m, count = 1000000} end,
+    function(h) h.world:run(1e6) end,
+    function() require("clench").loop.sleep(1e6) end,
+  }
+  for i, f in ipairs(busy) do
+    local job = clench.job(f, {args = {{hand = hand, mug = mug}}})
+    if i == 4 then job = clench.job(function(s) return require("clench").plan.sample {hand = s.hand, object = s.mug, count = 1000000} end, {args = {{hand = hand, mug = mug}}}) end
+    if i == 5 then job = clench.job(function(h) h.world:run(1e5) end, {args = {hand}}) end
+    while job.state == "queued" do clench.loop.sleep(0.005) end
+    clench.loop.sleep(0.05)
+    t.equal(job.state, "running", i)
+    local began = clench.clock()
+    job:stop()
+    t.ok(job:wait(20), i)
+    t.equal(job.state, "stopped", i)
+    t.fails(function() job:result() end, "was stopped")
+  end
+end)
+
+test("a paused job waits", function(t)
+  local job = clench.job(function()
+    local clench = require "clench"
+    while true do clench.this_job:event(1) end
+  end)
+  while #job:events() == 0 do end
+  job:pause()
+  t.equal(job.state, "paused")
+  clench.loop.sleep(0.05)
+  job:events()
+  clench.loop.sleep(0.05)
+  t.equal(#job:events(), 0)
+  job:resume()
+  clench.loop.sleep(0.05)
+  t.ok(#job:events() > 0)
+  job:pause()
+  job:stop()
+  t.ok(job:wait(10))
+  t.equal(job.state, "stopped")
+end)
+
+test("progress of a job is a value", function(t)
+  local job = clench.job(function()
+    local clench = require "clench"
+    local p <close> = clench.progress(4, "halves")
+    p:step(2)
+    clench.this_job:event "there"
+    while true do end
+  end)
+  while #job:events() == 0 do end
+  t.equal(job.progress, {fraction = 0.5, text = "halves"})
+  job:stop()
+end)
+
+test("more jobs than cores are queued, jobs of jobs do not block them, and dropped ones run on", function(t)
+  local jobs, sum = {}, 0
+  for i = 1, 12 do
+    jobs[i] = clench.job(function(n)
+      local clench = require "clench"
+      local inner = clench.job(function(x) return x * x end, {args = {n}})
+      inner:wait()
+      return (inner:result())
+    end, {args = {i}})
+  end
+  for i = 1, 12 do
+    t.ok(jobs[i]:wait(60))
+    sum = sum + jobs[i]:result()
+  end
+  t.equal(sum, 650)
+  local path = test.path()
+  clench.job(function(name)
+    local file <close> = io.open(name, "w")
+    file:write "written"
+  end, {args = {path}})
+  collectgarbage()
+  clench.loop.run(20)  -- until no job is left
+  local file <close> = io.open(path)
+  t.equal(file:read "a", "written")
+end)

@@ -1,0 +1,88 @@
+-- The event loop: coroutines that wait, in order, and what ends them.
+local test, clench = require "test", require "clench"
+local loop = clench.loop
+
+test("coroutines wait for times, in order", function(t)
+  local order = {}
+  loop.spawn(function() order[#order + 1] = "a" loop.sleep(0.06) order[#order + 1] = "d" end)
+  loop.spawn(function() order[#order + 1] = "b" loop.sleep(0.03) order[#order + 1] = "c" end)
+  t.equal(order, {})
+  loop.run()
+  t.equal(table.concat(order), "abcd")
+  -- equal times: in the order of their start
+  order = {}
+  for i = 1, 20 do loop.spawn(function() loop.sleep(0) order[#order + 1] = i coroutine.yield() order[#order + 1] = i end) end
+  loop.run()
+  for i = 1, 40 do t.equal(order[i], (i - 1) % 20 + 1) end
+end)
+
+test("run ends in time, when it is stopped, and when nothing is left", function(t)
+  local began = loop.time()
+  loop.run(10)
+  t.ok(loop.time() - began < 5)
+  local count = 0
+  local timer = loop.every(0.005, function() count = count + 1 end)
+  loop.run(0.1)
+  t.ok(count >= 2, count)
+  t.equal(timer.status, "waiting")
+  loop.after(0.02, loop.stop)
+  loop.run()
+  local before = count
+  timer:remove()
+  t.equal(timer.status, "removed")
+  loop.run(0.05)
+  t.equal(count, before)
+  loop.run(0)
+end)
+
+test("outside of its coroutines sleep and wait run the loop", function(t)
+  local heard = false
+  loop.spawn(function() loop.sleep(0.01) heard = true end)
+  local began = loop.time()
+  loop.sleep(0.05)
+  t.ok(heard and loop.time() - began >= 0.05)
+  local job = clench.job(function() while true do end end)
+  t.equal(loop.wait(job, 0.02), false)
+  job:stop()
+  t.equal(loop.wait(job, 20), true)
+end)
+
+test("a coroutine waits for jobs", function(t)
+  local said = {}
+  for i = 1, 3 do
+    local job = clench.job(function(n) return n end, {args = {i}})
+    loop.spawn(function()
+      t.ok(loop.wait(job))
+      said[i] = job:result()
+    end)
+  end
+  loop.run(60)
+  t.equal(said, {1, 2, 3})
+end)
+
+test("an error of a coroutine names it and its line, and the others run on", function(t)
+  local after = false
+  local broken = loop.spawn(function() loop.sleep(0) error "broken" end)
+  loop.spawn(function() loop.sleep(0.01) after = true end)
+  t.fails(function() loop.run() end, "loop_test.lua:", "broken", "in a function of loop.spawn")
+  t.equal(broken.status, "failed")
+  loop.run()
+  t.ok(after)
+  loop.spawn(function() loop.run() end)
+  t.fails(function() loop.run() end, "loop.run: the loop runs already")
+  loop.spawn(function() error {} end)
+  t.fails(function() loop.run() end, "expected an error with a message, got the table {}")
+end)
+
+test("what the loop is given is checked", function(t)
+  t.fails(function() loop.spawn(3) end, "loop.spawn: expected a function, got 3")
+  t.fails(function() loop.sleep(0 / 0) end, "loop.sleep: expected a time >= 0 in seconds, got nan")
+  t.fails(function() loop.wait(1.5) end, "loop.wait: expected a job or a descriptor, got 1.5")
+  t.fails(function() loop.wait(0, 1, "both") end, "expected 'readable' or 'writable', got 'both'")
+  t.fails(function() loop.wait(99999, 1) end, "descriptor 99999 is not open")
+  t.fails(function() loop.every(0, print) end, "expected a time > 0, got 0")
+  t.fails(function() loop.after(1) end, "loop.after: expected a function, got nothing")
+  t.fails(function() loop.on(1, print, 2) end, "expected 'readable' or 'writable', got 2")
+  t.fails(function() loop.on(loop.descriptor(), print) end, "is the loop's own")
+  t.fails(function() loop.run(-1) end, "loop.run: expected a time >= 0 in seconds, got -1")
+end)
