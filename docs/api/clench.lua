@@ -159,6 +159,7 @@ local snapshot = {}
 ---@field mass number # Its mass. [kg]
 ---@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
+---@field fingerprint string # Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses. 16 hexadecimal digits
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
@@ -185,6 +186,11 @@ local entity = {}
 ---@field tracker integer? # Number of the position sensor that is to move it; nil when its file names none.
 local body = {}
 
+---The same body in a clone of its world, or in the world of which its own is a clone.
+---@param world world
+---@return body
+function body:in_world(world) end
+
 ---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
 ---@param pose pose
 ---@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
@@ -199,6 +205,7 @@ function body:move_to(pose) end
 ---@field centroid vec3 # Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight. [m]
 ---@field area number # Area of all its triangles. [m^2]
 ---@field faults string # Counts of its faults.
+---@field fingerprint string # Equal for surfaces of the same triangles, whatever their order and the numbering of vertices. 16 hexadecimal digits
 ---@field vertices vec3[] # A list of all vertices in the body frame. [m]
 ---@field triangles integer[][] # A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
 local mesh = {}
@@ -334,6 +341,7 @@ function dofs:open(options) end
 
 ---A hand or an arm: a base, chains of links, and the degrees of freedom that move them.
 ---@class robot: dofs
+---@field fingerprint string # Identity by content: equal for robots of the same links, joints, limits and motors, whatever their files, names, poses and postures. 16 hexadecimal digits
 ---@field name string # Unique in its world.
 ---@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 ---@field links body[] # Its links, chain by chain, without the base.
@@ -346,6 +354,11 @@ function dofs:open(options) end
 ---@field source string # File that it was read from.
 ---@field files table # Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
 local robot = {}
+
+---The same robot in a clone of its world, or in the world of which its own is a clone.
+---@param world world
+---@return robot
+function robot:in_world(world) end
 
 ---A link, or the base, by its name, whole or without the robot's.
 ---@param name string
@@ -693,6 +706,48 @@ local energy = {}
 ---@return energy
 function energy:within(low, high) end
 
+---A function that runs beside the script, as `clench.job` starts it.
+---@class job
+---@field state "queued"|"running"|"paused"|"done"|"failed"|"stopped" # What it does at present.
+---@field name string # Its name in messages.
+---@field progress {fraction?: number, text: string} # How far its longest call is, or the loop that it shows by `clench.progress`. fraction: of the work, in [0, 1]; nil: not known
+---@field snapshot any # The latest value that it has shown by `clench.this_job:show`; nil before the first.
+local job = {}
+
+---Waits for its end. Coroutines of `clench.loop` do not run meanwhile: in them, `clench.loop.wait(job)` waits.
+---@param seconds? number # at most so long; 0: not at all [s]
+---@return boolean over # is it done, failed or stopped?
+function job:wait(seconds) end
+
+---What its function returned. Raises the function's error, and an error if the job was stopped or is not over yet.
+---@return any ...
+function job:result() end
+
+---Stops it within some 100 ms, whatever it does. What is over stays as it is.
+function job:stop() end
+
+---Holds it at its next instruction in Lua; a call of the engine ends first.
+function job:pause() end
+
+---Lets it run on after `pause`.
+function job:resume() end
+
+---All values that it has sent by `clench.this_job:event` since the last call, in order.
+---@return any[] events
+function job:events() end
+
+---What a job's function, in its own state, reports by.
+---@class this_job
+local this_job = {}
+
+---Sends a value to the script that has started the job. Events arrive in order, and none is lost.
+---@param value any # of the kinds that clench.parallel.map hands over
+function this_job:event(value) end
+
+---Shows a value in place of the one shown before: what `job.snapshot` is.
+---@param value any # of the kinds that clench.parallel.map hands over
+function this_job:show(value) end
+
 ---A chain of simulated annealing, made by `clench.annealing`.
 ---@class annealing
 ---@field best {energy: number, step: integer, pose: pose, dofs: number[], values: table}[] # The best states met, no two alike: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables by name.
@@ -957,7 +1012,13 @@ function robot_dynamics:has_closed() end
 ---Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
 ---@field version string # Version of the engine, major.minor.patch.
+---@field this_job this_job? # The job whose function this is; nil outside of jobs.
 local clench = {}
+
+---The type of a value: that of Lua, or the name of its class.
+---@param value any
+---@return string
+function clench.type(value) end
 
 ---Degrees to radians.
 ---@param degrees number
@@ -986,7 +1047,7 @@ function clench.clock() end
 function clench.vec3(x, y, z) end
 
 ---A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
----@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3} # xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where two of the frame's axes point, z_axis, else x_axis, exactly, the other as nearly as a right angle allows
+---@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3} # xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where one or two of the frame's axes point; of two, z_axis, else x_axis, exactly, the other as nearly as a right angle allows; one: by the smallest rotation (by half a turn about the next axis if it points backward)
 ---@return pose
 function clench.pose(options) end
 
@@ -1100,6 +1161,12 @@ function clench.annealing(options) end
 ---@param threads? integer # 1 by default
 ---@return integer[] taken # fewer than asked where no legal neighbour was found
 function clench.run_annealings(searches, steps, threads) end
+
+---Runs a function beside the script: in a thread, in a state of Lua of its own, on copies of what it is given. As many jobs run at once as there are cores, at least two; others are queued. A job whose handle is not kept runs on; the end of the program stops it.
+---@param task function|string # which uses nothing of the lines around it; or the name of a module that returns such a function
+---@param options? {args?: any[], name?: string} # args: the function's arguments, of the kinds that clench.parallel.map hands over; name: for messages
+---@return job
+function clench.job(task, options) end
 
 ---Values as JSON text, and back.
 ---@class clench.json

@@ -154,8 +154,9 @@ TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line
   terminal.type("\x03");
   terminal.wait_for("interrupted");
   terminal.wait_for("> ");
-  terminal.enter("1 + 1");
-  terminal.wait_for("2");
+  terminal.enter("40 + 37");
+  terminal.wait_for("77");
+  terminal.wait_for("> ");
   terminal.type("\x04");
   CHECK(terminal.wait_for_end() == 0);
 }

@@ -66,3 +66,30 @@ test("a mesh of the script's own takes a unit, too, and a wrong key is its own",
   local odd = {vertices = mesh.vertices, triangles = mesh.triangles, normals = {}}
   t.fails(function() clench.world():add_object(odd) end, "add_object: mesh: unknown key 'normals'")
 end)
+
+test("meshes for display that are missing are told in one sentence, and once", function(t)
+  local link = [[<link name="l%d"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision><visual><geometry><mesh filename="no/%d.stl"/></geometry></visual></link>]]
+  local joint = [[<joint name="j%d" type="revolute"><parent link="l%d"/><child link="l%d"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/></joint>]]
+  local parts = {}
+  for i = 1, 5 do parts[#parts + 1] = link:format(i, i) end
+  for i = 1, 4 do parts[#parts + 1] = joint:format(i, i, i + 1) end
+  local path = test.path(".urdf", '<robot name="r">' .. table.concat(parts) .. "</robot>")
+  local missing = {}
+  for _, said in ipairs(t.warnings(function() clench.world():add_robot(path) end)) do
+    if said:find "drawn" then missing[#missing + 1] = said end
+  end
+  t.equal(#missing, 1)
+  t.ok(missing[1]:find "mesh: no such file: no/1.stl; it and 4 other meshes are not drawn", missing[1])
+  -- without a sink, what a file said is not printed again when it is loaded again
+  local code = ("local w = require 'clench'.world() w:add_robot('%s') w:add_robot('%s', {name = 'again'})"):format(path, path)
+  local script, log = test.path(".lua", code), test.path ".log"
+  os.execute(("readlink /proc/$PPID/exe > '%s'"):format(log))
+  local file <close> = io.open(log)
+  local program = file:read "l"
+  os.execute(("'%s' run '%s' 2> '%s'"):format(program, script, log))
+  local printed <close> = io.open(log)
+  local _, count = printed:read "a":gsub("are not drawn", "")
+  t.equal(count, 1)
+end)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "clench/base/convert.h"
 #include "clench/base/suggest.h"
@@ -16,7 +17,7 @@ void MjcfMeshes::add(const XmlElement& element) {
   const XmlValues values = document_.values(element);
   std::string name = values.text("name", "");
   if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
-  if (!assets_.emplace(name, Asset{values, {}}).second)
+  if (!assets_.emplace(name, Asset{values}).second)
     document_.repairs().add("mesh", fmt::format("{}: mesh: there is another one of the name '{}'; "
                                                 "the first one counts",
                                                 element.place(), excerpt(name)));
@@ -138,7 +139,7 @@ const MjcfMesh* MjcfMeshes::find(const XmlValues& geom, bool collides) {
     const std::string what = error.what(), place = asset.values.element().place();
     const std::string sentence = what.starts_with(place) ? what : place + ": mesh: " + what;
     if (collides) throw Error(sentence);
-    cache_.warn(sentence + "; it is not drawn");
+    if (!std::exchange(asset.is_missing, true)) cache_.warn(sentence + "; it is not drawn");
     return nullptr;
   }
 }

@@ -41,7 +41,8 @@ class MjcfMeshes {
  private:
   struct Asset {
     XmlValues values;
-    std::optional<MjcfMesh> mesh;  // read when first used
+    std::optional<MjcfMesh> mesh = {};  // read when first used
+    bool is_missing = false;            // was it told?
   };
   const MjcfMesh& read(Asset& asset);
   std::shared_ptr<const Geometry> shape(const Asset& asset);

@@ -43,6 +43,7 @@ class UrdfReader {
   void note(const XmlElement& at, const std::string& what) const {
     cache_.note(at.place() + ": " + what);
   }
+  void warn_of_undrawn() const;
   void refuse_xacro(const XmlElement& element) const;
   void read_materials();
   void read_link(const XmlElement& element);
@@ -80,6 +81,8 @@ class UrdfReader {
   size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
+  int undrawn_ = 0;  // meshes for display that are missing
+  std::string first_undrawn_;
 };
 
 void UrdfReader::refuse_xacro(const XmlElement& element) const {
@@ -183,7 +186,7 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   } catch (const Error& error) {
     // what is only looked at may be missing
     if (!visual) shape.fail("mesh: {}", error.what());
-    warn(shape, fmt::format("mesh: {}; it is not drawn", error.what()));
+    if (undrawn_++ == 0) first_undrawn_ = fmt::format("{}: mesh: {}", shape.place(), error.what());
     return {};
   }
   return piece;
@@ -515,8 +518,17 @@ RobotSpec UrdfReader::read() {
   robot.source = path_.generic_string();
   repairs_.tell();
   inertial_faults_.tell(cache_);
+  warn_of_undrawn();
   for (const auto& sentence : unused_.sentences()) cache_.warn(sentence);
   return robot;
+}
+
+// Hands whose package is missing lack a mesh per link: one sentence tells of all.
+void UrdfReader::warn_of_undrawn() const {
+  if (undrawn_ == 1) cache_.warn(first_undrawn_ + "; it is not drawn");
+  if (undrawn_ > 1)
+    cache_.warn(fmt::format("{}; it and {} other meshes are not drawn", first_undrawn_,
+                            undrawn_ - 1));
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 #include "clench/script/host/job.h"
 
-#include <sys/eventfd.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdint>
-#include <cstring>
+#include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "clench/base/error.h"
 #include "clench/base/watched.h"
@@ -16,30 +13,7 @@
 
 namespace clench {
 
-// --- the bell ---
-
-Bell::Bell() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-  if (descriptor_ < 0)
-    fail(ErrorKind::limit, "clench.job: no descriptor left: {}", std::strerror(errno));
-}
-
-Bell::~Bell() { ::close(descriptor_); }
-
-void Bell::ring() {
-  const uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(descriptor_, &one, sizeof one);
-}
-
-void Bell::clear() {
-  uint64_t count = 0;
-  [[maybe_unused]] const auto read = ::read(descriptor_, &count, sizeof count);
-}
-
 namespace {
-
-struct KeptBell {
-  std::shared_ptr<Bell> bell = std::make_shared<Bell>();
-};
 
 struct RunningJob {
   Job* job = nullptr;
@@ -92,8 +66,6 @@ class SlotLent {
 };
 
 }  // namespace
-
-const std::shared_ptr<Bell>& bell_of(lua_State* L) { return kept<KeptBell>(L).bell; }
 
 Job* running_job(lua_State* L) { return kept<RunningJob>(L).job; }
 

@@ -12,30 +12,12 @@
 
 #include "clench/base/progress.h"
 #include "clench/script/bind/parcel.h"
+#include "clench/script/host/bell.h"
 #include "clench/script/host/worker.h"
 
 namespace clench {
 
 class State;
-
-/// Tells that jobs of a state have something new: a descriptor that can be polled.
-class Bell {
- public:
-  /// throws  Error when the system has no descriptor left
-  Bell();
-  ~Bell();
-  Bell(const Bell&) = delete;
-  Bell& operator=(const Bell&) = delete;
-
-  /// Readable after `ring`, until `clear`.
-  int descriptor() const { return descriptor_; }
-  /// May be called from any thread.
-  void ring();
-  void clear();
-
- private:
-  int descriptor_;
-};
 
 class Job {
  public:
@@ -103,9 +85,6 @@ class Job {
 };
 
 using JobPtr = std::shared_ptr<Job>;
-
-/// The bell of a state's jobs.
-const std::shared_ptr<Bell>& bell_of(lua_State* L);
 
 /// The job whose function runs in the state; null: none.
 Job* running_job(lua_State* L);

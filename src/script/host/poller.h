@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "clench/script/host/job.h"
+#include "clench/script/host/bell.h"
 
 namespace clench {
 

@@ -18,7 +18,7 @@ namespace clench {
 static const char* const level_names[] = {"debug", "info", "warning", "error", "quiet"};
 
 // addresses name the places of the state's level and sink, and of what was told
-static const char level_key = 0, sink_key = 0, inferred_key = 0;
+static const char level_key = 0, sink_key = 0, of_file_key = 0;
 
 LogLevel log_level(lua_State* L) {
   const bool set = lua_rawgetp(L, LUA_REGISTRYINDEX, &level_key) == LUA_TNUMBER;
@@ -32,6 +32,14 @@ void set_log_level(lua_State* L, LogLevel level) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &level_key);
 }
 
+// The texts among the running function's arguments, which tell files of the same name apart.
+static std::string argument_text(lua_State* L) {
+  std::string out;
+  for (int i = 1; i <= std::min(2, lua_gettop(L)); ++i)
+    if (lua_type(L, i) == LUA_TSTRING) out += "\n" + std::string(string_at(L, i));
+  return out;
+}
+
 void log(lua_State* L, LogLevel level, const std::string& message, const char* about) {
   if (!lua_checkstack(L, 6) || level < log_level(L)) return;
   const char* name = level_names[static_cast<int>(level)];
@@ -43,9 +51,8 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
     return;
   }
   lua_pop(L, 1);
-  // what is inferred of a file, once, however often it is read
-  if (about && about == std::string_view("inferred") && !first_time(L, &inferred_key, message))
-    return;
+  // of a file, once, however often it is read
+  if (about && !first_time(L, &of_file_key, message + argument_text(L))) return;
   // a message about a file is one line, whatever names it quotes
   const std::string line =
       fmt::format("clench: {}: {}\n", name, printable(message, about ? "" : "\n\t"));

@@ -21,7 +21,19 @@ static int clock_now(lua_State* L) {
   return push(L, std::chrono::duration<double>(now).count());
 }
 
+static int type_of(lua_State* L) {
+  const bool has_class = lua_isuserdata(L, 1) || lua_istable(L, 1);
+  if (has_class && luaL_getmetafield(L, 1, "__name") == LUA_TSTRING) return 1;
+  lua_pushstring(L, lua_isnoneornil(L, 1) ? "nil" : luaL_typename(L, 1));
+  return 1;
+}
+
 static const Entry units_functions[] = {
+    {"type", guarded<type_of>, R"(
+The type of a value: that of Lua, or the name of its class.
+@param value any
+@return string
+> clench.type(hand), clench.type(clench.vec3(1, 2, 3)), clench.type {}  --> robot, vec3, table)"},
     {"rad", guarded<rad>, R"(
 Degrees to radians.
 @param degrees number

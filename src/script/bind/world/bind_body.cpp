@@ -1,3 +1,5 @@
+#include "clench/base/text.h"
+#include "clench/model/fingerprint.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 
@@ -78,7 +80,24 @@ Number of the position sensor that is to move it; nil when its file names none.
 > flask.tracker  --> nil)"},
 };
 
+// the body of that id in a clone of its world
+static int body_in_world(lua_State* L) {
+  const BodyHandle& body = self<BodyHandle>(L);
+  const WorldPtr world = check_object<WorldHandle>(L, 2, "world").world;
+  if (!world->alive(body.id) || world->body(body.id).name != body->name)
+    fail("{}: expected a clone of its world, got one without '{}' in its place", subject(L),
+         excerpt(body->name));
+  return push_object(L, BodyHandle{world, body.id});
+}
+
 static const Entry body_methods[] = {
+    {"in_world", guarded<body_in_world>, R"(
+The same body in a clone of its world, or in the world of which its own is a clone.
+@param world world
+@return body
+> copy = world:clone()
+> flask:in_world(copy).world == copy, flask:in_world(copy).name  --> true, flask
+> flask:in_world(clench.world())  --> error: expected a clone of its world)"},
     {"move_to", guarded<body_move_to>, R"(
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
 remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.

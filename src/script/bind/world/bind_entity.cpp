@@ -1,5 +1,6 @@
 #include <array>
 
+#include "clench/model/fingerprint.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
@@ -125,6 +126,15 @@ sum of the others: no body has such an inertia.
      setter<[](const Entity& x, const Eigen::Matrix3d& inertia) {
        x.world->set_inertia(x.id, inertia);
      }>},
+    {"fingerprint",
+     getter<[](const Entity& x) { return fmt::format("{:016x}", fingerprint(*x.world, x.id)); }>,
+     R"(
+Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses.
+@type string  16 hexadecimal digits
+> same = clench.world():add_object(flask.source)
+> same.fingerprint == flask.fingerprint  --> true
+> same.mass = 2 * same.mass
+> same.fingerprint == flask.fingerprint  --> false)"},
     {"mesh", getter<[](const Entity& x) { return x->shape; }>, R"(
 Its surface; nil when it has none.
 @type mesh?

@@ -1,3 +1,4 @@
+#include "clench/model/fingerprint.h"
 #include "clench/script/bind/bind.h"
 
 #include <fmt/format.h>
@@ -119,6 +120,11 @@ Area of all its triangles.
 Counts of its faults.
 @type string
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.faults  --> no faults)"},
+    {"fingerprint",
+     getter<[](const ShapePtr& x) { return fmt::format("{:016x}", fingerprint(*x)); }>, R"(
+Equal for surfaces of the same triangles, whatever their order and the numbering of vertices.
+@type string  16 hexadecimal digits
+> world:add_object(clench.shapes.box {1, 2, 4}).mesh.fingerprint == world:add_object(clench.shapes.box {1, 2, 4}).mesh.fingerprint  --> true)"},
     {"vertices", getter<vertices_of>, R"(
 A list of all vertices in the body frame.
 @type vec3[]  [m]

@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/model/fingerprint.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/named_list.h"
 #include "clench/script/bind/read_spec.h"
@@ -162,6 +164,15 @@ static std::string robot_text(const RobotHandle& robot) {
 }
 
 static const Entry robot_fields[] = {
+    {"fingerprint",
+     getter<[](const RobotHandle& x) {
+       return fmt::format("{:016x}", fingerprint(*x.world, x.id));
+     }>,
+     R"(
+Identity by content: equal for robots of the same links, joints, limits and motors, whatever their files, names, poses and postures.
+@type string  16 hexadecimal digits
+> copy = world:clone()
+> hand.fingerprint == hand:in_world(copy).fingerprint  --> true)"},
     {"name", getter<[](const RobotHandle& x) { return x->name; }>, R"(
 Unique in its world.
 @type string
@@ -219,7 +230,23 @@ Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration
 > type(hand.files)  --> table)"},
 };
 
+// the robot of that id in a clone of its world
+static int robot_in_world(lua_State* L) {
+  const RobotHandle& robot = self<RobotHandle>(L);
+  const WorldPtr world = check_object<WorldHandle>(L, 2, "world").world;
+  if (!world->alive(robot.id) || world->robot(robot.id).name != robot->name)
+    fail("{}: expected a clone of its world, got one without '{}' in its place", subject(L),
+         excerpt(robot->name));
+  return push_object(L, RobotHandle{world, robot.id});
+}
+
 static const Entry robot_methods[] = {
+    {"in_world", guarded<robot_in_world>, R"(
+The same robot in a clone of its world, or in the world of which its own is a clone.
+@param world world
+@return robot
+> copy = world:clone()
+> hand:in_world(copy).world == copy, hand:in_world(copy) == hand  --> true, false)"},
     {"link", guarded<link>, R"(
 A link, or the base, by its name, whole or without the robot's.
 @param name string
