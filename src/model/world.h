@@ -184,6 +184,8 @@ class World {
   const WorldSettings& settings() const { return *settings_; }
   /// Fingerprint of poses, DOFs, masses, materials, switches: equal for equal bits.
   uint64_t hash() const;
+  /// Is one a clone of the other, or are both of a third one?
+  bool is_related(const World& other) const { return lineage_ == other.lineage_; }
   size_t bytes() const;  ///< that it takes, about
 
   /// That of the thread that owns the world; no copy takes it over.

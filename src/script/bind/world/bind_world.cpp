@@ -139,6 +139,17 @@ static int robot(lua_State* L) {
 
 static int clone(lua_State* L) { return push_world(L, std::make_shared<World>(world_of(L))); }
 
+// bodies and robots that were removed since are back under their old handles
+static int become(lua_State* L) {
+  const WorldPtr& world = self<WorldHandle>(L).world;
+  const WorldPtr other = check_object<WorldHandle>(L, 2, "clone").world;
+  if (!world->is_related(*other))
+    fail("{}: expected a clone of the world, or of one of its clones, got another world",
+         subject(L));
+  *world = World(*other);
+  return 0;
+}
+
 static int restore(lua_State* L) {
   const auto& handle = self<WorldHandle>(L);
   handle.world->restore(*check_object<SnapshotHandle>(L, 2, "snapshot").moment);
@@ -248,6 +259,14 @@ An independent copy that shares the meshes. Its bodies and robots are found by n
 > copy = world:clone()
 > copy == world  --> false
 > copy:hash() == world:hash()  --> true)"},
+    {"become", guarded<become>, R"(
+Makes the world what a clone of it is: state, bodies, robots and settings. Bodies and robots that were removed after the clone was made are back under their old handles.
+@param clone world
+> before = world:clone()
+> world:remove(flask)
+> world:become(before)
+> flask.world == world, world:hash() == before:hash()  --> true, true
+> world:become(clench.world())  --> error: expected a clone of the world, or of one of its clones, got another world)"},
     {"snapshot", method<[](const WorldHandle& x) { return SnapshotHandle{x.world->snapshot()}; }>,
      R"(
 The state of the world now, exact to the bit.

@@ -1,0 +1,124 @@
+--- Arguments of commands: checked by the command's parameters, with defaults filled in.
+local described = require "clench.described"
+local raise = require "clench.raise"
+local suggest = require "clench.suggest"
+local arguments = {}
+
+local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
+local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true}
+
+--- Throws one sentence if a command is not as it should be.
+function arguments.check_command(command)
+  if type(command) ~= "table" then raise("session:command: expected a table, got " .. described(command)) end
+  local name = command.name
+  if type(name) ~= "string" or not name:match "^[%w_]+%.[%w_]+$" then
+    raise("session:command: name: expected 'group.verb', got " .. described(name))
+  end
+  if type(command.run) ~= "function" then raise(("session:command: %s: run: expected a function, got %s"):format(name, described(command.run))) end
+  for i, parameter in ipairs(command.parameters or {}) do
+    if type(parameter) ~= "table" or type(parameter.name) ~= "string" then
+      raise(("session:command: %s: parameters[%d]: expected a table with a name, got %s"):format(name, i, described(parameter)))
+    end
+    for field in pairs(parameter) do
+      if not known_fields[field] then raise(("session:command: %s: parameter %s: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
+    end
+    if not types[parameter.type] then
+      raise(("session:command: %s: parameter %s: type: expected one of number, integer, string, boolean, table, pose, vec3, body, robot, any, got %s"):format(
+        name, parameter.name, described(parameter.type)))
+    end
+  end
+end
+
+local function is_of(kind, value)
+  if kind == "any" then return true end
+  if kind == "number" then return type(value) == "number" and value == value and value - value == 0 end
+  if kind == "integer" then return math.type(value) == "integer" end
+  if kind == "pose" or kind == "vec3" then return type(value) == "table" or described(value) == "a " .. kind end
+  if kind == "body" or kind == "robot" then return type(value) == "string" or described(value) == "a " .. kind or described(value) == "a body" end
+  return type(value) == kind
+end
+
+local function check_range(subject, parameter, value)
+  local low, high = parameter.min, parameter.max
+  if (low == nil or value >= low) and (high == nil or value <= high) then return end
+  local range = low and high and ("from %g to %g"):format(low, high) or low and (">= %g"):format(low) or ("<= %g"):format(high)
+  raise(("%s: %s: expected a number %s%s, got %.10g"):format(subject, parameter.name, range, parameter.unit and " " .. parameter.unit or "", value))
+end
+
+--- Reads the arguments of a command.
+---@param command table
+---@param given? table
+---@return table
+function arguments.read(command, given)
+  local subject = "session:run: " .. command.name
+  if given ~= nil and type(given) ~= "table" then raise(("%s: expected a table of arguments, got %s"):format(subject, described(given))) end
+  local out, names, known = {}, {}, {}
+  for _, parameter in ipairs(command.parameters or {}) do
+    local name, value = parameter.name, given and given[parameter.name]
+    names[#names + 1], known[name] = name, true
+    if value == nil then value = parameter.default end
+    if value == nil and not parameter.optional then
+      raise(("%s: %s: expected a %s, got nothing"):format(subject, name, parameter.type))
+    end
+    if value ~= nil then
+      if not is_of(parameter.type, value) then raise(("%s: %s: expected a %s, got %s"):format(subject, name, parameter.type, described(value))) end
+      if type(value) == "number" then check_range(subject, parameter, value) end
+    end
+    out[name] = value
+  end
+  for name in pairs(given or {}) do
+    if not known[name] then
+      raise(("%s: unknown argument '%s'%s%s"):format(subject, tostring(name), #names > 0 and ", expected " .. table.concat(names, ", ") or "", suggest(tostring(name), names)))
+    end
+  end
+  return out
+end
+
+-- "dlr/chain0_link2" as its parts
+local function parts_of(address)
+  local parts = {}
+  for part in (address:gsub("\\/", "\0") .. "/"):gmatch "(.-)/" do parts[#parts + 1] = (part:gsub("%z", "/")) end
+  return parts
+end
+
+local function names_in(list)
+  local names = {}
+  for i, item in ipairs(list) do names[i] = item.name end
+  return names
+end
+
+--- The body, robot or link of an address; a value that is no text as it is.
+function arguments.find(session, address)
+  if type(address) ~= "string" then return address end
+  local world = session.world or raise "session: no world is open"
+  local parts = parts_of(address)
+  for _, robot in ipairs(world.robots) do
+    if robot.name == parts[1] then
+      if #parts == 1 then return robot end
+      return robot:link(parts[2])
+    end
+  end
+  for _, body in ipairs(world.bodies) do
+    if body.name == address or #parts == 1 and body.name == parts[1] then return body end
+  end
+  local names = names_in(world.robots)
+  for _, name in ipairs(names_in(world.bodies)) do names[#names + 1] = name end
+  raise(("session: there is no body or robot '%s'%s"):format(address, suggest(address, names)))
+end
+
+--- The body of an address; of a robot its base.
+function arguments.find_body(session, address)
+  local found = arguments.find(session, address)
+  return described(found) == "a robot" and found.base or found
+end
+
+--- The robot of an address, or the current hand.
+function arguments.find_robot(session, address)
+  local found = address == nil and session.hand or arguments.find(session, address)
+  if described(found) ~= "a robot" then
+    raise(address == nil and "session: no hand is current" or ("session: expected a robot, got the body '%s'"):format(found.name))
+  end
+  return found
+end
+
+return arguments

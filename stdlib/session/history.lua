@@ -1,0 +1,76 @@
+--- Undo: the states of a session between its commands. A state holds the world's handle and a clone of the world, so that handles of a script stay
+--- those of the session's world, removed bodies too.
+local history = {}
+
+local max_states = 1000  -- that can be undone; clones share meshes and what has not changed
+
+function history.new() return {done = {}, undone = {}} end
+
+-- the thing in its world now; nil where it is gone
+local function alive(list, thing)
+  for _, item in ipairs(list) do
+    if item == thing then return thing end
+  end
+end
+
+--- The session as it is, before a command changes it.
+function history.state_of(session)
+  return {world = session.world, clone = session.world and session.world:clone(), hand = session.hand, object = session.object, path = session.path,
+          selection = {table.unpack(session.selection)}, stack = {table.unpack(session.stack)}}
+end
+
+function history.set_state(session, state)
+  if state.world then state.world:become(state.clone) end
+  session.world, session.hand, session.object, session.path = state.world, state.hand, state.object, state.path
+  session.selection, session.stack = {table.unpack(state.selection)}, {table.unpack(state.stack)}
+end
+
+--- Makes a world the one that is open; its first robot and object are the current ones.
+function history.take(session, world)
+  session.world, session.selection, session.stack = world, {}, {}
+  session.hand, session.object = world.robots[1], world.objects[1]
+end
+
+--- Drops what is no longer in the world from hand, object and selection.
+function history.refresh(session)
+  local world = session.world
+  if not world then return end
+  session.hand = session.hand and alive(world.robots, session.hand) or world.robots[1]
+  session.object = session.object and alive(world.objects, session.object) or world.objects[1]
+  local kept = {}
+  for _, item in ipairs(session.selection) do
+    if alive(world.bodies, item) or alive(world.robots, item) then kept[#kept + 1] = item end
+  end
+  session.selection = kept
+end
+
+function history.add(session, entry)
+  history.refresh(session)
+  local done = session.history.done
+  done[#done + 1] = entry
+  if #done > max_states then done[#done - max_states].before = nil end
+  session.history.undone = {}
+end
+
+function history.undo(session)
+  local done, undone = session.history.done, session.history.undone
+  local entry = done[#done]
+  if not entry or not entry.before then return nil end
+  done[#done] = nil
+  entry.after = history.state_of(session)
+  undone[#undone + 1] = entry
+  history.set_state(session, entry.before)
+  return entry.label
+end
+
+function history.redo(session)
+  local done, undone = session.history.done, session.history.undone
+  local entry = table.remove(undone)
+  if not entry then return nil end
+  history.set_state(session, entry.after)
+  entry.after = nil
+  done[#done + 1] = entry
+  return entry.label
+end
+
+return history

@@ -1,0 +1,78 @@
+--- The log of a session as a script of plain calls.
+local described = require "clench.described"
+local raise = require "clench.raise"
+local script = {}
+
+local function number(x)
+  if x ~= x then return "0 / 0" end
+  if x == math.huge or x == -math.huge then return x > 0 and "math.huge" or "-math.huge" end
+  return math.type(x) == "integer" and ("%d"):format(x) or ("%.17g"):format(x)
+end
+
+--- A value as Lua text that makes it again.
+function script.literal(value)
+  local kind = type(value)
+  if kind == "number" then return number(value) end
+  if kind == "string" then return ("%q"):format(value) end
+  if kind == "boolean" or kind == "nil" then return tostring(value) end
+  if described(value) == "a vec3" then return ("{%s, %s, %s}"):format(number(value.x), number(value.y), number(value.z)) end
+  if described(value) == "a pose" then
+    local q = value.quat
+    return ("clench.pose {xyz = %s, quat = {%s, %s, %s, %s}}"):format(script.literal(value.position), number(q[1]), number(q[2]), number(q[3]), number(q[4]))
+  end
+  if kind ~= "table" then raise("session: " .. described(value) .. " cannot be logged as text") end
+  local parts, keys = {}, {}
+  for i, item in ipairs(value) do parts[i] = script.literal(item) end
+  for key in pairs(value) do
+    if type(key) == "string" then keys[#keys + 1] = key end
+  end
+  table.sort(keys)
+  for _, key in ipairs(keys) do
+    local name = key:match "^[%a_][%w_]*$" and key or ("[%q]"):format(key)
+    parts[#parts + 1] = name .. " = " .. script.literal(value[key])
+  end
+  return "{" .. table.concat(parts, ", ") .. "}"
+end
+
+--- The call that finds a body or robot: `world:body "flask"`.
+function script.name_of(thing)
+  if described(thing) == "a robot" then return ("world:robot(%q)"):format(thing.name) end
+  return ("world:body(%q)"):format(thing.name)
+end
+
+local function same(a, b)
+  for i = 1, math.max(#a, #b) do
+    if a[i] ~= b[i] then return false end
+  end
+  return true
+end
+
+--- Lines that bring a world from the state before a command to the present one: poses, DOFs and masses that differ.
+function script.of_change(session, before)
+  local lines, world = {}, session.world
+  if before.world ~= world or not world then raise "session: a command that opens another world must say what it does, by its field script" end
+  if #world.bodies ~= #before.clone.bodies then raise "session: a command that adds or removes bodies must say what it does, by its field script" end
+  for _, robot in ipairs(world.robots) do
+    local old, name = robot:in_world(before.clone), script.name_of(robot)
+    if robot.pose ~= old.pose and not robot.parent then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(robot.pose)) end
+    if not same(robot.dofs, old.dofs) then lines[#lines + 1] = ("%s.dofs = %s"):format(name, script.literal(robot.dofs)) end
+  end
+  for _, body in ipairs(world.bodies) do
+    local old, name = body:in_world(before.clone), script.name_of(body)
+    if not body.robot and body.pose ~= old.pose then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(body.pose)) end
+    if body.mass ~= old.mass then lines[#lines + 1] = ("%s.mass = %s"):format(name, script.literal(body.mass)) end
+    if body.material ~= old.material then lines[#lines + 1] = ("%s.material = %s"):format(name, script.literal(body.material)) end
+  end
+  return table.concat(lines, "\n")
+end
+
+--- All that was done, as a script. Its local `world` is the world that is open.
+function script.of(session)
+  local lines = {'local clench = require "clench"', "local world"}
+  for _, entry in ipairs(session.history.done) do
+    if entry.lines ~= "" then lines[#lines + 1] = entry.lines end
+  end
+  return table.concat(lines, "\n")
+end
+
+return script

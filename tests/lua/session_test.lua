@@ -1,0 +1,183 @@
+-- Sessions: commands, undo and redo, and a log that is a script.
+local test, clench = require "test", require "clench"
+
+local function opened()
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  return session
+end
+
+local function replayed(session) return assert(load(session:script() .. "\nreturn world", "=script", "t"))() end
+
+test("a command changes the world, and is undone and redone to the bit", function(t)
+  local session = opened()
+  local first, changed = session.world:hash(), 0
+  local unsubscribe = session:subscribe("changed", function() changed = changed + 1 end)
+  session:run "grasp.autograsp"
+  local second = session.world:hash()
+  t.ok(second ~= first)
+  t.equal(changed, 1)
+  t.equal(session:undo(), "Autograsp")
+  t.equal(session.world:hash(), first)
+  t.equal(session:redo(), "Autograsp")
+  t.equal(session.world:hash(), second)
+  t.equal(session:redo(), nil)
+  t.equal(changed, 3)
+  unsubscribe()
+  session:undo()
+  t.equal(changed, 3)
+  t.equal(session:undo(), "Open")
+  t.equal(session.world, nil)
+  t.equal(session:undo(), nil)
+end)
+
+test("handles of a script live on over undo, those of removed bodies too", function(t)
+  local session = opened()
+  local mug, hand, world = session.object, session.hand, session.world
+  local pose = mug.pose
+  session:run("body.move", {body = mug.name, pose = {xyz = {1, 2, 3}}})
+  session:run("body.remove", {body = mug.name})
+  t.equal(session.object, nil)
+  t.fails(function() return mug.pose end, "was removed")
+  session:undo()
+  t.equal(mug.pose.position, clench.vec3(1, 2, 3))
+  session:undo()
+  t.equal(mug.pose, pose)
+  t.ok(session.world == world and session.object == mug and session.hand == hand)
+end)
+
+test("what was done is a script of plain calls that makes the same world", function(t)
+  local session = opened()
+  session:run("world.import_obstacle", {path = "models/objects/plate.iv"})
+  session:run("body.move", {body = "plate", pose = {xyz = {0.3, 0, 0}, rpy = {0.1, 0.2, 0.3}}})
+  session:run("body.mass", {body = "mug", mass = 0.4})
+  session:run("grasp.approach", {reach = 0.1})
+  session:run "grasp.autograsp"
+  session:run("dynamics.run", {seconds = 0.02})
+  session:run("body.remove", {body = "plate"})
+  local script = session:script()
+  t.ok(not script:find "session", script)
+  t.ok(script:find('clench.load("worlds/barrett_mug.wld", {root = "."})', 1, true), script)
+  t.ok(script:find('world:robot("barrett"):autograsp()', 1, true), script)
+  t.equal(replayed(session):hash(), session.world:hash())
+  -- what is undone is not in it
+  session:undo()
+  session:undo()
+  t.ok(not session:script():find "run")
+  t.equal(replayed(session):hash(), session.world:hash())
+end)
+
+test("a command of one's own is checked by its parameters and logged as the state that results", function(t)
+  local session = opened()
+  session:command {name = "mine.lift", label = "Lift", parameters = {{name = "height", type = "number", unit = "m", min = 0, max = 1, default = 0.1, text = "how far"}},
+    run = function(s, args) s.object.pose = clench.pose {xyz = {0, 0, args.height}} * s.object.pose return args.height end}
+  local z, results = session.object.pose.position.z, {}
+  session:subscribe("result", function(value) results[#results + 1] = value.result end)
+  t.equal(session:run "mine.lift", 0.1)
+  t.equal(session:run("mine.lift", {height = 0.25}), 0.25)
+  t.equal(results, {0.1, 0.25})
+  t.close(session.object.pose.position.z - z, 0.35, 1e-12)
+  t.equal(replayed(session):hash(), session.world:hash())
+  t.fails(function() session:run("mine.lift", {height = -1}) end, "session:run: mine.lift: height: expected a number from 0 to 1 m, got -1")
+  t.fails(function() session:run("mine.lift", {height = "high"}) end, "height: expected a number, got 'high'")
+  t.fails(function() session:run("mine.lift", {hight = 1}) end, "unknown argument 'hight', expected height; did you mean 'height'?")
+  t.fails(function() session:run("mine.lift", 3) end, "expected a table of arguments, got 3")
+  t.fails(function() session:command {name = "lift", run = print} end, "session:command: name: expected 'group.verb', got 'lift'")
+  t.fails(function() session:command {name = "a.b"} end, "run: expected a function, got nothing")
+  t.fails(function() session:command {name = "a.b", run = print, parameters = {{name = "x", type = "float"}}} end, "type: expected one of number")
+  t.fails(function() session:command {name = "a.b", run = print, parameters = {{name = "x", type = "number", minimum = 1}}} end, "unknown key 'minimum'")
+end)
+
+test("a command that fails leaves the session as it was", function(t)
+  local session = opened()
+  session:command {name = "mine.break", run = function(s)
+    s.world:remove(s.object)
+    s.hand.dofs = {0, 1, 1, 1}
+    error "broken"
+  end}
+  local hash, mug = session.world:hash(), session.object
+  t.fails(function() session:run "mine.break" end, "broken")
+  t.equal(session.world:hash(), hash)
+  t.ok(session.object == mug and mug.pose ~= nil)
+  t.equal(#session.history.done, 1)
+  t.fails(function() session:run("world.open", {path = "no/such.wld"}) end, "no such file")
+  t.equal(session.world:hash(), hash)
+  t.fails(function() session:run "grasp.autogasp" end, "there is no command 'grasp.autogasp'", "did you mean 'grasp.autograsp'?")
+  t.fails(function() session:run("body.remove", {body = "mgu"}) end, "there is no body or robot 'mgu'", "did you mean 'mug'?")
+  t.fails(function() clench.session():run "grasp.autograsp" end, "the command cannot run now")
+  t.fails(function() session:subscribe("change", print) end, "expected 'changed'")
+  t.fails(function() clench.session(3) end, "clench.session: expected a world, got 3")
+end)
+
+test("saving marks a session as unmodified", function(t)
+  local session = opened()
+  t.ok(session:is_modified())
+  local path = test.path ".wld"
+  session:save(path)
+  t.ok(not session:is_modified())
+  session:run "grasp.open"
+  t.ok(session:is_modified())
+  session:undo()
+  t.ok(not session:is_modified())
+  t.fails(function() clench.session(clench.world()):save() end, "path: expected a file")
+end)
+
+test("addresses name bodies, robots and links", function(t)
+  local session = opened()
+  t.equal(session:find "mug", session.object)
+  t.equal(session:find "barrett", session.hand)
+  t.equal(session:find "barrett/chain0_link1", session.hand:link "chain0_link1")
+  session.world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "a/b", pose = {xyz = {5, 0, 0}}})
+  t.equal(session:find("a\\/b").name, "a/b")
+  t.equal(session:run("grasp.quality", {hand = "barrett"}), 0.0)
+end)
+
+test("a random session of many commands is its script, and undone it is the first world", function(t)
+  local session, random = opened(), clench.random(7)
+  local first = session.world:hash()
+  local function number(a, b) return a + (b - a) * random:uniform() end
+  local function pose() return {xyz = {number(-1, 1), number(-1, 1), number(-1, 1)}, rpy = {number(-3, 3), number(-1, 1), number(-3, 3)}} end
+  local added = 0
+  local kinds = {
+    function() return "body.move", {body = "mug", pose = pose()} end,
+    function() return "body.move", {body = "barrett", pose = pose()} end,
+    function() return "body.mass", {body = "mug", mass = number(0.1, 2)} end,
+    function() return "body.material", {body = "mug", material = ({"wood", "glass", "rubber"})[random:integer(1, 3)]} end,
+    function() return "grasp.dofs", {dofs = {number(0, 3), number(0, 2), number(0, 2), number(0, 2)}} end,
+    function() return "grasp.autograsp", {} end,
+    function() return "grasp.open", {} end,
+    function() return "dynamics.run", {seconds = 0.002} end,
+    function() return "dynamics.push", {} end,
+    function() return "world.friction", {a = "wood", b = "rubber", mu = number(0, 1)} end,
+    function()
+      added = added + 1
+      return "world.import_obstacle", {path = "models/objects/box.iv", options = {name = "box" .. added, pose = {xyz = {added, 5, 0}}}}
+    end,
+    function() return "body.remove", {body = "box" .. added} end,
+    function() return "body.collisions", {body = "mug", on = random:integer(0, 1) == 1} end,
+    function() return "dynamics.pop", {} end,
+  }
+  for _ = 1, 120 do
+    local choice = random:integer(1, #kinds + 3)
+    if kinds[choice] then
+      local name, args = kinds[choice]()
+      pcall(session.run, session, name, args)  -- a body that is gone cannot be removed
+    elseif choice == #kinds + 1 then
+      session:undo()
+    else
+      session:redo()
+    end
+    if not session.world then session:redo() end
+  end
+  local last = session.world:hash()
+  t.ok(#session.history.done > 40)
+  t.equal(replayed(session):hash(), last)
+  local count = 0
+  while #session.history.done > 1 do
+    session:undo()
+    count = count + 1
+  end
+  t.equal(session.world:hash(), first)
+  for _ = 1, count do session:redo() end
+  t.equal(session.world:hash(), last)
+end)
