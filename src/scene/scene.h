@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clench/model/world.h"
+#include "clench/scene/eye.h"
 
 namespace clench {
 
@@ -18,6 +19,7 @@ struct DrawMesh {
   float opacity = 1;                                  ///< 0 invisible .. 1 solid
   bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
   bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole
+  bool hides = false;       ///< counts as opaque when a view is chosen, however it is drawn
 };
 
 /// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
@@ -45,14 +47,6 @@ struct DrawLabel {
   Eigen::Vector3f color = Eigen::Vector3f::Zero();
 };
 
-struct Eye {
-  /// world [m]
-  Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
-                  up = Eigen::Vector3d::UnitZ();
-  double field_of_view = 0.6;  ///< vertical [rad], in [0.001, 3]
-  double ortho_height = 0;     ///< height that an orthographic view shows [m]; 0: a perspective one
-};
-
 struct Scene {
   std::vector<DrawMesh> meshes;
   std::vector<DrawCone> cones;
@@ -60,6 +54,10 @@ struct Scene {
   std::vector<DrawLabel> labels = {};
   std::vector<std::string> caption = {};  ///< lines in the lower left corner, UTF-8
   std::optional<double> ground = {};      ///< height of a floor plane that takes the shadow [m]
+  /// places that a chosen view should show, such as contacts; empty: cones and arrows. World [m]
+  std::vector<Eigen::Vector3d> spots = {};
+  /// points that a chosen view must hold besides meshes, cones and arrows; world [m]
+  std::vector<Eigen::Vector3d> held = {};
   std::optional<Eye> eye = {};            ///< empty: frame everything
 };
 
@@ -75,7 +73,7 @@ struct ContactLoad {
 };
 
 /// What a view that is chosen must hold: all, or, where robots touch objects, those objects and the
-/// links of those robots, but not their bases and what carries them.
+/// parts of those robots from the palm outward.
 enum class Framing { contacts, all };
 
 struct SceneOptions {
@@ -94,10 +92,10 @@ struct SceneOptions {
   std::optional<Eye> eye = {};
 };
 
-/// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact
-/// between a part of a robot and an object, opening into the object by its friction angle. With
-/// patches, at each soft contact the fitted surface of the object, or of the body that is touched,
-/// as far as it was looked at, and on it the rim of the ellipse that presses at 5 N.
+/// Bodies in creation order with the colours of scene/palette.h, then a cone for each patch where a
+/// part of a robot touches an object, opening into the object by its friction angle. With `patches`,
+/// at each soft contact the fitted surface of the object, or of the body that is touched, within the
+/// region of the fit, and on it the rim of the contact ellipse at 5 N.
 /// throws  Error on a cone height that is negative or not finite, and on a force that is not finite
 Scene make_scene(const World& world, const SceneOptions& options = {});
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "clench/render/figure/smooth_edges.h"
+#include "clench/render/gl/depth_offset.h"
 #include "clench/render/mesh/draw_list.h"
 #include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/outward.h"
@@ -209,6 +210,7 @@ void DraftPainter::draw(const Placed& placed, unsigned program, const Eigen::Mat
 void DraftPainter::draw_glass(const Eigen::Matrix4d& clip) const {
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
+  const gl::DepthOffset over_solids(-1);
   for (const Placed& placed : clear_)
     for (const GLenum side : {GL_FRONT, GL_BACK}) {
       glCullFace(side);
@@ -292,6 +294,7 @@ void DraftPainter::paint(const Tile& tile, Picture& out) {
     give_light(programs_.draft_floor);
     give_backdrop(programs_.draft_floor);
     gl::set(programs_.draft_floor, "bare", bare ? 1.0f : 0.0f);
+    const gl::DepthOffset behind_bodies(1);
     draw({&*floor_, Eigen::Matrix4d::Identity(), {0, 0, 0, 1}, false, 0}, programs_.draft_floor,
          clip);
   }
@@ -312,7 +315,10 @@ void DraftPainter::paint(const Tile& tile, Picture& out) {
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   draw_glass(clip);
   glDisable(GL_BLEND);
-  if (seen) lay_lines(clear_, *seen, clip, target, false);
+  if (seen) {
+    const gl::DepthOffset over_solids(-1);
+    lay_lines(clear_, *seen, clip, target, false);
+  }
 
   glBindFramebuffer(GL_FRAMEBUFFER, target);
   read_tile(tile, out);
