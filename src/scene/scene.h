@@ -82,6 +82,7 @@ struct SceneOptions {
   /// draw an arrow from the approach point of each robot that closes, along its direction
   bool approach = false;
   bool ground = true;  ///< a floor under the lowest point, unless an obstacle is the floor
+  std::optional<double> ground_height = {};  ///< of that floor [m]; empty: of the lowest point
   bool transparent_objects = true;  ///< so that contacts show
   ConeSizes cone_sizes = ConeSizes::apart;
   double cone_height = 0;  ///< of the highest cone [m]; 0: 0.15 of the object's largest radius

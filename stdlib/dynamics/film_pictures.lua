@@ -7,15 +7,26 @@ local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
 
 local max_states = 500  -- frames that the camera is chosen for; of more, evenly spaced ones
 
--- the camera that render would choose, standing still for all frames, unless another is given
-local function set_camera(recording, given)
-  if given.eye and given.target and given.up and given.field_of_view then return end
+-- height of the lowest point of all states [m]
+local function lowest(states)
+  local low = math.huge
+  for _, world in ipairs(states) do
+    for _, body in ipairs(world.bodies) do
+      if body.mesh then low = math.min(low, body.bounds_in_world.low.z) end
+    end
+  end
+  return low < math.huge and low or nil
+end
+
+-- the camera that render would choose and the floor, standing still for all frames, unless others are given
+local function set_scene(recording, given)
   local count, states = #recording.times, {}
   local step = math.max(1, (count - 1) / (max_states - 1))
   recording:each(function(world, frame)
     if frame >= 1 + #states * step - 1e-9 or frame == count then states[#states + 1] = world:clone() end
   end)
   for key, value in pairs(clench.camera(states, given)) do given[key] = value end
+  if given.ground == nil or given.ground == true then given.ground = lowest(states) end
 end
 
 local function no_ffmpeg(program)
@@ -62,7 +73,7 @@ return function(recording, path, ending, options)
   if read.ffmpeg and ending ~= "mp4" then own:fail "ffmpeg writes .mp4 alone" end
   if ending == "mp4" then no_ffmpeg(program) end
   given.size, given.quality = given.size or {480, 360}, given.quality or "draft"
-  set_camera(recording, given)
+  set_scene(recording, given)
 
   local bar <close> = clench.progress(#recording.times, "recording:save")
   local stem = ending == "mp4" and os.tmpname() or path:sub(1, -5) .. "_"

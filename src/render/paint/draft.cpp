@@ -324,21 +324,54 @@ void DraftPainter::paint(const Tile& tile, Picture& out) {
   read_tile(tile, out);
 }
 
-}  // namespace
+// the mean of squares of pixels, weighted by how much they cover
+Picture reduced(const Picture& large, int scale) {
+  Picture out{large.width / scale, large.height / scale, {}};
+  const size_t count = static_cast<size_t>(out.width) * out.height;
+  out.pixels.resize(3 * count);
+  if (!large.alpha.empty()) out.alpha.resize(count);
+  const int squares = scale * scale;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t x = i % out.width * scale, y = i / out.width * scale;
+    int sums[3] = {}, cover = 0;
+    for (int k = 0; k < squares; ++k) {
+      const size_t at = (y + k / scale) * large.width + x + k % scale;
+      const int weight = large.alpha.empty() ? 255 : large.alpha[at];
+      cover += weight;
+      for (int c = 0; c < 3; ++c) sums[c] += weight * large.pixels[3 * at + c];
+    }
+    for (int c = 0; c < 3 && cover > 0; ++c)
+      out.pixels[3 * i + c] = static_cast<uint8_t>((sums[c] + cover / 2) / cover);
+    if (!out.alpha.empty())
+      out.alpha[i] = static_cast<uint8_t>((cover + squares / 2) / squares);
+  }
+  return out;
+}
 
-Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
-              const RenderOptions& options) {
-  check(scene);
+Picture draw_draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
+                   const RenderOptions& options) {
   Picture out = empty_picture(options);
   DraftPainter drawing(programs, store, scene, eye, options);
   for (const Tile& tile : tiles_of(options)) {
     options.progress.check();
     drawing.paint(tile, out);
   }
-  smooth_edges(out);
+  if (options.draft_scale == 1) smooth_edges(out);
   divide_by_alpha(out);
   check_driver();
   return out;
+}
+
+}  // namespace
+
+Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
+              const RenderOptions& options) {
+  check(scene);
+  if (options.draft_scale == 1) return draw_draft(programs, store, scene, eye, options);
+  RenderOptions large = options;
+  large.width *= options.draft_scale, large.height *= options.draft_scale;
+  large.outline *= options.draft_scale;
+  return reduced(draw_draft(programs, store, scene, eye, large), options.draft_scale);
 }
 
 }  // namespace clench

@@ -32,6 +32,18 @@ void warn_without_letters(lua_State* L, const Font& font) {
   if (!font.fault().empty()) warn_once(L, &told, font.fault());
 }
 
+static void read_samples(Table& options, RenderOptions& rendering) {
+  if (rendering.quality == Quality::paper) {
+    rendering.samples = options.integer("samples", rendering.samples);
+    return;
+  }
+  const int samples = options.integer("samples", 1);
+  for (int scale = 1; scale <= rendering.max_draft_scale; ++scale)
+    if (samples == scale * scale) rendering.draft_scale = scale;
+  if (samples != rendering.draft_scale * rendering.draft_scale)
+    fail("{}: samples: expected 1, 4, 9 or 16 of a draft, got {}", options.subject(), samples);
+}
+
 static RenderOptions read_rendering(Table& options) {
   RenderOptions rendering;
   const auto size =
@@ -44,9 +56,7 @@ static RenderOptions read_rendering(Table& options) {
   rendering.height = floor_int(size[1]);
   rendering.quality = options.choice(
       "quality", {{"paper", Quality::paper}, {"draft", Quality::draft}}, Quality::paper);
-  if (rendering.quality == Quality::draft && options.has("samples"))
-    fail("{}: samples: only paper quality takes them, drafts have one", options.subject());
-  rendering.samples = options.integer("samples", rendering.samples);
+  read_samples(options, rendering);
   rendering.backdrop = options.choice("background",
                                       {{"studio", Backdrop::studio},
                                        {"white", Backdrop::white},

@@ -1,6 +1,7 @@
 #include "clench/script/bind/picture/read_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "clench/base/error.h"
 #include "clench/scene/film_scene.h"
@@ -74,11 +75,23 @@ static void read_cones(Table& options, const GivenForces& given, SceneOptions& s
       "frame", {{"contacts", Framing::contacts}, {"all", Framing::all}}, Framing::contacts);
 }
 
+// true, false, or the height of the floor
+static void read_ground(lua_State* L, Table& options, SceneOptions& showing) {
+  const int type = options.push("ground");
+  if (type == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1)))
+    showing.ground_height = lua_tonumber(L, -1);
+  else if (type == LUA_TBOOLEAN)
+    showing.ground = lua_toboolean(L, -1);
+  else if (type != LUA_TNIL)
+    fail_expected(options.what("ground"), "true, false, or the height of the floor in metres", -1);
+  lua_pop(L, 1);
+}
+
 Scene read_scene(lua_State* L, Table& options, std::span<const World* const> states) {
   SceneOptions showing;
   showing.patches = options.boolean("patches", showing.patches);
   showing.contacts = options.boolean("contacts", !showing.patches);
-  showing.ground = options.boolean("ground", showing.ground);
+  read_ground(L, options, showing);
   showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
   showing.file_colors = options.boolean("file_colors", showing.file_colors);
   showing.approach = options.boolean("approach", showing.approach);
