@@ -204,6 +204,9 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("FILE.html")
       ->check(named);
   add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png")->check(named);
+  add("--table", "the table of the grasps for a paper: .tex or .csv")
+      ->type_name("FILE.tex")
+      ->check(named);
   add_drawing(add, "of each picture of --sheet [pixels]; default: 320x240",
               "of the pictures of --sheet: paper or draft; default: draft");
   add.flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");

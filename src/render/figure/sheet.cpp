@@ -48,7 +48,7 @@ static std::vector<std::string> note_lines(const SheetOptions& options, double w
 
 static void write_notes(const std::vector<std::string>& lines, double top, int left,
                         Canvas& canvas) {
-  auto y = static_cast<float>(top) + caption_height;
+  auto y = static_cast<float>(top) + caption_height + 2;
   for (const std::string& line : lines) {
     canvas.text({line, {static_cast<float>(left), y}, caption_height}, ink);
     y += note_step;
