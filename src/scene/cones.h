@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "clench/model/find.h"
-#include "clench/scene/scene.h"
+#include "clench/scene/drawn.h"
+#include "clench/scene/scene_options.h"
 
 namespace clench {
 

@@ -3,7 +3,7 @@ local held_text = require "clench.held_text"
 
 local function caption_of(row)
   local load = row.load and (", load %.1f"):format(row.load) or ""
-  local held = row.held and ", " .. held_text(row.held, 6) or ""
+  local held = row.held and "\n" .. held_text(row.held, 6) or ""
   return ("%d: epsilon %.3f"):format(row.number, row.epsilon) .. load .. held
 end
 

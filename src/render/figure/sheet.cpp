@@ -36,6 +36,36 @@ static void copy(const Picture& from, Picture& to, int left, int top) {
   }
 }
 
+static std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  size_t from = 0;
+  for (size_t end; (end = text.find('\n', from)) != text.npos; from = end + 1)
+    lines.push_back(text.substr(from, end - from));
+  lines.push_back(text.substr(from));
+  return lines;
+}
+
+// height below a picture [pixels]
+static int caption_space(const SheetOptions& options) {
+  if (options.captions.empty()) return 0;
+  size_t most = 1;
+  for (const std::string& caption : options.captions)
+    most = std::max(most, lines_of(caption).size());
+  return floor_int(caption_room) + note_step * (floor_int(static_cast<double>(most)) - 1);
+}
+
+// each line in the middle of a cell, from the top
+static void write_caption(const std::string& caption, float left, float top, float width,
+                          const Font& font, Canvas& canvas) {
+  float y = top + 6 + caption_height;
+  for (const std::string& whole : lines_of(caption)) {
+    const std::string line = font.shortened(whole, caption_height, width);
+    const float x = left + (width - font.width(line, caption_height)) / 2;
+    canvas.text({line, {x, y}, caption_height}, ink);
+    y += note_step;
+  }
+}
+
 static std::vector<std::string> note_lines(const SheetOptions& options, double width,
                                            const Font& font) {
   std::vector<std::string> lines;
@@ -64,7 +94,7 @@ Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOp
     cell_width = std::max(cell_width, picture->width);
     cell_height = std::max(cell_height, picture->height);
   }
-  const int below = options.captions.empty() ? 0 : floor_int(caption_room);
+  const int below = caption_space(options);
   const double shape = static_cast<double>(cell_height + below) / std::max(cell_width, 1);
   const int columns = options.columns > 0
                           ? std::min(options.columns, count)
@@ -88,11 +118,9 @@ Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOp
     copy(on_white(picture), sheet, left + (cell_width - picture.width) / 2,
          upper + (cell_height - picture.height) / 2);
     if (options.captions.empty()) continue;
-    const auto room = static_cast<float>(cell_width);
-    const std::string caption = font.shortened(options.captions[i], caption_height, room);
-    const float x = static_cast<float>(left) + (room - font.width(caption, caption_height)) / 2;
-    const float y = static_cast<float>(upper + cell_height) + 6 + caption_height;
-    canvas.text({caption, {x, y}, caption_height}, ink);
+    write_caption(options.captions[i], static_cast<float>(left),
+                  static_cast<float>(upper + cell_height), static_cast<float>(cell_width), font,
+                  canvas);
   }
   write_notes(notes, top, options.gap, canvas);
   return sheet;

@@ -151,7 +151,7 @@ graphics hardware.
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
 Several pictures in one, in rows, each with its caption under it, and notes under all.
-@param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer}  notes: lines of text, broken where they are too wide; columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+@param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer}  captions: of one or more lines; notes: lines of text, broken where they are too wide; columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 @return picture
 > small = clench.render(world, {size = {64, 48}})
 > clench.sheet{pictures = {small, small, small}, captions = {"a", "b", "c"}, columns = 3, gap = 4}  --> picture of 208 x 78 pixels
