@@ -161,6 +161,7 @@ local snapshot = {}
 ---@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field fingerprint string # Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses. 16 hexadecimal digits
 ---@field mesh mesh? # Its surface; nil when it has none.
+---@field visual_mesh mesh? # The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
 ---@field free_damping number # Viscous resistance of an object that moves freely, or of the base of a robot that floats: a force on the origin of its frame against that point's velocity, and a torque against its turning. [N s/m and N m s/rad]
@@ -530,6 +531,8 @@ function patch:torsion_limit(options) end
 ---@field object body # The body that is grasped.
 ---@field hand_name string # Name of the robot that grasps; a grasp that stands in no world has it, too.
 ---@field object_name string # Name of the body that is grasped.
+---@field hand_file string # File of the robot that grasps, as it was named when it was read; empty where it is not known.
+---@field object_file string # File of the body that is grasped; empty where it is not known.
 ---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
 ---@field dof_names string[] # Names of these DOFs; empty in a list from a file that does not name them.
@@ -628,6 +631,7 @@ function projection:render(options) end
 
 ---A picture: red, green and blue, 8 bits each, and how much each pixel covers. `==` compares every pixel.
 ---@class picture
+---@field camera table? # The camera of the picture, given or chosen, as options of clench.render; nil for figures. The same world drawn with it gives the same bytes. {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}  [m], [rad]; orthographic: height that is shown [m]
 ---@field width integer # Its width. pixels
 ---@field height integer # Its height. pixels
 local picture = {}
@@ -1123,6 +1127,12 @@ function clench.eigengrasps(options) end
 ---@return picture
 function clench.render(world, options) end
 
+---The camera that clench.render chooses with the same options; of several states of a world, one for all of them, as for a film: it holds the objects that robots touch in some state, and those robots from the palm outward, where nothing is touched, everything.
+---@param worlds world|world[] # a list: states of one world, such as clones of it
+---@param options? table # those of clench.render
+---@return table camera # {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render
+function clench.camera(worlds, options) end
+
 ---Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 ---@return plot # to be saved as PNG or SVG
@@ -1133,8 +1143,8 @@ function clench.chart(options) end
 ---@return plot
 function clench.plot(options) end
 
----Several pictures in one, in rows, each with its caption under it.
----@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer} # columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+---Several pictures in one, in rows, each with its caption under it, and notes under all.
+---@param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer} # captions: of one or more lines; notes: lines of text, broken where they are too wide; columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 ---@return picture
 function clench.sheet(options) end
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 #include "clench/app/interrupt.h"
 #include "clench/app/verbs.h"
@@ -29,7 +30,7 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
   std::fflush(stdout);
   if (!result.ok) fmt::print(stderr, "clench {}: {}\n", verb, printable(result.error, "\n\t"));
   if (running.pressed()) return 130;
-  return result.ok && result.values == std::vector<std::string>{"0"} ? 0 : 1;
+  return result.ok && result.values.size() == 1 ? std::atoi(result.values[0].c_str()) : 1;
 }
 
 static int run_host(const std::string& verb, const std::vector<std::string>& arguments,
@@ -46,6 +47,10 @@ int check_files(const CheckOptions& options) {
   std::vector<std::string> arguments = options.files;
   arguments.insert(arguments.begin(), options.json ? "json" : "text");
   return run_host("check", arguments, options.reading);
+}
+
+int render_file(const RenderVerbOptions& options) {
+  return run_host("render", options.words, options.reading);
 }
 
 int convert_file(const ConvertOptions& options) {

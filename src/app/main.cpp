@@ -4,23 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <limits>
 #include <new>
 
+#include "clench/app/verb_options.h"
 #include "clench/app/verbs.h"
 #include "clench/base/error.h"
 #include "clench/base/printable.h"
 #include "clench/base/suggest.h"
-#include "clench/base/text.h"
-#include "clench/io/grasp_files.h"
-#include "clench/spec/valid.h"
 
 namespace clench {
 
@@ -48,179 +43,6 @@ static CommandLine split(int argc, char** argv) {
     if (value && i + 1 < argc) line.ours.push_back(argv[++i]);
   }
   return line;
-}
-
-static void add_confine(CLI::App& verb, std::string& folder) {
-  verb.add_option("--confine", folder, "read models and worlds only below this folder")
-      ->type_name("FOLDER")
-      ->check(CLI::ExistingDirectory);
-}
-
-// a path, which is not empty
-static const CLI::Validator named(
-    [](std::string& file) -> std::string {
-      return file.empty() ? "expected the name of a file, got nothing" : "";
-    },
-    "");
-
-static const CLI::Validator unit(
-    [](std::string& text) -> std::string {
-      static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
-      if (std::ranges::find(names, text) != names.end()) return {};
-      return fmt::format("unknown unit '{}'{}", text, instead_of(text, names));
-    },
-    "");
-
-static void add_reading(CLI::App& verb, ReadingOptions& reading) {
-  verb.add_option("--root", reading.root, "where names in the files count from")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
-  verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
-  verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
-  verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")
-      ->type_name("UNIT")
-      ->check(unit);
-  verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
-}
-
-// a finite number above 0
-static const CLI::Validator positive(
-    [](std::string& text) -> std::string {
-      const auto x = parse_number(text);
-      if (x && std::isfinite(*x) && *x > 0) return {};
-      return fmt::format("expected a number above 0, got '{}'", text);
-    },
-    "POSITIVE");
-
-static const CLI::Validator not_negative(
-    [](std::string& text) -> std::string {
-      const auto x = parse_number(text);
-      if (x && std::isfinite(*x) && *x >= 0) return {};
-      return fmt::format("expected a number >= 0, got '{}'", text);
-    },
-    "");
-
-static const CLI::Validator mass(
-    [](std::string& text) -> std::string {
-      const auto x = parse_number(text);
-      return x ? fault(mass_rule, *x) : fmt::format("expected a mass in kg, got '{}'", text);
-    },
-    "");
-
-static CLI::Validator whole_number(int64_t low, int64_t high) {
-  const auto look = [=](std::string& text) -> std::string {
-    const char* end = text.data() + text.size();
-    int64_t x = 0;
-    const auto [at, code] = std::from_chars(text.data(), end, x);
-    if (code == std::errc() && at == end && x >= low && x <= high) return {};
-    return fmt::format("expected a whole number from {} to {}, got '{}'", low, high, text);
-  };
-  return {look, "INTEGER"};
-}
-
-static const CLI::Validator list_format(
-    [](std::string& text) -> std::string {
-      try {
-        grasp_format(text);
-      } catch (const Error& error) {
-        return error.what();
-      }
-      return {};
-    },
-    "");
-
-// a function that adds the name of an option and its value
-static auto noted_as(const char* option, std::vector<std::string>& words) {
-  std::string name = lower_case(option);
-  name.erase(0, name.find_first_not_of('-'));
-  return [&words, name](const std::string& value) {
-    if (!value.empty()) words.insert(words.end(), {name, value});
-  };
-}
-
-// what is typed as a number is looked at here, and handed on as it is
-static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
-  const auto add = [&](const char* name, const char* text) {
-    return verb.add_option_function<std::string>(name, noted_as(name, words), text);
-  };
-  const auto several = [&](const char* name, const char* text) {
-    const auto note_all = [note = noted_as(name, words)](const std::vector<std::string>& values) {
-      for (const std::string& value : values) note(value);
-    };
-    return verb.add_option_function<std::vector<std::string>>(name, note_all, text)
-        ->allow_extra_args(false);
-  };
-  const auto flag = [&](const char* name, const char* text) {
-    verb.add_flag_callback(
-        name, [note = noted_as(name, words)] { note("yes"); }, text);
-  };
-  add("HAND", "a robot's file")->required()->check(named);
-  add("OBJECT", "a body's file, or a mesh")->required()->check(named);
-  several("--obstacle", "a body that stands in the way; may be repeated")
-      ->type_name("FILE")
-      ->check(named);
-  add("--pose", "where the object stands [m, degrees]; default: at 0,0,0")
-      ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
-  several("--obstacle-pose", "the same of each obstacle, in their order")->type_name("POSE");
-  add("--mass", "of the object, instead of its file's [kg]")->type_name("KG")->check(mass);
-  add("--friction", "coefficient of friction between hand and object; default: of their materials")
-      ->type_name("MU")
-      ->check(positive);
-  add("--material", "of the object, instead of its file's: rubber, wood, metal ...")
-      ->type_name("NAME");
-  add("--close", "DOFs that close the hand, by number or name, each with its sign: 1,-2,thumb")
-      ->type_name("DOFS");
-  add("--approach", "direction and point of approach, in the frame of the hand's base [m]")
-      ->type_name("DX,DY,DZ[,X,Y,Z]");
-  add("--count",
-      "number of grasps: the first ones; with --seconds: the best ones of that time; default: 20, "
-      "or all of --seconds")
-      ->type_name("N")
-      ->check(whole_number(1, 1000000));
-  add("--seconds", "search no longer than this")->type_name("S")->check(positive);
-  add("--seed", "of the random numbers; default: 1")
-      ->type_name("N")
-      ->check(
-          whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
-  add("--threads", "default: all cores; the grasps are the same")
-      ->type_name("N")
-      ->check(whole_number(1, 1024));
-  add("--distance",
-      "grasps nearer to each other than this part of the object's radius, of half a turn and of "
-      "the DOFs' ranges are alike; default: 0.1")
-      ->type_name("PART")
-      ->check(not_negative);
-  add("--contacts", "fingertip: with the last links alone; power: with the palm, too; default: any")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"fingertip", "power", "any"}));
-  add("--force-ratio",
-      "times the object's weight that all fingers together press with at most; default: 10")
-      ->type_name("N")
-      ->check(positive);
-  add("--max-effort",
-      "of motors for which the hand's file gives no limit [N or N m]; default: none")
-      ->type_name("N")
-      ->check(positive);
-  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
-      ->type_name("FILE")
-      ->check(named);
-  add("--format", "of -o, where the ending does not say: graspgen ...")
-      ->type_name("NAME")
-      ->check(list_format);
-  add("--report", "a page with a table, pictures and each grasp in 3-D")
-      ->type_name("FILE.html")
-      ->check(named);
-  add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png")->check(named);
-  flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");
-  flag("--overwrite", "replace the list of -o, once there are grasps");
-  flag("--verify",
-       "shake each grasp in simulation, too, by the object's weight along six directions");
-  flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
-  flag("--no-verify", "keep all in force closure, loads and errors unseen");
 }
 
 // what --help says of every verb that loads
@@ -267,6 +89,7 @@ struct Said {
   CheckOptions check;
   ConvertOptions convert;
   PlanOptions plan;
+  RenderVerbOptions render;
   std::string interactive, test_path, doc_folder, confine;
   bool check_docs = false;
 };
@@ -341,6 +164,19 @@ static void add_plan(CLI::App& app, PlanOptions& plan) {
       trust);
 }
 
+static void add_render(CLI::App& app, RenderVerbOptions& render) {
+  auto* verb = app.add_subcommand("render", "draw a file or grasps of a list");
+  add_render_options(*verb, render.words);
+  add_reading(*verb, render.reading);
+  verb->footer(
+      "Examples:\n  clench render worlds/dlr_flask.wld -o flask.png\n"
+      "  clench render flask.jsonl --pick 1,4,7 -o grasps.png\n"
+      "  clench render flask.jsonl --pick 1 --background white --outline 1.5 -o figure.png\n\n"
+      "Of a list one picture per grasp, on a sheet where there are several. See "
+      "docs/guide/pictures.md." +
+      trust);
+}
+
 static void add_all(CLI::App& app, Said& said) {
   app.footer(
       "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
@@ -359,6 +195,7 @@ static void add_all(CLI::App& app, Said& said) {
   add_check(app, said.check);
   add_convert(app, said.convert);
   add_plan(app, said.plan);
+  add_render(app, said.render);
   for (CLI::App* verb : app.get_subcommands({})) {
     if (verb->get_name() != "doc") add_confine(*verb, said.confine);
     verb->fallthrough();
@@ -400,13 +237,15 @@ static int run_scripts_of(const CLI::App& app, Said& said) {
 
 static int run_verb(const CLI::App& app, Said& said) {
   for (std::string* folder : {&said.run.confine, &said.check.reading.confine,
-                              &said.convert.reading.confine, &said.plan.reading.confine})
+                              &said.convert.reading.confine, &said.plan.reading.confine,
+                              &said.render.reading.confine})
     *folder = said.confine;
   said.plan.quiet = said.run.quiet;
   if (app.got_subcommand("test")) return run_tests(said.test_path, said.confine, said.run.quiet);
   if (app.got_subcommand("check")) return check_files(said.check);
   if (app.got_subcommand("convert")) return convert_file(said.convert);
   if (app.got_subcommand("plan")) return plan_grasps(said.plan);
+  if (app.got_subcommand("render")) return render_file(said.render);
   if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);
   return run_scripts_of(app, said);
 }

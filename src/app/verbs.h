@@ -53,6 +53,14 @@ struct ConvertOptions {
 /// Writes what a file holds as another format, and says what that cannot hold.
 int convert_file(const ConvertOptions& options);
 
+struct RenderVerbOptions {
+  std::vector<std::string> words;  ///< as those of PlanOptions
+  ReadingOptions reading;
+};
+
+/// Draws a file, or grasps of a list.   returns 2 when an option makes no sense
+int render_file(const RenderVerbOptions& options);
+
 struct PlanOptions {
   /// Name, value, name, value ... of the options that are said, as they were typed; the command
   /// line has looked at the numbers.

@@ -112,6 +112,7 @@ Picture Renderer::draw(const Scene& scene, const RenderOptions& options, const F
   for (const PlacedText& text :
        place_texts(scene, eye, size, font, static_cast<float>(options.letters)))
     canvas.bright_text({text.text, {text.box.low.x(), text.box.high.y()}, text.height}, text.color);
+  picture.eye = eye;
   return picture;
 }
 

@@ -10,6 +10,7 @@
 
 #include "clench/base/error.h"
 #include "clench/model/find.h"
+#include "clench/scene/cones.h"
 #include "clench/scene/palette.h"
 #include "clench/scene/touched.h"
 
@@ -17,7 +18,6 @@ namespace clench {
 namespace {
 
 constexpr float see_through_opacity = 0.2f;
-constexpr double cone_size = 0.15;  // height of a cone, part of the object's largest radius
 
 // what is drawn of a body; null when there is nothing to draw
 const ShapePtr& drawn(const Body& body) {
@@ -35,7 +35,7 @@ DrawMesh draw_body(const Body& body, const Pose& X_WB, const SceneOptions& optio
   }
   if (body.kind == BodyKind::link &&
       std::ranges::find(options.see_through, body.robot) != options.see_through.end())
-    mesh.opacity = std::min(mesh.opacity, see_through_opacity);
+    mesh.opacity = std::min(mesh.opacity, see_through_opacity), mesh.hides = true;
   if (options.transparent_objects) mesh.opacity = std::min(mesh.opacity, entry.opacity);
   return mesh;
 }
@@ -57,80 +57,6 @@ bool is_floor(const Bounds& floor, const std::vector<Bounds>& all) {
             (b.low.head<2>().array() >= floor.low.head<2>().array() - slack).all() &&
             (b.high.head<2>().array() <= floor.high.head<2>().array() + slack).all());
   });
-}
-
-// cones whose contacts lie close are lowered until each stays on its own side of the middle, so
-// that they can be counted; below a fifth of their height they could not be seen
-void lower_crowded(std::vector<DrawCone>& cones) {
-  constexpr double share = 0.45, lowest = 0.2;
-  for (DrawCone& cone : cones) {
-    if (cone.height <= 0) continue;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const DrawCone& other : cones)
-      if (&other != &cone) nearest = std::min(nearest, (other.apex - cone.apex).norm());
-    const double reach = std::max(1.0, std::tan(cone.half_angle));  // of a cone 1 m high
-    cone.height *= std::clamp(share * nearest / (reach * cone.height), lowest, 1.0);
-  }
-}
-
-std::vector<Contact> contacts_on_objects(const World& world) {
-  std::vector<Id<Body>> parts, objects;
-  for (const Id<Body> id : world.bodies()) {
-    const BodyKind kind = world.body(id).kind;
-    if (kind == BodyKind::object)
-      objects.push_back(id);
-    else if (kind != BodyKind::obstacle)
-      parts.push_back(id);
-  }
-  return contacts(world, parts, objects);
-}
-
-// the measure that heights are in proportion to
-double cone_measure(const Contact& contact, const SceneOptions& options) {
-  if (options.cone_sizes == ConeSizes::friction) return contact.friction.statics;
-  if (options.cone_sizes != ConeSizes::force) return 1;
-  double most = 0;
-  for (const ContactLoad& load : options.loads)
-    if (load.p_W == contact.p_W) most = std::max(most, load.force);
-  return most;
-}
-
-// heights in proportion to what they tell, the largest of the size that is asked for
-void scale_cones(std::span<const Contact> contacts, const SceneOptions& options,
-                 std::vector<DrawCone>& cones) {
-  double most = 0, height = options.cone_height;
-  for (size_t i = 0; i < cones.size(); ++i) {
-    most = std::max(most, cone_measure(contacts[i], options));
-    if (options.cone_height == 0) height = std::max(height, cones[i].height);
-  }
-  for (size_t i = 0; i < cones.size(); ++i)
-    cones[i].height = most > 0 ? height * cone_measure(contacts[i], options) / most : 0;
-  std::erase_if(cones, [](const DrawCone& cone) { return !(cone.height > 0); });
-}
-
-std::vector<DrawCone> draw_contacts(const World& world, std::span<const Contact> contacts,
-                                    const SceneOptions& options) {
-  if (!(options.cone_height >= 0 && std::isfinite(options.cone_height)))
-    fail("picture: the height of cones must be >= 0 [m], got {}", options.cone_height);
-  for (const ContactLoad& load : options.loads)
-    if (!std::isfinite(load.force)) fail("picture: forces must be finite numbers");
-  std::vector<DrawCone> cones;
-  for (const Contact& contact : contacts) {
-    const bool rubs = contact.kind != ContactKind::frictionless && contact.friction.statics > 0;
-    cones.push_back({.apex = contact.p_W,
-                     .axis = contact.n_W,
-                     .half_angle = rubs ? std::atan(contact.friction.statics) : 0,
-                     .height = cone_size * world.body(contact.body).max_radius(),
-                     .color = rubs ? palette::cone : palette::needle});
-  }
-  if (options.cone_sizes != ConeSizes::apart) {
-    scale_cones(contacts, options, cones);
-    return cones;
-  }
-  if (options.cone_height > 0)
-    for (DrawCone& cone : cones) cone.height = options.cone_height;
-  lower_crowded(cones);
-  return cones;
 }
 
 constexpr int patch_rings = 8, patch_segments = 48;
@@ -243,8 +169,10 @@ Scene make_scene(const World& world, const SceneOptions& options) {
   }
   if (options.patches) draw_patches(world, scene.meshes);
   if (options.approach) draw_approaches(world, scene);
-  if (options.contacts) scene.cones = draw_contacts(world, touches, options);
-  if (options.ground && !floor && !all.empty()) scene.ground = all.low.z();
+  const std::vector<TouchPatch> patches = touch_patches(touches);
+  scene.spots = patch_spots(world, patches);
+  if (options.contacts) scene.cones = contact_cones(world, patches, options);
+  if (options.ground && !floor && !all.empty()) scene.ground = options.ground_height.value_or(all.low.z());
   scene.eye = options.eye;
   return scene;
 }

@@ -1,103 +1,15 @@
-// What to draw, as a plain list: no state of a world, no graphics library.
+// A world as a list of what to draw.
 #pragma once
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "clench/model/world.h"
+#include "clench/scene/drawn.h"
+#include "clench/scene/scene_options.h"
 
 namespace clench {
 
-/// Colours are as a screen shows them (sRGB), each part in 0..1.
-struct DrawMesh {
-  std::shared_ptr<const Shape> shape;  ///< null draws nothing
-  Pose X_WM;
-  Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
-  std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one per triangle, or empty
-  float opacity = 1;                                  ///< 0 invisible .. 1 solid
-  bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
-  bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole
-};
-
-/// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
-struct DrawCone {
-  /// world [m]; axis unit
-  Eigen::Vector3d apex = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
-  double half_angle = 0;  ///< [rad], in [0, pi/2)
-  double height = 0;      ///< [m]
-  Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
-};
-
-/// A force, a direction or an axis: a rod with a pointed head that ends at the tip.
-struct DrawArrow {
-  /// world [m]; an arrow without length draws nothing
-  Eigen::Vector3d tail = Eigen::Vector3d::Zero(), tip = Eigen::Vector3d::UnitZ();
-  double radius = 0.01;  ///< of the rod; its head is three times as wide [m]
-  Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
-};
-
-/// Words written at a place or beside it, over everything else, none over another: the first ones
-/// move least, and some may find no room.
-struct DrawLabel {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
-  std::string text = {};                          ///< UTF-8
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();
-};
-
-struct Eye {
-  /// world [m]
-  Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
-                  up = Eigen::Vector3d::UnitZ();
-  double field_of_view = 0.6;  ///< vertical [rad], in [0.001, 3]
-  double ortho_height = 0;     ///< height that an orthographic view shows [m]; 0: a perspective one
-};
-
-struct Scene {
-  std::vector<DrawMesh> meshes;
-  std::vector<DrawCone> cones;
-  std::vector<DrawArrow> arrows = {};
-  std::vector<DrawLabel> labels = {};
-  std::vector<std::string> caption = {};  ///< lines in the lower left corner, UTF-8
-  std::optional<double> ground = {};      ///< height of a floor plane that takes the shadow [m]
-  std::optional<Eye> eye = {};            ///< empty: frame everything
-};
-
-/// How large friction cones are: apart, each lowered where its neighbours are near; of one size; or
-/// their heights in proportion to the friction coefficient or to the normal force, the largest of
-/// that size.
-enum class ConeSizes { apart, equal, friction, force };
-
-/// The normal force at a contact, by its place.
-struct ContactLoad {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
-  double force = 0;                               ///< [N]
-};
-
-/// What a view that is chosen must hold: all, or, where robots touch objects, those objects and the
-/// links of those robots, but not their bases and what carries them.
-enum class Framing { contacts, all };
-
-struct SceneOptions {
-  bool contacts = true;  ///< draw friction cones at the contacts of robots with objects
-  bool patches = false;  ///< draw the patches of all soft contacts
-  /// draw an arrow from the approach point of each robot that closes, along its direction
-  bool approach = false;
-  bool ground = true;  ///< a floor under the lowest point, unless an obstacle is the floor
-  bool transparent_objects = true;  ///< so that contacts show
-  ConeSizes cone_sizes = ConeSizes::apart;
-  double cone_height = 0;  ///< of the highest cone [m]; 0: 0.15 of the object's largest radius
-  std::vector<ContactLoad> loads = {};  ///< for ConeSizes::force; contacts without one have no cone
-  Framing framing = Framing::contacts;
-  bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
-  std::vector<Id<Robot>> see_through = {};  ///< what is in and behind their links shows
-  std::optional<Eye> eye = {};
-};
-
-/// Bodies in creation order with the colours of scene/palette.h, then a cone for each contact
-/// between a part of a robot and an object, opening into the object by its friction angle. With
-/// patches, at each soft contact the fitted surface of the object, or of the body that is touched,
-/// as far as it was looked at, and on it the rim of the ellipse that presses at 5 N.
+/// Bodies in creation order with the colours of scene/palette.h, then a cone for each patch where a
+/// part of a robot touches an object, opening into the object by its friction angle. With `patches`,
+/// at each soft contact the fitted surface of the object, or of the body that is touched, within the
+/// region of the fit, and on it the rim of the contact ellipse at 5 N.
 /// throws  Error on a cone height that is negative or not finite, and on a force that is not finite
 Scene make_scene(const World& world, const SceneOptions& options = {});
 

@@ -26,21 +26,50 @@ std::vector<int> moving_branches(const Robot& robot) {
   return branches;
 }
 
-// the links from the palm outward
-std::vector<bool> holding_links(const Robot& robot, std::span<const int> touching) {
+bool has_surface(const World& world, Id<Body> id) {
+  const Body& body = world.body(id);
+  return body.shape || body.appearance.visual;
+}
+
+// the last link that carries all that touch and has two branches that move; -1: the base
+int palm_of(const World& world, const Robot& robot, std::span<const int> touching) {
   int palm = touching[0];
   for (const int link : touching) palm = common(robot, palm, link);
   const std::vector<int> branches = moving_branches(robot);
   while (palm >= 0 && branches[palm] < 2) palm = robot.links[palm].parent;
-  std::vector<bool> out(robot.links.size());
-  for (size_t i = 0; i < out.size(); ++i) {
+  // a frame without a surface: the palm is what it is fixed to
+  while (palm >= 0 && !has_surface(world, robot.links[palm].body) &&
+         robot.links[palm].end_joint == robot.links[palm].first_joint)
+    palm = robot.links[palm].parent;
+  return palm;
+}
+
+// the bodies from the palm outward
+void add_holding(const World& world, const Robot& robot, std::span<const int> touching,
+                 std::set<Id<Body>>& out) {
+  const int palm = palm_of(world, robot, touching);
+  if (palm < 0) out.insert(robot.base);
+  std::vector<bool> holds(robot.links.size());
+  for (size_t i = 0; i < holds.size(); ++i) {
     const int parent = robot.links[i].parent;
-    out[i] = palm < 0 || static_cast<int>(i) == palm || (parent >= 0 && out[parent]);
+    holds[i] = palm < 0 || static_cast<int>(i) == palm || (parent >= 0 && holds[parent]);
+    if (holds[i]) out.insert(robot.links[i].body);
   }
-  return out;
 }
 
 }  // namespace
+
+std::vector<Contact> contacts_on_objects(const World& world) {
+  std::vector<Id<Body>> parts, objects;
+  for (const Id<Body> id : world.bodies()) {
+    const BodyKind kind = world.body(id).kind;
+    if (kind == BodyKind::object)
+      objects.push_back(id);
+    else if (kind != BodyKind::obstacle)
+      parts.push_back(id);
+  }
+  return contacts(world, parts, objects);
+}
 
 std::set<Id<Body>> touched_bodies(const World& world, std::span<const Contact> contacts) {
   std::set<Id<Body>> out;
@@ -54,12 +83,7 @@ std::set<Id<Body>> touched_bodies(const World& world, std::span<const Contact> c
       touching[robot].push_back(world.body(part).link);
     }
   }
-  for (const auto& [id, links] : touching) {
-    const Robot& robot = world.robot(id);
-    const std::vector<bool> holding = holding_links(robot, links);
-    for (size_t i = 0; i < holding.size(); ++i)
-      if (holding[i]) out.insert(robot.links[i].body);
-  }
+  for (const auto& [id, links] : touching) add_holding(world, world.robot(id), links, out);
   return out;
 }
 

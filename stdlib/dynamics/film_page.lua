@@ -17,7 +17,7 @@ local function data_of(recording)
   recording:each(function(world, frame)
     local poses = {}
     for _, body in ipairs(world.bodies) do
-      if body.mesh then
+      if body.visual_mesh then
         local key = body.name .. "\0" .. body.kind
         if not number_of[key] then
           parts[#parts + 1] = {name = body.name, kind = kind_of(body), mesh = list:add(body)}

@@ -5,33 +5,28 @@ local read_options = require "clench.options"
 -- a word for the shell
 local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
 
--- what is seen of all frames: the middle and the radius of what moves
-local function seen(recording)
-  local low, high
-  recording:each(function(world)
-    local bodies = #world.objects + #world.robots > 0 and world.bodies or world.obstacles
-    for _, body in ipairs(bodies) do
-      if body.mesh and (body.kind ~= "obstacle" or bodies == world.obstacles) then
-        local b = body.bounds_in_world
-        low = low and clench.vec3(math.min(low.x, b.low.x), math.min(low.y, b.low.y), math.min(low.z, b.low.z)) or b.low
-        high = high and clench.vec3(math.max(high.x, b.high.x), math.max(high.y, b.high.y), math.max(high.z, b.high.z)) or b.high
-      end
+local max_states = 500  -- frames that the camera is chosen for; of more, evenly spaced ones
+
+-- height of the lowest point of all states [m]
+local function lowest(states)
+  local low = math.huge
+  for _, world in ipairs(states) do
+    for _, body in ipairs(world.bodies) do
+      if body.mesh then low = math.min(low, body.bounds_in_world.low.z) end
     end
-  end)
-  if not low then return clench.vec3(0, 0, 0), 0.5 end
-  return (low + high) * 0.5, math.max((high - low):norm() / 2, 1e-3)
+  end
+  return low < math.huge and low or nil
 end
 
--- a camera that stands still and sees everything, unless another is given
-local function camera_for(recording, given)
-  if given.eye then return end
-  local middle, radius = seen(recording)
-  local target = given.target or middle
-  -- what is no angle the picture refuses
-  local field = type(given.field_of_view) == "number" and given.field_of_view or 0.6
-  local away = clench.vec3(0.75, -0.95, 0.6)
-  given.target, given.field_of_view = target, given.field_of_view or field
-  given.eye = target + away / away:norm() * (1.05 * radius / math.sin(field / 2))
+-- the camera that render would choose and the floor, standing still for all frames, unless others are given
+local function set_scene(recording, given)
+  local count, states = #recording.times, {}
+  local step = math.max(1, (count - 1) / (max_states - 1))
+  recording:each(function(world, frame)
+    if frame >= 1 + #states * step - 1e-9 or frame == count then states[#states + 1] = world:clone() end
+  end)
+  for key, value in pairs(clench.camera(states, given)) do given[key] = value end
+  if given.ground == nil or given.ground == true then given.ground = lowest(states) end
 end
 
 local function no_ffmpeg(program)
@@ -78,7 +73,7 @@ return function(recording, path, ending, options)
   if read.ffmpeg and ending ~= "mp4" then own:fail "ffmpeg writes .mp4 alone" end
   if ending == "mp4" then no_ffmpeg(program) end
   given.size, given.quality = given.size or {480, 360}, given.quality or "draft"
-  camera_for(recording, given)
+  set_scene(recording, given)
 
   local bar <close> = clench.progress(#recording.times, "recording:save")
   local stem = ending == "mp4" and os.tmpname() or path:sub(1, -5) .. "_"

@@ -10,8 +10,8 @@ local printable = require "clench.printable"
 local plan_files = require "clench.host.plan_files"
 local plan_list = require "clench.host.plan_list"
 local recorded = require "clench.plan.recorded"
-local reading = require "clench.host.reading"
 local report_rows = require "clench.plan.report_rows"
+local scene = require "clench.host.scene"
 local given_of = require "clench.plan.given"
 local fail = require "clench.host.usage"
 
@@ -19,27 +19,6 @@ local plan = {}
 local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
 local function visible(text) return printable(in_utf8(text), "\n") end
-
--- numbers separated by commas; {} if anything else is among them
-local function numbers_of(text)
-  local numbers, count = {}, 0
-  for word in (text .. ","):gmatch "([^,]*)," do
-    count = count + 1
-    numbers[count] = word:match "^%s*[-+.%d][-+.%deE]*%s*$" and tonumber(word)
-  end
-  return count == #numbers and numbers or {}
-end
-
--- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
-local function pose_of(option, text)
-  local numbers = numbers_of(text)
-  if #numbers ~= 3 and #numbers ~= 6 then
-    fail("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'", option, text)
-  end
-  local pose = {xyz = {numbers[1], numbers[2], numbers[3]}}
-  if #numbers == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
-  return pose
-end
 
 -- words of the command line: name, value, name, value ...; some names come several times
 local function read_words(...)
@@ -53,51 +32,6 @@ local function read_words(...)
     fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
   end
   return given
-end
-
--- "1,-2,thumb": DOFs by number or name, with the direction in which each closes
-local function closing_of(text)
-  local close = {}
-  for word in (text .. ","):gmatch "([^,]*)," do
-    local sign, name = word:match "^%s*([-+]?)(.-)%s*$"
-    if name == "" then fail("--close: expected DOFs by number or name, as in 1,-2,thumb, got '%s'", text) end
-    close[math.tointeger(tonumber(name)) or name] = sign == "-" and -1 or 1
-  end
-  return close
-end
-
--- "DX,DY,DZ[,X,Y,Z]"
-local function approach_of(text)
-  local x = numbers_of(text)
-  if #x ~= 3 and #x ~= 6 then fail("--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in metres, got '%s'", text) end
-  return {direction = {x[1], x[2], x[3]}, point = #x == 6 and {x[4], x[5], x[6]} or nil}
-end
-
-local function set_friction(world, hand, object, mu)
-  for _, body in ipairs(hand.bodies) do world:set_friction(body.material, object.material, {static = mu, kinetic = mu}) end
-end
-
-local function load_world(given, said)
-  local world = clench.world()
-  local function body(option, pose)
-    local options = reading("body", said)
-    options.pose = pose and pose_of(option, pose) or nil
-    return options
-  end
-  local of_robot = reading("robot", said)
-  of_robot.unit = nil  -- robots' files have units of their own
-  of_robot.close = given.close and closing_of(given.close)
-  of_robot.approach = given.approach and approach_of(given.approach)
-  local hand = world:add_robot(given.hand, of_robot)
-  local options = body("--pose", given.pose)
-  options.mass, options.material = tonumber(given.mass), given.material
-  local object = world:add_object(given.object, options)
-  for i, path in ipairs(given.obstacle) do
-    world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))
-  end
-  if given.friction then set_friction(world, hand, object, tonumber(given.friction)) end
-  if not object.mesh then fail("%s: an object without a surface cannot be grasped", given.object) end
-  return world, hand, object
 end
 
 local function check_words(given)
@@ -148,7 +82,7 @@ local function search(root, folder, package, unit, strict, ...)
   check_words(given)
   job.given = given
   job.list, job.files = plan_list.check(given), plan_files.check(given)
-  job.world, job.hand, job.object = load_world(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
+  job.world, job.hand, job.object = scene.load(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
   local list = job.list
   if list then list:compare(identity.of(given, job.world, job.hand), math.tointeger(tonumber(given.count))) end
   if list and list.is_complete then
@@ -199,13 +133,13 @@ local function print_table(rows)
     local row = rows[i]
     list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
                        row.perturbed and ("%.4f"):format(row.perturbed) or "-", tostring(row.contacts),
-                       tostring(row.azimuth), tostring(row.elevation), shaken and (row.held == 6 and "held" or ("lost %d"):format(6 - row.held)) or nil}
+                       tostring(row.azimuth), tostring(row.elevation), shaken and ("%d of 6"):format(row.held) or nil}
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end
   print "load: times the object's weight, in the worst direction; perturbed: least epsilon with the object displaced by 1 mm;"
   print "azimuth, elevation: where the hand comes from [degrees]"
-  if shaken then print "shaken: lost along so many of six directions, when pulled by its weight in simulation" end
+  if shaken then print "shaken: held in so many of six directions, when pulled by its weight in simulation" end
 end
 
 --- Is there something to save and to show after a signal?
@@ -248,7 +182,8 @@ local function show()
   if job.note then print(visible(job.note)) end
   local subtitle = options_line()
   print(visible(subtitle))
-  job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words})
+  job.files:show(job.hand, job.object, grasps, {title = title, subtitle = subtitle, report = words,
+                                                 assumptions = type(run.report) == "table" and run.report.assumptions and run.report.assumptions.lines})
   return #grasps
 end
 

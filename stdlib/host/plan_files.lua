@@ -1,51 +1,59 @@
---- The sheet and the page that `clench plan` writes at its end.
+--- The sheet, the table and the page that `clench plan` writes at its end.
 local find_three = require "clench.page.three"
+local grasp_table = require "clench.plan.grasp_table"
 local in_utf8 = require "clench.in_utf8"
+local picture_words = require "clench.host.picture_words"
 local printable = require "clench.printable"
 local report_rows = require "clench.plan.report_rows"
+local sheet = require "clench.plan.sheet"
 local fail = require "clench.host.usage"
 
+local on_sheet = 24
+local sheet_defaults = {size = {320, 240}, quality = "draft", background = "white"}
 local Files = {}
 Files.__index = Files
 
 local function shown(text) return printable(in_utf8(text)) end
 
 -- a file that cannot be written is reported before the search, not after it
-local function check(option, path, ending)
+local function check(option, path, ending, other)
   if not path then return end
-  if path:sub(-#ending):lower() ~= ending then fail("%s: expected a file %s, got '%s'", option, ending, path) end
+  local given = path:lower():match "%.%w+$"
+  if given ~= ending and (not other or given ~= other) then
+    fail("%s: expected a file %s%s, got '%s'", option, ending, other and " or " .. other or "", path)
+  end
   local ok, problem = pcall(clench.files.check_writable, path)
   if not ok then error(("%s: %s"):format(option, problem.sentence or problem), 0) end
 end
 
 --- Checks the options and the files on the disk, and changes nothing.
----@param given {sheet?: string, report?: string}
+---@param given table<string, string>  options by name
 function Files.check(given)
   check("--sheet", given.sheet, ".png")
+  check("--table", given.table, ".tex", ".csv")
   check("--report", given.report, ".html")
+  for _, name in ipairs {"quality", "size", "frame"} do
+    if given[name] and not given.sheet then fail("--%s says how --sheet is drawn, and there is no --sheet", name) end
+  end
+  local drawing = picture_words(given, sheet_defaults)
   if given.report then
     local three, missing = find_three()
     if not three then fail("--report: %s", missing) end
   end
-  return setmetatable({sheet = given.sheet, page = given.report}, Files)
+  return setmetatable({sheet = given.sheet, page = given.report, table = given.table, drawing = drawing}, Files)
 end
 
-local on_sheet = 24
-
-local function draw_sheet(hand, object, grasps)
-  local pictures, captions = {}, {}
-  local best = {}
+local function draw_sheet(options, hand, object, grasps, notes)
+  local pictures, best = {}, {}
   for i = 1, math.min(#grasps, on_sheet) do best[i] = grasps[i] end
-  report_rows(hand, object, best, function(row)
-    pictures[#pictures + 1] = clench.render(hand.world, {size = {320, 240}, quality = "draft", background = "white"})
-    captions[#captions + 1] = ("%d: epsilon %.3f"):format(row.number, row.epsilon) .. (row.load and (", load %.1f"):format(row.load) or "")
-  end)
-  return clench.sheet {pictures = pictures, captions = captions}
+  local rows = report_rows(hand, object, best, function() pictures[#pictures + 1] = clench.render(hand.world, options) end)
+  return sheet(rows, pictures, notes)
 end
 
-local function write_sheet(path, hand, object, grasps)
-  draw_sheet(hand, object, grasps):save(path)
-  print(("%s: %d pictures"):format(shown(path), math.min(#grasps, on_sheet)))
+local function write_sheet(files, hand, object, grasps, words)
+  local notes = {words.title, table.unpack(words.assumptions or {})}
+  draw_sheet(files.drawing, hand, object, grasps, notes):save(files.sheet)
+  print(("%s: %d pictures"):format(shown(files.sheet), math.min(#grasps, on_sheet)))
 end
 
 local function write_page(path, hand, object, grasps, words)
@@ -70,11 +78,15 @@ local function has_something(path, count, is_page)
   return false
 end
 
---- Writes the contact sheet and the page, if requested; a failure of one does not prevent the other.
----@param words {title: string, subtitle: string, report: string}
+--- Writes the contact sheet, the table and the page, if requested; a failure of one does not prevent the other.
+---@param words {title: string, subtitle: string, report: string, assumptions?: string[]}
 function Files:show(hand, object, grasps, words)
   local ok, problem = true, nil
-  if has_something(self.sheet, #grasps, false) then ok, problem = pcall(write_sheet, self.sheet, hand, object, grasps) end
+  if has_something(self.sheet, #grasps, false) then ok, problem = pcall(write_sheet, self, hand, object, grasps, words) end
+  if has_something(self.table, #grasps, false) then
+    grasp_table(self.table, report_rows(hand, object, grasps), words.title)
+    print(("%s: %d rows"):format(shown(self.table), #grasps))
+  end
   if has_something(self.page, #grasps, true) then write_page(self.page, hand, object, grasps, words) end
   if not ok then error(problem, 0) end
 end

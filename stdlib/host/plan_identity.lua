@@ -4,7 +4,7 @@ local in_utf8 = require "clench.in_utf8"
 local identity = {}
 
 -- grasps do not depend on these
-local about_the_run = {"count", "format", "lines", "o", "overwrite", "report", "resume", "seconds", "sheet", "threads"}
+local about_the_run = {"count", "format", "frame", "lines", "o", "overwrite", "quality", "report", "resume", "seconds", "sheet", "size", "table", "threads"}
 -- covered by the fingerprint of the scene; compared only for the message
 local about_the_scene = {"hand", "object", "obstacle", "pose", "obstacle-pose", "mass", "material", "friction", "close", "approach"}
 local defaults = {contacts = "any", ["force-ratio"] = "10", seed = "1"}

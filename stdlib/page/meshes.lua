@@ -48,14 +48,14 @@ Meshes.__index = Meshes
 
 --- The number, from 0, of a body's mesh in the list.
 function Meshes:add(body)
-  local mesh = packed_mesh(body.mesh)
+  local mesh = packed_mesh(body.visual_mesh)
   local key = mesh.positions .. mesh.indices
   if not self.number_of[key] then
     self.list[#self.list + 1] = mesh
     self.number_of[key] = #self.list
   end
-  if body.mesh.triangle_count > large then
-    self.notes[#self.notes + 1] = ("the mesh of %s has %d triangles: the page is large and may turn slowly"):format(body.name, body.mesh.triangle_count)
+  if body.visual_mesh.triangle_count > large then
+    self.notes[#self.notes + 1] = ("the mesh of %s has %d triangles: the page is large and may turn slowly"):format(body.name, body.visual_mesh.triangle_count)
   end
   return self.number_of[key] - 1
 end

@@ -17,9 +17,12 @@ main { display: grid; grid-template-columns: minmax(340px, 1fr) minmax(560px, 1f
 .controls { display: flex; flex-wrap: wrap; gap: 4px 18px; padding: 6px 2px 0; font-size: 13.5px; color: var(--soft); }
 .controls button { font: inherit; color: inherit; border: 1px solid var(--line); border-radius: 5px; background: #fff; cursor: pointer; }
 .key { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 5px; }
-.card { background: #fff; border: 1px solid var(--line); border-radius: 8px; overflow-x: auto; }
+.card { background: #fff; border: 1px solid var(--line); border-radius: 8px; max-height: calc(100vh - 120px); overflow: auto; }
+.card::-webkit-scrollbar { width: 12px; height: 12px; }
+.card::-webkit-scrollbar-track { background: #eef1f4; }
+.card::-webkit-scrollbar-thumb { background: #a9b4c2; border: 2px solid #eef1f4; border-radius: 6px; }
 table { border-collapse: collapse; width: 100%; }
-th { position: sticky; top: 0; background: #fff; text-align: right; font-size: 12.5px; font-weight: 600; color: var(--soft);
+th { position: sticky; top: 0; z-index: 1; background: #fff; text-align: right; font-size: 12.5px; font-weight: 600; color: var(--soft);
   padding: 9px 10px; border-bottom: 1px solid var(--line); vertical-align: bottom; white-space: nowrap; }
 th button { all: unset; cursor: pointer; }
 th button:focus-visible { outline: 2px solid var(--accent); }
@@ -36,6 +39,7 @@ tbody tr[aria-selected=true] { background: #e4effd; box-shadow: inset 3px 0 var(
 section.words { padding: 0 24px 24px; }
 section.words h2 { font-size: 15px; margin: 6px 0; }
 pre { margin: 0; white-space: pre-wrap; overflow-wrap: anywhere; font: 13px/1.5 "DejaVu Sans Mono", monospace; color: var(--soft); }
+ul { margin: 0 0 14px; padding-left: 20px; font-size: 13.5px; color: var(--soft); }
 dl { margin: 0 0 14px; display: grid; grid-template-columns: max-content 1fr; gap: 2px 14px; font-size: 13.5px; }
 dt { font-weight: 600; } dd { margin: 0; color: var(--soft); }
 ]==]

@@ -41,7 +41,11 @@ local function friction_line(hand, object, given)
     source_of(hand, "material_from", hand.bodies), of_object)
 end
 
-local function mass_line(object, given)
+--- The mass of the object [kg], and a line with its source.
+---@param object body
+---@param given table<string, string>  options of the command line by name
+---@return number, string
+function assumptions.mass(object, given)
   return object.mass, ("mass %.4g kg (%s)"):format(object.mass, given.mass and "--mass" or source_of(object, "mass_from", {object}))
 end
 
@@ -82,7 +86,7 @@ end
 function assumptions.of(hand, object, verify, given)
   local out = {lines = {}}
   out.friction, out.lines[1] = friction_line(hand, object, given)
-  out.mass, out.lines[2] = mass_line(object, given)
+  out.mass, out.lines[2] = assumptions.mass(object, given)
   out.force_ratio, out.lines[3] = force_line(verify, given)
   out.lines[4] = effort_line(hand, given)
   return out

@@ -45,7 +45,7 @@ function Report:__tostring()
   tell_steps(lines, self)
   if self.primitives then add(lines, "primitives: %s", self.primitives) end
   tell_candidates(lines, self)
-  if self.shaken then add(lines, "%d of %d grasps that were shaken survived", self.survived, self.shaken) end
+  if self.shaken then add(lines, "%d of %d grasps that were shaken held in 6 of 6 directions", self.survived, self.shaken) end
   if self.found > self.grasps + self.alike then
     add(lines, "of %d that were found %d are kept, good ones from all sides", self.found, self.grasps)
   end

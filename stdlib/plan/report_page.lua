@@ -27,7 +27,7 @@ local columns = {
   {"epsilon", "", "epsilon", "%.4f", "the least wrench that breaks the grasp, with contact forces that sum to 1, torques divided by the length rho"},
   {"load margin", "weights", "load", "%.1f", "load that the hand can hold within its motors' limits, in the worst of six directions"},
   {"perturbed", "epsilon", "perturbed", "%.4f", "the least epsilon when the hand closes again on the object displaced by a little, in the worst of six directions"},
-  {"shaken", "held of 6", "held", "%d", "along how many of six directions the object was held when it was pulled by its weight in simulation"},
+  {"shaken", "held in", "held", "%d of 6", "in how many of 6 directions the object was held when its weight pulled it in simulation"},
   {"contacts", "", "contacts", "%d", "points of the hand that touch the object"},
   {"azimuth", "degrees", "azimuth", "%d", "where the hand comes from, about the world's z, from +x towards +y"},
   {"elevation", "degrees", "elevation", "%d", "where the hand comes from: 90 is from above"},
@@ -70,7 +70,7 @@ local function table_of(rows, pictures, columns)
       local value = row[c[3]]
       local is_number = value and value == value and math.abs(value) < math.huge
       add(('<td data-value="%s">%s</td>'):format(is_number and ("%.9g"):format(value) or value and "1e999" or "",
-        is_number and c[4]:format(c[4] == "%d" and math.tointeger(value) or value) or value and "unlimited" or "&ndash;"))
+        is_number and c[4]:format(c[4]:find "%d" and math.tointeger(value) or value) or value and "unlimited" or "&ndash;"))
     end
     add "</tr>\n"
   end
@@ -78,10 +78,18 @@ local function table_of(rows, pictures, columns)
   return table.concat(out)
 end
 
-local function words_of(report, notes, columns)
+local function assumptions_of(lines)
+  if not lines or #lines == 0 then return "" end
+  local out = {"<h2>Assumptions</h2><ul>"}
+  for _, line in ipairs(lines) do out[#out + 1] = ("<li>%s</li>"):format(escaped(line)) end
+  return table.concat(out) .. "</ul>"
+end
+
+local function words_of(words, notes, columns)
   local out = {'<section class="words"><h2>What the columns mean</h2><dl>'}
   for i = 2, #columns do out[#out + 1] = ("<dt>%s</dt><dd>%s</dd>"):format(columns[i][1], escaped(columns[i][5])) end
-  out[#out + 1] = "</dl><h2>What the search did</h2><pre>" .. escaped(report) .. "</pre>"
+  out[#out + 1] = "</dl>" .. assumptions_of(words.assumptions)
+  out[#out + 1] = "<h2>What the search did</h2><pre>" .. escaped(words.report) .. "</pre>"
   for _, note in ipairs(notes) do out[#out + 1] = "<p>" .. escaped(note) .. "</p>" end
   return table.concat(out) .. "</section>\n"
 end
@@ -89,7 +97,7 @@ end
 ---@param hand robot
 ---@param object body
 ---@param grasps grasp[]  the first 100 are shown
----@param words {title: string, subtitle: string, report: string, three?: string[]}  three: where three.js may be
+---@param words {title: string, subtitle: string, report: string, assumptions?: string[], three?: string[]}  three: where three.js may be
 ---@return string html, string[] notes  sentences on what is left out or large
 return function(hand, object, grasps, words)
   local three, missing = find_three(words.three)
@@ -110,7 +118,7 @@ return function(hand, object, grasps, words)
   for _, column in ipairs(columns) do
     if column[3] ~= "held" or rows[1] and rows[1].held then shown_columns[#shown_columns + 1] = column end
   end
-  local parts = {head_of(words.title, words.subtitle), view, table_of(rows, pictures, shown_columns), words_of(words.report, notes, shown_columns),
+  local parts = {head_of(words.title, words.subtitle), view, table_of(rows, pictures, shown_columns), words_of(words, notes, shown_columns),
                  '<script type="application/json" id="data">', json(data), "</script>\n<script>", code(three),
                  "</script>\n<script>", code(require "clench.page.scene"), code(require "clench.plan.report_page_view"),
                  code(require "clench.plan.report_page_table"), "</script>\n</body></html>\n"}

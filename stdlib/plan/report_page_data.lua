@@ -23,13 +23,13 @@ return function(hand, object, grasps, visit)
 
   local moving = {}
   for _, body in ipairs(hand.bodies) do
-    if body.mesh then
+    if body.visual_mesh then
       moving[#moving + 1] = body
       data.parts[#moving] = add_part(body, body == hand.base and "base" or "link")
     end
   end
   for _, body in ipairs {object, table.unpack(world.obstacles)} do
-    if body.mesh then
+    if body.visual_mesh then
       local part = add_part(body, body == object and "object" or "obstacle")
       part.pose = numbers(body.pose)
       data.still[#data.still + 1] = part

@@ -1,7 +1,9 @@
 #include "clench/render/view/frame.h"
 
+#include <cmath>
 #include <limits>
 
+#include "clench/base/random.h"
 #include "clench/math/decompositions.h"
 #include "pictures.h"
 
@@ -73,6 +75,46 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   // the ball's centre seen from the eye does not lie beyond the wall's plane
   CHECK(moved.eye.dot(side) < 0.6 + 1);
   CHECK((moved.eye - moved.target).normalized().dot(side) < 0.5);
+}
+
+TEST_CASE("a view is of the side where contacts are seen, also where what hides them is drawn clear") {
+  // a glass ball in a cup that is open towards one side, in which the contacts lie
+  for (const double angle : {0.3, 1.7, 2.9, 4.4}) {
+    const Eigen::Vector3d open(std::cos(angle), std::sin(angle), 0);
+    Scene scene;
+    scene.meshes.push_back(solid(ball(0.3)));
+    scene.meshes[0].opacity = 0.3f;
+    for (int k = 1; k < 8; ++k) {
+      const double at = angle + 2 * 3.14159265 * k / 8;
+      const Eigen::Vector3d side(std::cos(at), std::sin(at), 0);
+      const Pose X_WM{shortest_rotation(Eigen::Vector3d::UnitX(), side), 0.5 * side};
+      scene.meshes.push_back(solid(box(0.05, 0.4, 1.2), {1, 1, 1}, X_WM));
+      scene.meshes.back().opacity = 0.2f;
+      scene.meshes.back().hides = true;
+    }
+    for (const double z : {-0.1, 0.0, 0.1}) scene.spots.push_back({0, 0, z});
+    const Eye eye = frame_all(scene, 1);
+    Eigen::Vector3d from = eye.eye - eye.target;
+    from.z() = 0;
+    CHECK(from.normalized().dot(open) > 0.8);
+  }
+}
+
+TEST_CASE("points that must be held lie in the frame, whatever the meshes are") {
+  Random random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene;
+    scene.meshes.push_back(solid(box(0.1, 0.2, 0.1)));
+    for (int i = 0; i < 10; ++i)
+      scene.held.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    const Eye eye = frame_all(scene, 1.4);
+    const Eigen::Matrix4d to_clip = view_projection(eye, 1.4, 1e-3, 1e3);
+    for (const auto& p : scene.held) {
+      const Eigen::Vector4d clip = to_clip * p.homogeneous();
+      CHECK(std::abs(clip.x()) < 0.85 * clip.w());
+      CHECK(std::abs(clip.y()) < 0.85 * clip.w());
+    }
+  }
 }
 
 TEST_CASE("what need not be seen may leave the frame, and the view is not from its side") {

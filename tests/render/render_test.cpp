@@ -311,3 +311,51 @@ TEST_CASE("numbers out of range are refused by name") {
   CHECK_THROWS_WITH_AS(render(scene),
                        "picture: field of view must be between 0.001 and 3 [rad], got 3.2", Error);
 }
+
+TEST_CASE("a glass box on the floor, and one on a table, show one and the same bottom from any side") {
+  REQUIRE_PICTURES();
+  // the table's top is as high as the floor of the first
+  for (const bool table : {false, true})
+    for (const Quality quality : {Quality::draft, Quality::paper})
+      for (int view = 0; view < 6; ++view) {
+        Scene scene;
+        scene.meshes.push_back(solid(box(0.1, 0.1, 0.1), {0, 0, 1}, Pose::translation({0, 0, 0.05})));
+        scene.meshes[0].opacity = 0.3f;
+        if (table)
+          scene.meshes.push_back(
+              solid(box(0.4, 0.4, 0.02), {1, 1, 1}, Pose::translation({0, 0, -0.01})));
+        else
+          scene.ground = 0;
+        Eye eye;
+        eye.eye = {0.013 * view - 0.03, -0.3 + 0.004 * view, 0.31};
+        eye.target = {0, 0, 0};
+        scene.eye = eye;
+        const Picture picture = render(
+            scene, {.width = 96, .height = 96, .samples = 1, .quality = quality});
+        // within the bottom neighbours differ by less than one layer of glass
+        int most = 0;
+        for (int x = 42; x < 54; ++x)
+          for (int y = 46; y < 52; ++y) {
+            const Color here = pixel(picture, x, y), next = pixel(picture, x + 1, y);
+            for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(here[k] - next[k]));
+          }
+        CAPTURE(view);
+        CHECK(most < 12);
+      }
+}
+
+TEST_CASE("a picture knows its camera, and drawn with that it is the same to the byte") {
+  REQUIRE_PICTURES();
+  Scene scene;
+  scene.meshes.push_back(solid(box(0.1, 0.2, 0.3)));
+  for (const Quality quality : {Quality::draft, Quality::paper}) {
+    const RenderOptions options{.width = 64, .height = 48, .samples = 2, .quality = quality};
+    const Picture chosen = render(scene, options);
+    REQUIRE(chosen.eye);
+    Scene again = scene;
+    again.eye = chosen.eye;
+    CHECK(render(again, options) == chosen);
+    again.eye->eye *= 1.1;
+    CHECK(render(again, options) != chosen);
+  }
+}

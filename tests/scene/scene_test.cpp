@@ -6,6 +6,7 @@
 
 #include "clench/base/error.h"
 #include "clench/model/find.h"
+#include "clench/scene/cones.h"
 #include "clench/scene/palette.h"
 #include "clench/scene/touched.h"
 #include "support/robots.h"
@@ -67,37 +68,66 @@ TEST_CASE("a file's own colours are used unless it is asked not to") {
   CHECK(ours.opacity == 1);
 }
 
-TEST_CASE("a cone stands at each contact of a robot with an object, opening into the object") {
+TEST_CASE("a cone stands in the middle of each patch of a robot on an object, opening into it") {
   World world;
   // a palm under a box, a tenth of the threshold below it, and an obstacle on top as near
   const double gap = 0.1 * world.contact_threshold();
   const Id<Body> object = world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
-  world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - gap}));
+  world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0.01, -0.075 - gap}));
   world.add_body(body("lid", box(0.1, 0.1, 0.1)), BodyKind::obstacle,
                  Pose::translation({0, 0, 0.1 + gap}));
   const auto all = contacts(world);
+  REQUIRE(all.size() >= 8);
   const Scene scene = make_scene(world);
-  REQUIRE(scene.cones.size() == 4);
-  CHECK(all.size() == 8);
+  REQUIRE(scene.cones.size() == 1);
   const double mu =
       world.materials().friction(world.body(object).material, world.body(object).material).statics;
-  for (const DrawCone& cone : scene.cones) {
-    CHECK(cone.apex.z() == doctest::Approx(-0.05));
-    CHECK((cone.axis - Eigen::Vector3d::UnitZ()).norm() < 1e-9);
-    CHECK(cone.half_angle == doctest::Approx(std::atan(mu)));
-    CHECK(cone.height > 0);
-    CHECK(cone.height < 0.05);
-  }
+  const DrawCone& cone = scene.cones[0];
+  CHECK((cone.apex - Eigen::Vector3d(0, 0.01, -0.05)).norm() < 1e-9);
+  CHECK((cone.axis - Eigen::Vector3d::UnitZ()).norm() < 1e-9);
+  CHECK(cone.half_angle == doctest::Approx(std::atan(mu)));
+  CHECK(cone.height > 0);
+  CHECK(cone.height < 0.05);
+  // a view looks at the patch, whether its cone is drawn or not
+  CHECK(!scene.spots.empty());
   CHECK(make_scene(world, {.contacts = false}).cones.empty());
+  CHECK(make_scene(world, {.contacts = false}).spots == scene.spots);
 }
 
-TEST_CASE("cones of contacts that lie close do not reach each other, and stay in sight") {
-  for (const double side : {0.1, 0.01, 0.002}) {
+TEST_CASE("each face that a robot touches has a patch of its own") {
+  World world;
+  world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
+  const double off = 0.075 + 1e-5;
+  for (const Eigen::Vector3d& side : {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
+                                      Eigen::Vector3d(0, -1, 0)})
+    world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation(off * side));
+  const auto patches = touch_patches(contacts_on_objects(world));
+  REQUIRE(patches.size() == 3);
+  for (const TouchPatch& patch : patches) {
+    CHECK(patch.contacts.size() >= 4);
+    CHECK(patch.p_W.norm() == doctest::Approx(0.05));
+    CHECK(patch.n_W.dot(patch.p_W) == doctest::Approx(-0.05));
+  }
+}
+
+namespace {
+
+// blocks of this width in a row under a tin, each a robot of its own
+void add_row(World& world, double side, int count) {
+  world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
+  for (int i = 0; i < count; ++i)
+    world.add_robot(block(box(side, side, 0.05)),
+                    Pose::translation({1.5 * side * (i - 0.5 * (count - 1)), 0, -0.075 - 1e-5}));
+}
+
+}  // namespace
+
+TEST_CASE("cones of patches that lie close do not reach each other, and stay in sight") {
+  for (const double side : {0.06, 0.01, 0.002}) {
     World world;
-    world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
-    world.add_robot(block(box(side, side, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
+    add_row(world, side, 2);
     const std::vector<DrawCone> cones = make_scene(world).cones;
-    REQUIRE(cones.size() >= 4);
+    REQUIRE(cones.size() == 2);
     // without a neighbour: 0.15 of the object's largest radius
     const double usual = 0.15 * std::sqrt(3) * 0.05;
     for (const DrawCone& a : cones) {
@@ -114,8 +144,7 @@ TEST_CASE("cones of contacts that lie close do not reach each other, and stay in
 
 TEST_CASE("cones are of one size, or in proportion to friction or to force, as asked") {
   World world;
-  world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
-  world.add_robot(block(box(0.01, 0.01, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
+  add_row(world, 0.01, 3);
   const double usual = 0.15 * std::sqrt(3) * 0.05;
   const auto heights = [&](SceneOptions options) {
     std::vector<double> out;
@@ -128,11 +157,14 @@ TEST_CASE("cones are of one size, or in proportion to friction or to force, as a
   for (const double height : heights({.cone_sizes = ConeSizes::equal, .cone_height = 0.02}))
     CHECK(height == 0.02);
 
-  // two contacts with forces, one twice the other; the others have no cone
-  const std::vector<DrawCone> cones = make_scene(world).cones;
-  REQUIRE(cones.size() >= 4);
+  // a patch has the sum of the forces of its contacts: 1, 2 and 0, which has no cone
+  const auto patches = touch_patches(contacts_on_objects(world));
+  REQUIRE(patches.size() == 3);
   SceneOptions options{.cone_sizes = ConeSizes::force, .cone_height = 0.03};
-  options.loads = {{cones[0].apex, 1}, {cones[2].apex, 2}, {cones[1].apex, 0}};
+  options.loads = {{patches[0].contacts[0].p_W, 1},
+                   {patches[1].contacts[0].p_W, 1.5},
+                   {patches[1].contacts[1].p_W, 0.5},
+                   {patches[2].contacts[0].p_W, 0}};
   CHECK(heights(options) == std::vector<double>{0.015, 0.03});
 
   CHECK_THROWS_WITH_AS(make_scene(world, {.cone_height = -1}),
@@ -156,7 +188,7 @@ TEST_CASE(
   CHECK(framed(Framing::contacts) == std::vector{true, true});
   // a palm without links
   world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
-  CHECK(framed(Framing::contacts) == std::vector{true, false, false});
+  CHECK(framed(Framing::contacts) == std::vector{true, false, true});
   CHECK(framed(Framing::all) == std::vector{true, true, true});
 }
 
@@ -193,7 +225,8 @@ TEST_CASE("of a robot that touches, a view holds the links from its palm outward
   CHECK(framed() == std::set<std::string>{"knuckles", "left", "right", "tin"});
   // the forearm touches, and nothing but its base carries more than one branch
   world.set_pose(tin, Pose::translation({0.1, 0, 0.2}));
-  CHECK(framed() == std::set<std::string>{"forearm", "knuckles", "left", "right", "tin"});
+  CHECK(framed() ==
+        std::set<std::string>{"palm", "forearm", "knuckles", "left", "right", "tin"});
 }
 
 TEST_CASE("links of a robot that is seen through are clear, its base and other robots are not") {
@@ -204,7 +237,9 @@ TEST_CASE("links of a robot that is seen through are clear, its base and other r
   REQUIRE(scene.meshes.size() == world.bodies().size());
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     const Body& body = world.body(world.bodies()[i]);
-    CHECK((scene.meshes[i].opacity < 0.5f) == (body.kind == BodyKind::link && body.robot == first));
+    const bool clear = body.kind == BodyKind::link && body.robot == first;
+    CHECK((scene.meshes[i].opacity < 0.5f) == clear);
+    CHECK(scene.meshes[i].hides == clear);
   }
 }
 

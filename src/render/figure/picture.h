@@ -1,8 +1,11 @@
 // Pictures as values, and PNG files.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "clench/scene/eye.h"
 
 namespace clench {
 
@@ -12,8 +15,14 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<uint8_t> pixels;
   std::vector<uint8_t> alpha = {};  ///< one a pixel, 255 covers all; empty: all covers
+  /// camera of a picture of a scene; empty: of a figure
+  std::optional<Eye> eye = {};
 
-  bool operator==(const Picture&) const = default;
+  /// compares size and pixels
+  bool operator==(const Picture& other) const {
+    return width == other.width && height == other.height && pixels == other.pixels &&
+           alpha == other.alpha;
+  }
 };
 
 /// On white, all covered.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "clench/render/figure/smooth_edges.h"
+#include "clench/render/gl/depth_offset.h"
 #include "clench/render/mesh/draw_list.h"
 #include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/outward.h"
@@ -209,6 +210,7 @@ void DraftPainter::draw(const Placed& placed, unsigned program, const Eigen::Mat
 void DraftPainter::draw_glass(const Eigen::Matrix4d& clip) const {
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
+  const gl::DepthOffset over_solids(-1);
   for (const Placed& placed : clear_)
     for (const GLenum side : {GL_FRONT, GL_BACK}) {
       glCullFace(side);
@@ -292,6 +294,7 @@ void DraftPainter::paint(const Tile& tile, Picture& out) {
     give_light(programs_.draft_floor);
     give_backdrop(programs_.draft_floor);
     gl::set(programs_.draft_floor, "bare", bare ? 1.0f : 0.0f);
+    const gl::DepthOffset behind_bodies(1);
     draw({&*floor_, Eigen::Matrix4d::Identity(), {0, 0, 0, 1}, false, 0}, programs_.draft_floor,
          clip);
   }
@@ -312,10 +315,51 @@ void DraftPainter::paint(const Tile& tile, Picture& out) {
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   draw_glass(clip);
   glDisable(GL_BLEND);
-  if (seen) lay_lines(clear_, *seen, clip, target, false);
+  if (seen) {
+    const gl::DepthOffset over_solids(-1);
+    lay_lines(clear_, *seen, clip, target, false);
+  }
 
   glBindFramebuffer(GL_FRAMEBUFFER, target);
   read_tile(tile, out);
+}
+
+// the mean of squares of pixels, weighted by how much they cover
+Picture reduced(const Picture& large, int scale) {
+  Picture out{large.width / scale, large.height / scale, {}};
+  const size_t count = static_cast<size_t>(out.width) * out.height;
+  out.pixels.resize(3 * count);
+  if (!large.alpha.empty()) out.alpha.resize(count);
+  const int squares = scale * scale;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t x = i % out.width * scale, y = i / out.width * scale;
+    int sums[3] = {}, cover = 0;
+    for (int k = 0; k < squares; ++k) {
+      const size_t at = (y + k / scale) * large.width + x + k % scale;
+      const int weight = large.alpha.empty() ? 255 : large.alpha[at];
+      cover += weight;
+      for (int c = 0; c < 3; ++c) sums[c] += weight * large.pixels[3 * at + c];
+    }
+    for (int c = 0; c < 3 && cover > 0; ++c)
+      out.pixels[3 * i + c] = static_cast<uint8_t>((sums[c] + cover / 2) / cover);
+    if (!out.alpha.empty())
+      out.alpha[i] = static_cast<uint8_t>((cover + squares / 2) / squares);
+  }
+  return out;
+}
+
+Picture draw_draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
+                   const RenderOptions& options) {
+  Picture out = empty_picture(options);
+  DraftPainter drawing(programs, store, scene, eye, options);
+  for (const Tile& tile : tiles_of(options)) {
+    options.progress.check();
+    drawing.paint(tile, out);
+  }
+  if (options.draft_scale == 1) smooth_edges(out);
+  divide_by_alpha(out);
+  check_driver();
+  return out;
 }
 
 }  // namespace
@@ -323,16 +367,11 @@ void DraftPainter::paint(const Tile& tile, Picture& out) {
 Picture draft(const Programs& programs, MeshStore& store, const Scene& scene, const Eye& eye,
               const RenderOptions& options) {
   check(scene);
-  Picture out = empty_picture(options);
-  DraftPainter drawing(programs, store, scene, eye, options);
-  for (const Tile& tile : tiles_of(options)) {
-    options.progress.check();
-    drawing.paint(tile, out);
-  }
-  smooth_edges(out);
-  divide_by_alpha(out);
-  check_driver();
-  return out;
+  if (options.draft_scale == 1) return draw_draft(programs, store, scene, eye, options);
+  RenderOptions large = options;
+  large.width *= options.draft_scale, large.height *= options.draft_scale;
+  large.outline *= options.draft_scale;
+  return reduced(draw_draft(programs, store, scene, eye, large), options.draft_scale);
 }
 
 }  // namespace clench

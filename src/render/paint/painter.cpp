@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "clench/render/gl/depth_offset.h"
 #include "clench/render/mesh/outward.h"
 #include "clench/render/paint/outline.h"
 #include "clench/render/paint/tile.h"
@@ -132,6 +133,7 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
   // seen from below it would only be in the way
   if (list_.ground && shading_eye_.z() > *list_.ground) {
     gl::set(programs_.first, "floor_sign", -1.0f);
+    const gl::DepthOffset behind_bodies(1);
     draw(list_.floor);
   }
 }
@@ -206,6 +208,7 @@ void Painter::lay_clear(const Eigen::Matrix4f& clip) {
   gl::set(programs_.through, "to_lamp", lamp_.front().to_light);
   glBindVertexArray(loaded_.array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, sorted_);
+  const gl::DepthOffset over_solids(-1);
   glDrawElements(GL_TRIANGLES, sorted_count_, GL_UNSIGNED_INT, nullptr);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, loaded_.indices);
   glDisable(GL_BLEND);
@@ -258,7 +261,10 @@ void Painter::paint(const Tile& tile, Picture& out) {
     lay_marks(clip);
     lay_lines(marks);
     lay_clear(clip);
-    find(list_.clear, clip);
+    {
+      const gl::DepthOffset over_solids(-1);
+      find(list_.clear, clip);
+    }
     lay_lines(list_.clear);
     add(layers);
   }

@@ -86,6 +86,7 @@ struct Sight {
   Points framed;  // all that must be in the frame, to its last vertex
   Points solid, aside, clear,
       marks;  // some of what hides; of what need not be seen; of what should
+  Points held;  // what must be in the frame besides meshes
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
 };
@@ -131,14 +132,23 @@ void normalise(std::vector<Points>& placed, const std::vector<bool>& must, Sight
     for (size_t i = 0; i < placed.size(); ++i)
       if (must[i])
         for (const auto& p : placed[i]) what(p);
-    for (const auto& p : sight.marks) what(p);
+    for (const auto& p : sight.held) what(p);
   });
   if (!ball) return;
   sight.centre = ball->centre, sight.scale = ball->scale;
   const double unit = 1 / sight.scale;
   for (Points& points : placed)
     for (auto& p : points) p = unit * (p - sight.centre);
-  for (auto& p : sight.marks) p = unit * (p - sight.centre);
+  for (Points* points : {&sight.marks, &sight.held})
+    for (auto& p : *points) p = unit * (p - sight.centre);
+}
+
+// cones and arrows, what else must be held, and the places that should be seen
+void add_marks(const Scene& scene, Sight& sight) {
+  for (const DrawCone& cone : scene.cones) append(sight.held, cone_piece(cone).p_W);
+  for (const DrawArrow& arrow : scene.arrows) append(sight.held, arrow_piece(arrow).p_W);
+  sight.marks = scene.spots.empty() ? sight.held : scene.spots;
+  append(sight.held, scene.held);
 }
 
 Sight sight_of(const Scene& scene) {
@@ -150,10 +160,9 @@ Sight sight_of(const Scene& scene) {
       meshes.push_back(&mesh);
       any = any || (!mesh.background && mesh.framed);
     }
-  for (const DrawCone& cone : scene.cones) append(sight.marks, cone_piece(cone).p_W);
-  for (const DrawArrow& arrow : scene.arrows) append(sight.marks, arrow_piece(arrow).p_W);
+  add_marks(scene, sight);
   // only a floor: that is what there is to see
-  const bool only_floor = sight.marks.empty() &&
+  const bool only_floor = sight.held.empty() &&
                           std::ranges::all_of(meshes, [](const auto* m) { return m->background; });
   std::vector<Points> placed;
   std::vector<bool> must;
@@ -175,12 +184,13 @@ Sight sight_of(const Scene& scene) {
   for (size_t i = 0; i < meshes.size(); ++i) {
     if (must[i]) append(sight.framed, placed[i]);
     if (meshes[i]->background) continue;
-    Points& to = meshes[i]->opacity < 0.999f ? sight.clear : must[i] ? sight.solid : sight.aside;
+    const bool clear = meshes[i]->opacity < 0.999f && !meshes[i]->hides;
+    Points& to = clear ? sight.clear : must[i] ? sight.solid : sight.aside;
     if (all[must[i]] > 0)
       spread_over(placed[i], meshes[i]->shape->mesh().triangles, areas[i],
                   (must[i] ? 1.0 : 0.3) * looked_at / all[must[i]], to);
   }
-  append(sight.framed, sight.marks);
+  append(sight.framed, sight.held);
   sight.marks = every_so_often(sight.marks, marks_looked_at);
   return sight;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "clench/render/figure/broken_lines.h"
 #include "clench/render/view/frame.h"
 
 namespace clench {
@@ -73,29 +74,13 @@ void take_arrow(const DrawArrow& arrow, const Eye& eye, const Vector2f& picture,
   }
 }
 
-// broken between words where a line would be wider; a word alone may be
-std::vector<std::string> broken(const std::string& line, float height, float width,
-                                const Font& font) {
-  std::vector<std::string> lines;
-  for (size_t from = 0; from <= line.size();) {
-    const size_t end = std::min(line.find(' ', from), line.size());
-    const std::string word = line.substr(from, end - from);
-    if (!lines.empty() && font.width(lines.back() + ' ' + word, height) <= width)
-      lines.back() += ' ' + word;
-    else
-      lines.push_back(word);
-    from = end + 1;
-  }
-  return lines;
-}
-
 void place_caption(const Scene& scene, const Vector2f& picture, const Font& font, float letters,
                    std::vector<PlacedText>& out) {
   const float height = letters > 0 ? letters : std::max(min_letters, caption_part * picture.y());
   const float room = picture.x() - 2 * height;
   std::vector<std::string> lines;
   for (const std::string& line : scene.caption)
-    for (std::string& part : broken(line, height, room, font)) lines.push_back(std::move(part));
+    for (std::string& part : broken_lines(line, height, room, font)) lines.push_back(std::move(part));
   Vector2f at(height, picture.y() - height);
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     const std::string text = font.shortened(*line, height, room);

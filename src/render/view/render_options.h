@@ -12,11 +12,13 @@ enum class Quality { paper, draft };
 enum class Backdrop { studio, white, transparent };
 
 struct RenderOptions {
-  static constexpr int min_size = 16, max_size = 8192;
+  static constexpr int min_size = 16, max_size = 8192, max_draft_scale = 4;
   int width = 1280, height = 960;  ///< pixels, min_size..max_size
   /// a pixel: smoothness of edges and shadows against time, 1..256; drafts have one, with edges
   /// smoothed
   int samples = 8;
+  /// a draft is drawn so many times as wide and as high and reduced, which smooths it: 1..max_draft_scale
+  int draft_scale = 1;
   Quality quality = Quality::paper;
   Backdrop backdrop = Backdrop::studio;
   double outline = 0;  ///< width of lines around bodies and along their edges, 0..32 [pixels]

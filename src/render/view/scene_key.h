@@ -7,12 +7,14 @@
 
 namespace clench {
 
-/// The meshes, cones, arrows and floor of a scene; keeps its shapes alive.
+/// The meshes, cones, arrows and floor of a scene, and what its view must show; keeps its shapes
+/// alive.
 struct SceneKey {
   std::vector<DrawMesh> meshes = {};
   std::vector<DrawCone> cones = {};
   std::vector<DrawArrow> arrows = {};
   std::optional<double> ground = {};
+  std::vector<Eigen::Vector3d> spots = {}, held = {};
 
   explicit SceneKey(const Scene& scene);
   /// equal to the bit

@@ -1,5 +1,6 @@
 --- What came of moving a grasp.
 local drives = require "clench.drives"
+local held_text = require "clench.held_text"
 local verdict = {}
 
 local Verdict = {__name = "verdict"}
@@ -16,8 +17,17 @@ local function where_lost(self)
   return (self.rows and " in " or " along ") .. table.concat(names, ", ")
 end
 
+local nouns = {rows = "phases", directions = "directions", axes = "axes"}
+
 function Verdict:__tostring()
-  return ("%s: %s"):format(self.survived and "survived" or "lost" .. where_lost(self), self.protocol)
+  for key, noun in pairs(nouns) do
+    local rows = self[key]
+    if rows then
+      local where = self.survived and "" or ", lost" .. where_lost(self)
+      return ("%s%s: %s"):format(held_text(self.held, #rows, noun), where, self.protocol)
+    end
+  end
+  return ("lost%s: %s"):format(where_lost(self), self.protocol)
 end
 
 local how = {forces = "by forces in equilibrium", close = "by closing motors", none = "by no motor"}

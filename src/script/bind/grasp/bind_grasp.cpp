@@ -276,6 +276,14 @@ Name of the robot that grasps; a grasp that stands in no world has it, too.
 Name of the body that is grasped.
 @type string
 > grasp.object_name  --> flask)"},
+    {"hand_file", getter<[](const GraspHandle& x) { return x.grasp.hand_file; }>, R"(
+File of the robot that grasps, as it was named when it was read; empty where it is not known.
+@type string
+> grasp.hand_file == hand.source  --> true)"},
+    {"object_file", getter<[](const GraspHandle& x) { return x.grasp.object_file; }>, R"(
+File of the body that is grasped; empty where it is not known.
+@type string
+> grasp.object_file == flask.source  --> true)"},
     {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
 Where the hand's base stood in the object's frame when the grasp was measured.
 @type pose

@@ -123,6 +123,7 @@ static int make_sheet(lua_State* L) {
     pictures.push_back(picture);  // the list keeps it alive
   });
   arranging.captions = read_texts(L, options, "captions");
+  arranging.notes = read_texts(L, options, "notes");
   if (options.has("columns")) {
     arranging.columns = options.integer("columns");
     if (arranging.columns < 1)
@@ -130,7 +131,7 @@ static int make_sheet(lua_State* L) {
   }
   arranging.gap = options.integer("gap", arranging.gap);
   options.done();
-  if (!arranging.captions.empty()) warn_without_letters(L, font);
+  if (!arranging.captions.empty() || !arranging.notes.empty()) warn_without_letters(L, font);
   return push_object(L, contact_sheet(pictures, arranging, font));
 }
 
@@ -149,8 +150,8 @@ graphics hardware.
 > clench.plot{series = {{y = {1, 2}}}, y_scale = "log", y_range = {0, 1}}  --> error: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
-Several pictures in one, in rows, each with its caption under it.
-@param options {pictures: (picture|plot)[], captions?: string[], columns?: integer, gap?: integer}  columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+Several pictures in one, in rows, each with its caption under it, and notes under all.
+@param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer}  captions: of one or more lines; notes: lines of text, broken where they are too wide; columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 @return picture
 > small = clench.render(world, {size = {64, 48}})
 > clench.sheet{pictures = {small, small, small}, captions = {"a", "b", "c"}, columns = 3, gap = 4}  --> picture of 208 x 78 pixels

@@ -2,9 +2,9 @@
 
 #include "clench/base/convert.h"
 #include "clench/render/renderer.h"
-#include "clench/scene/force_arrows.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/picture/read_scene.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
@@ -27,50 +27,21 @@ static Eye read_eye(Table& options, const Eye& from) {
   return eye;
 }
 
-static constexpr double longest_arrow = 0.6;  // part of the object's largest radius
-
-// the list `forces` of a result of grasp:contact_forces
-struct GivenForces {
-  std::vector<PlacedForce> forces;
-  std::vector<Id<Robot>> robots;         // that press
-  std::vector<Eigen::Vector3d> normals;  // of the contacts, into the objects
-  double longest = 0;                    // length of an arrow that suits the objects [m]
-};
-
-static GivenForces read_forces(lua_State* L, Table& options) {
-  GivenForces given;
-  if (options.push("forces") != LUA_TNIL) {
-    if (!lua_istable(L, -1)) fail_expected(options.what("forces"), "a list of forces", -1);
-    const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
-    for (int i = 1; i <= count; ++i) {
-      lua_rawgeti(L, list, i);
-      Table item(L, lua_gettop(L), options.what("forces").item(i).text());
-      const auto* contact = item.object<ContactHandle>("contact");
-      if (!contact) fail_expected(item.what("contact"), "a contact", lua_gettop(L) + 1);
-      given.forces.push_back({contact->contact.p_W, item.vec3("force")});
-      given.normals.push_back(contact->contact.n_W);
-      given.robots.push_back(contact->world->body(contact->contact.other).robot);
-      const double radius = contact->world->body(contact->contact.body).max_radius();
-      given.longest = std::max(given.longest, longest_arrow * radius);
-      lua_pop(L, 1);
-    }
-  }
-  lua_pop(L, 1);
-  return given;
-}
-
-static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
-  const double longest = given.longest > 0 ? given.longest : 1;
-  const double scale = options.positive("force_scale", force_scale(given.forces, longest));
-  for (DrawArrow& arrow : force_arrows(given.forces, scale)) scene.arrows.push_back(arrow);
-  scene.labels = force_labels(given.forces, scale);
-  if (!scene.labels.empty())
-    scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
-}
-
 void warn_without_letters(lua_State* L, const Font& font) {
   static const char told = 0;
   if (!font.fault().empty()) warn_once(L, &told, font.fault());
+}
+
+static void read_samples(Table& options, RenderOptions& rendering) {
+  if (rendering.quality == Quality::paper) {
+    rendering.samples = options.integer("samples", rendering.samples);
+    return;
+  }
+  const int samples = options.integer("samples", 1);
+  for (int scale = 1; scale <= rendering.max_draft_scale; ++scale)
+    if (samples == scale * scale) rendering.draft_scale = scale;
+  if (samples != rendering.draft_scale * rendering.draft_scale)
+    fail("{}: samples: expected 1, 4, 9 or 16 of a draft, got {}", options.subject(), samples);
 }
 
 static RenderOptions read_rendering(Table& options) {
@@ -85,9 +56,7 @@ static RenderOptions read_rendering(Table& options) {
   rendering.height = floor_int(size[1]);
   rendering.quality = options.choice(
       "quality", {{"paper", Quality::paper}, {"draft", Quality::draft}}, Quality::paper);
-  if (rendering.quality == Quality::draft && options.has("samples"))
-    fail("{}: samples: only paper quality takes them, drafts have one", options.subject());
-  rendering.samples = options.integer("samples", rendering.samples);
+  read_samples(options, rendering);
   rendering.backdrop = options.choice("background",
                                       {{"studio", Backdrop::studio},
                                        {"white", Backdrop::white},
@@ -120,74 +89,92 @@ static double read_ortho(lua_State* L, Table& options, const Eye& eye) {
   return 2 * (eye.eye - eye.target).norm() * std::tan(eye.field_of_view / 2);
 }
 
-Picture draw_scene(lua_State* L, Table& options, Scene scene) {
-  RenderOptions rendering = read_rendering(options);
+namespace {
+
+struct View {
+  RenderOptions rendering;
+  Eye eye;
+};
+
+// size, quality and the camera, which must be all that is left of the options
+View read_view(lua_State* L, Table& options, const Scene& scene) {
+  View view{read_rendering(options), {}};
   // a camera that is given in part begins from the one that frames everything
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
   options.push("orthographic");
   const bool ortho = lua_toboolean(L, -1);
   lua_pop(L, 1);
-  const bool whole = parts == 4;
-  const double aspect = static_cast<double>(rendering.width) / rendering.height;
-  check(rendering);
-  const Eye framed = whole ? Eye{} : kept<Renderer>(L).frame_all(scene, aspect, ortho);
-  Eye eye = read_eye(options, framed);
+  const double aspect = static_cast<double>(view.rendering.width) / view.rendering.height;
+  check(view.rendering);
+  const Eye framed = parts == 4 ? Eye{} : kept<Renderer>(L).frame_all(scene, aspect, ortho);
+  view.eye = read_eye(options, framed);
   // where something else is looked at, the height is that at the target
   if (options.has("eye") || options.has("target") || options.has("field_of_view"))
-    eye.ortho_height = 0;
-  eye.ortho_height = read_ortho(L, options, eye);
-  if (parts > 0 || ortho) scene.eye = eye;
+    view.eye.ortho_height = 0;
+  view.eye.ortho_height = read_ortho(L, options, view.eye);
   options.done();
+  return view;
+}
+
+// a table that render takes as options
+int push_view(lua_State* L, const Eye& eye) {
+  push_record(L, {{"eye", eye.eye},
+                  {"target", eye.target},
+                  {"up", eye.up},
+                  {"field_of_view", eye.field_of_view}});
+  if (eye.ortho_height > 0) {
+    lua_pushnumber(L, eye.ortho_height);
+    lua_setfield(L, -2, "orthographic");
+  }
+  return 1;
+}
+
+}  // namespace
+
+Picture draw_scene(lua_State* L, Table& options, Scene scene) {
+  View view = read_view(L, options, scene);
+  scene.eye = view.eye;
   const Font font;
   if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
   const Watching watching(L);
-  rendering.progress = watching.progress();
-  return kept<Renderer>(L).draw(scene, rendering, font);
-}
-
-// heights in proportion to normal forces; those of grasp:contact_forces name their contacts
-static std::vector<ContactLoad> read_loads(const GivenForces& given) {
-  std::vector<ContactLoad> loads;
-  for (size_t i = 0; i < given.forces.size(); ++i)
-    loads.push_back({given.forces[i].p_W, given.forces[i].f_W.dot(given.normals[i])});
-  return loads;
-}
-
-static void read_cones(Table& options, const GivenForces& given, SceneOptions& showing) {
-  showing.cone_sizes = options.choice("cones",
-                                      {{"apart", ConeSizes::apart},
-                                       {"equal", ConeSizes::equal},
-                                       {"friction", ConeSizes::friction},
-                                       {"force", ConeSizes::force}},
-                                      ConeSizes::apart);
-  if (showing.cone_sizes == ConeSizes::force && given.forces.empty())
-    fail("{}: cones: 'force' needs the option forces", options.subject());
-  showing.cone_height = options.positive("cone_height", 1);
-  if (!options.has("cone_height")) showing.cone_height = 0;
-  showing.loads = read_loads(given);
-  showing.framing = options.choice(
-      "frame", {{"contacts", Framing::contacts}, {"all", Framing::all}}, Framing::contacts);
+  view.rendering.progress = watching.progress();
+  return kept<Renderer>(L).draw(scene, view.rendering, font);
 }
 
 static int render_draw(lua_State* L) {
-  const auto& world = *check_object<WorldHandle>(L, 1, "world").world;
+  const World* world = check_object<WorldHandle>(L, 1, "world").world.get();
   Table options(L, 2);
-  SceneOptions showing;
-  showing.patches = options.boolean("patches", showing.patches);
-  showing.contacts = options.boolean("contacts", !showing.patches);
-  showing.ground = options.boolean("ground", showing.ground);
-  showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
-  showing.file_colors = options.boolean("file_colors", showing.file_colors);
-  showing.approach = options.boolean("approach", showing.approach);
-  GivenForces given = read_forces(L, options);
-  read_cones(options, given, showing);
-  const bool arrows = options.boolean("arrows", true);
-  if (!arrows) given.forces.clear(), given.robots.clear();
-  showing.see_through = std::move(given.robots);
-  Scene scene = make_scene(world, showing);
-  add_forces(options, given, scene);
+  Scene scene = read_scene(L, options, {&world, 1});
   return push_object(L, draw_scene(L, options, std::move(scene)));
+}
+
+// a world, or a list of states of one
+static std::vector<const World*> check_states(lua_State* L, int i) {
+  if (!lua_istable(L, i)) return {check_object<WorldHandle>(L, i, "world or list of worlds").world.get()};
+  std::vector<const World*> states;
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, i));
+  if (count == 0) fail("{}: worlds: expected at least one, got none", subject(L));
+  for (lua_Integer k = 1; k <= count; ++k) {
+    lua_rawgeti(L, i, k);
+    const auto* world = to<WorldHandle>(L, -1);
+    if (!world) fail("{}: worlds[{}]: expected a world, got {}", subject(L), k, described(L, -1));
+    states.push_back(world->world.get());
+    lua_pop(L, 1);
+  }
+  return states;
+}
+
+static int choose_camera(lua_State* L) {
+  const std::vector<const World*> states = check_states(L, 1);
+  Table options(L, 2);
+  const Scene scene = read_scene(L, options, states);
+  return push_view(L, read_view(L, options, scene).eye);
+}
+
+static int get_picture_camera(lua_State* L) {
+  const auto& eye = self<Picture>(L).eye;
+  return eye ? push_view(L, *eye) : push_nil(L);
 }
 
 static int render_save(lua_State* L) {
@@ -243,9 +230,28 @@ It needs EGL and OpenGL, but no display. What a picture needs is kept for the ne
 > clench.render(world, {size = {64, 48}, background = "white", orthographic = true, outline = 1})  --> picture of 64 x 48 pixels
 > clench.render(world, {cones = "force"})  --> error: 'force' needs the option forces
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
+    {"camera", guarded<choose_camera>, R"(
+The camera that clench.render chooses with the same options; of several states of a world, one for all of them, as for a film: it
+holds the objects that robots touch in some state, and those robots from the palm outward, where nothing is touched, everything.
+@param worlds world|world[]  a list: states of one world, such as clones of it
+@param options? table  those of clench.render
+@return table camera  {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render
+> c = clench.camera(world, {size = {64, 48}})
+> c.eye == clench.render(world, {size = {64, 48}, quality = "draft"}).camera.eye  --> true
+> clench.camera({world, world:clone()}, {size = {64, 48}}).eye == c.eye  --> true
+> clench.camera {}  --> error: worlds: expected at least one, got none)"},
 };
 
 static const Entry render_fields[] = {
+    {"camera", guarded<get_picture_camera>, R"(
+The camera of the picture, given or chosen, as options of clench.render; nil for figures. The same world drawn with it gives the same
+bytes.
+@type table?  {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}  [m], [rad]; orthographic: height that is shown [m]
+> p = clench.render(world, {size = {64, 48}, quality = "draft"})
+> c = p.camera
+> c.size, c.quality = {64, 48}, "draft"
+> clench.render(world, c) == p  --> true
+> clench.sheet{pictures = {p}}.camera  --> nil)"},
     {"width", getter<[](const Picture& x) { return x.width; }>, R"(
 Its width.
 @type integer  pixels

@@ -139,6 +139,12 @@ Identity by content: equal for bodies of the same surface, mass, inertia and mat
 Its surface; nil when it has none.
 @type mesh?
 > flask.mesh:is_watertight()  --> true)"},
+    {"visual_mesh", getter<[](const Entity& x) {
+       return x->appearance.visual ? x->appearance.visual : x->shape;
+     }>, R"(
+The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
+@type mesh?
+> flask.visual_mesh == flask.mesh  --> true)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
 How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m],
 `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,

@@ -1,0 +1,247 @@
+#include "clench/app/verb_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "clench/base/error.h"
+#include "clench/base/suggest.h"
+#include "clench/base/text.h"
+#include "clench/io/grasp_files.h"
+#include "clench/spec/valid.h"
+
+namespace clench {
+
+void add_confine(CLI::App& verb, std::string& folder) {
+  verb.add_option("--confine", folder, "read models and worlds only below this folder")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory);
+}
+
+// a path, which is not empty
+const CLI::Validator named(
+    [](std::string& file) -> std::string {
+      return file.empty() ? "expected the name of a file, got nothing" : "";
+    },
+    "");
+
+static const CLI::Validator unit(
+    [](std::string& text) -> std::string {
+      static const std::vector<std::string> names = {"mm", "cm", "m", "inch", "foot"};
+      if (std::ranges::find(names, text) != names.end()) return {};
+      return fmt::format("unknown unit '{}'{}", text, instead_of(text, names));
+    },
+    "");
+
+void add_reading(CLI::App& verb, ReadingOptions& reading) {
+  verb.add_option("--root", reading.root, "where names in the files count from")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")
+      ->type_name("UNIT")
+      ->check(unit);
+  verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
+}
+
+// a finite number above 0
+static const CLI::Validator positive(
+    [](std::string& text) -> std::string {
+      const auto x = parse_number(text);
+      if (x && std::isfinite(*x) && *x > 0) return {};
+      return fmt::format("expected a number above 0, got '{}'", text);
+    },
+    "POSITIVE");
+
+static const CLI::Validator not_negative(
+    [](std::string& text) -> std::string {
+      const auto x = parse_number(text);
+      if (x && std::isfinite(*x) && *x >= 0) return {};
+      return fmt::format("expected a number >= 0, got '{}'", text);
+    },
+    "");
+
+static const CLI::Validator mass(
+    [](std::string& text) -> std::string {
+      const auto x = parse_number(text);
+      return x ? fault(mass_rule, *x) : fmt::format("expected a mass in kg, got '{}'", text);
+    },
+    "");
+
+static CLI::Validator whole_number(int64_t low, int64_t high) {
+  const auto look = [=](std::string& text) -> std::string {
+    const char* end = text.data() + text.size();
+    int64_t x = 0;
+    const auto [at, code] = std::from_chars(text.data(), end, x);
+    if (code == std::errc() && at == end && x >= low && x <= high) return {};
+    return fmt::format("expected a whole number from {} to {}, got '{}'", low, high, text);
+  };
+  return {look, "INTEGER"};
+}
+
+static const CLI::Validator list_format(
+    [](std::string& text) -> std::string {
+      try {
+        grasp_format(text);
+      } catch (const Error& error) {
+        return error.what();
+      }
+      return {};
+    },
+    "");
+
+// a function that adds the name of an option and its value
+static auto noted_as(const char* option, std::vector<std::string>& words) {
+  std::string name = lower_case(option);
+  name.erase(0, name.find_first_not_of('-'));
+  return [&words, name](const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {name, value});
+  };
+}
+
+namespace {
+
+// adds options whose names and values become words; numbers are checked here, and passed on as typed
+struct Adder {
+  CLI::App& verb;
+  std::vector<std::string>& words;
+
+  CLI::Option* operator()(const char* name, const char* text) const {
+    return verb.add_option_function<std::string>(name, noted_as(name, words), text);
+  }
+  CLI::Option* several(const char* name, const char* text) const {
+    const auto note_all = [note = noted_as(name, words)](const std::vector<std::string>& values) {
+      for (const std::string& value : values) note(value);
+    };
+    return verb.add_option_function<std::vector<std::string>>(name, note_all, text)
+        ->allow_extra_args(false);
+  }
+  void flag(const char* name, const char* text) const {
+    verb.add_flag_callback(
+        name, [note = noted_as(name, words)] { note("yes"); }, text);
+  }
+};
+
+void add_scene(const Adder& add) {
+  add.several("--obstacle", "a body that stands in the way; may be repeated")
+      ->type_name("FILE")
+      ->check(named);
+  add("--pose", "where the object stands [m, degrees]; default: at 0,0,0")
+      ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
+  add.several("--obstacle-pose", "the same of each obstacle, in their order")->type_name("POSE");
+}
+
+void add_drawing(const Adder& add, const char* size, const char* quality) {
+  add("--quality", quality)->type_name("NAME")->check(CLI::IsMember({"paper", "draft"}));
+  add("--size", size)->type_name("WIDTHxHEIGHT");
+  add("--frame", "what pictures show: contacts or all; default: contacts")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"contacts", "all"}));
+}
+
+}  // namespace
+
+void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
+  const Adder add{verb, words};
+  add("HAND", "a robot's file")->required()->check(named);
+  add("OBJECT", "a body's file, or a mesh")->required()->check(named);
+  add_scene(add);
+  add("--mass", "of the object, instead of its file's [kg]")->type_name("KG")->check(mass);
+  add("--friction", "coefficient of friction between hand and object; default: of their materials")
+      ->type_name("MU")
+      ->check(positive);
+  add("--material", "of the object, instead of its file's: rubber, wood, metal ...")
+      ->type_name("NAME");
+  add("--close", "DOFs that close the hand, by number or name, each with its sign: 1,-2,thumb")
+      ->type_name("DOFS");
+  add("--approach", "direction and point of approach, in the frame of the hand's base [m]")
+      ->type_name("DX,DY,DZ[,X,Y,Z]");
+  add("--count",
+      "number of grasps: the first ones; with --seconds: the best ones of that time; default: 20, "
+      "or all of --seconds")
+      ->type_name("N")
+      ->check(whole_number(1, 1000000));
+  add("--seconds", "search no longer than this")->type_name("S")->check(positive);
+  add("--seed", "of the random numbers; default: 1")
+      ->type_name("N")
+      ->check(
+          whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
+  add("--threads", "default: all cores; the grasps are the same")
+      ->type_name("N")
+      ->check(whole_number(1, 1024));
+  add("--distance",
+      "grasps nearer to each other than this part of the object's radius, of half a turn and of "
+      "the DOFs' ranges are alike; default: 0.1")
+      ->type_name("PART")
+      ->check(not_negative);
+  add("--contacts", "fingertip: with the last links alone; power: with the palm, too; default: any")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"fingertip", "power", "any"}));
+  add("--force-ratio",
+      "times the object's weight that all fingers together press with at most; default: 10")
+      ->type_name("N")
+      ->check(positive);
+  add("--max-effort",
+      "of motors for which the hand's file gives no limit [N or N m]; default: none")
+      ->type_name("N")
+      ->check(positive);
+  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
+      ->type_name("FILE")
+      ->check(named);
+  add("--format", "of -o, where the ending does not say: graspgen ...")
+      ->type_name("NAME")
+      ->check(list_format);
+  add("--report", "a page with a table, pictures and each grasp in 3-D")
+      ->type_name("FILE.html")
+      ->check(named);
+  add("--sheet", "pictures of the best grasps, in one")->type_name("FILE.png")->check(named);
+  add("--table", "the table of the grasps for a paper: .tex or .csv")
+      ->type_name("FILE.tex")
+      ->check(named);
+  add_drawing(add, "of each picture of --sheet [pixels]; default: 320x240",
+              "of the pictures of --sheet: paper or draft; default: draft");
+  add.flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");
+  add.flag("--overwrite", "replace the list of -o, once there are grasps");
+  add.flag("--verify",
+       "shake each grasp in simulation, too, by the object's weight along six directions");
+  add.flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
+  add.flag("--no-verify", "keep all in force closure, loads and errors unseen");
+}
+
+void add_render_options(CLI::App& verb, std::vector<std::string>& words) {
+  const Adder add{verb, words};
+  add("FILE", "a world, a robot, a body, a mesh or a list of grasps")->required()->check(named);
+  add("-o", "the picture")->required()->type_name("FILE.png")->check(named);
+  add("--pick", "grasps of the list, by number; default: the first 24")->type_name("N,N...");
+  add("--hand", "of a list; default: the robot's file that it names")
+      ->type_name("FILE")
+      ->check(named);
+  add("--object", "of a list; default: the body's file that it names")
+      ->type_name("FILE")
+      ->check(named);
+  add_scene(add);
+  add_drawing(add, "of each picture [pixels]; default: 1280x960, of several 320x240",
+              "paper or draft; default: paper, of several draft");
+  add("--camera",
+      "where it stands, where it looks, which way is up [m]; default: chosen; file: as the world's "
+      "file says")
+      ->type_name("X,Y,Z[,X,Y,Z[,X,Y,Z]]");
+  add("--background", "studio, white or transparent; default: studio, of several white")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"studio", "white", "transparent"}));
+  add("--outline", "width of lines around bodies [pixels]; default: 0")
+      ->type_name("N")
+      ->check(not_negative);
+  add.flag("--orthographic", "parallel projection");
+}
+
+}  // namespace clench

@@ -1,0 +1,24 @@
+// Order of surfaces that lie in one plane.
+#pragma once
+#include <epoxy/gl.h>
+
+namespace clench::gl {
+
+/// While it lives, what is drawn lies a few steps of the depth buffer behind (towards > 0) or in
+/// front of (towards < 0) where it stands, so that of coplanar surfaces always the same one is seen.
+/// Steps exceed the rounding of vertices and of their positions in a pixel.
+class DepthOffset {
+ public:
+  explicit DepthOffset(float towards) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(slope * towards, steps * towards);
+  }
+  ~DepthOffset() { glDisable(GL_POLYGON_OFFSET_FILL); }
+  DepthOffset(const DepthOffset&) = delete;
+  DepthOffset& operator=(const DepthOffset&) = delete;
+
+ private:
+  static constexpr float slope = 0.1f, steps = 32;
+};
+
+}  // namespace clench::gl

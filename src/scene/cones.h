@@ -1,0 +1,32 @@
+// Friction cones in pictures: one per patch of contact.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "clench/model/find.h"
+#include "clench/scene/drawn.h"
+#include "clench/scene/scene_options.h"
+
+namespace clench {
+
+/// Contacts of two bodies that lie in one plane and share a normal: a face on a face touches at the
+/// corners of its outline.
+struct TouchPatch {
+  std::vector<Contact> contacts;  ///< at least one, in their order
+  Eigen::Vector3d p_W;            ///< mean of the contact points [m]
+  Eigen::Vector3d n_W;            ///< unit, into the object
+};
+
+/// Groups contacts into patches, in the order of their first contacts.
+std::vector<TouchPatch> touch_patches(std::span<const Contact> contacts);
+
+/// One cone per patch, with its apex at the middle of the patch and the size that the options give.
+/// A force is that of all contacts of the patch; a friction that is zero draws a needle.
+/// throws  Error as make_scene does
+std::vector<DrawCone> contact_cones(const World& world, std::span<const TouchPatch> patches,
+                                    const SceneOptions& options);
+
+/// Places that show the patches: points along their normals within the object; world [m].
+std::vector<Eigen::Vector3d> patch_spots(const World& world, std::span<const TouchPatch> patches);
+
+}  // namespace clench

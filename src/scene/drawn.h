@@ -1,0 +1,66 @@
+// What to draw, as a plain list: no state of a world, no graphics library.
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clench/geometry/tree/shape.h"
+#include "clench/math/pose.h"
+#include "clench/scene/eye.h"
+
+namespace clench {
+
+/// Colours are as a screen shows them (sRGB), each part in 0..1.
+struct DrawMesh {
+  std::shared_ptr<const Shape> shape;  ///< null draws nothing
+  Pose X_WM;
+  Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
+  std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one per triangle, or empty
+  float opacity = 1;                                  ///< 0 invisible .. 1 solid
+  bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
+  bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole
+  bool hides = false;       ///< counts as opaque when a view is chosen, however it is drawn
+};
+
+/// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
+struct DrawCone {
+  /// world [m]; axis unit
+  Eigen::Vector3d apex = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
+  double half_angle = 0;  ///< [rad], in [0, pi/2)
+  double height = 0;      ///< [m]
+  Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
+};
+
+/// A force, a direction or an axis: a rod with a pointed head that ends at the tip.
+struct DrawArrow {
+  /// world [m]; an arrow without length draws nothing
+  Eigen::Vector3d tail = Eigen::Vector3d::Zero(), tip = Eigen::Vector3d::UnitZ();
+  double radius = 0.01;  ///< of the rod; its head is three times as wide [m]
+  Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
+};
+
+/// Words written at a place or beside it, over everything else, none over another: the first ones
+/// move least, and some may find no room.
+struct DrawLabel {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
+  std::string text = {};                          ///< UTF-8
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();
+};
+
+struct Scene {
+  std::vector<DrawMesh> meshes;
+  std::vector<DrawCone> cones;
+  std::vector<DrawArrow> arrows = {};
+  std::vector<DrawLabel> labels = {};
+  std::vector<std::string> caption = {};  ///< lines in the lower left corner, UTF-8
+  std::optional<double> ground = {};      ///< height of a floor plane that takes the shadow [m]
+  /// places that a chosen view should show, such as contacts; empty: cones and arrows. World [m]
+  std::vector<Eigen::Vector3d> spots = {};
+  /// points that a chosen view must hold besides meshes, cones and arrows; world [m]
+  std::vector<Eigen::Vector3d> held = {};
+  std::optional<Eye> eye = {};            ///< empty: frame everything
+};
+
+}  // namespace clench

@@ -1,0 +1,108 @@
+#include "clench/script/bind/picture/read_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/base/error.h"
+#include "clench/scene/film_scene.h"
+#include "clench/scene/force_arrows.h"
+#include "clench/script/bind/bind.h"
+
+namespace clench {
+
+static constexpr double longest_arrow = 0.6;  // part of the object's largest radius
+
+// the list `forces` of a result of grasp:contact_forces
+struct GivenForces {
+  std::vector<PlacedForce> forces;
+  std::vector<Id<Robot>> robots;         // that press
+  std::vector<Eigen::Vector3d> normals;  // of the contacts, into the objects
+  double longest = 0;                    // length of an arrow that suits the objects [m]
+};
+
+static GivenForces read_forces(lua_State* L, Table& options) {
+  GivenForces given;
+  if (options.push("forces") != LUA_TNIL) {
+    if (!lua_istable(L, -1)) fail_expected(options.what("forces"), "a list of forces", -1);
+    const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      Table item(L, lua_gettop(L), options.what("forces").item(i).text());
+      const auto* contact = item.object<ContactHandle>("contact");
+      if (!contact) fail_expected(item.what("contact"), "a contact", lua_gettop(L) + 1);
+      given.forces.push_back({contact->contact.p_W, item.vec3("force")});
+      given.normals.push_back(contact->contact.n_W);
+      given.robots.push_back(contact->world->body(contact->contact.other).robot);
+      const double radius = contact->world->body(contact->contact.body).max_radius();
+      given.longest = std::max(given.longest, longest_arrow * radius);
+      lua_pop(L, 1);
+    }
+  }
+  lua_pop(L, 1);
+  return given;
+}
+
+static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
+  const double longest = given.longest > 0 ? given.longest : 1;
+  const double scale = options.positive("force_scale", force_scale(given.forces, longest));
+  for (DrawArrow& arrow : force_arrows(given.forces, scale)) scene.arrows.push_back(arrow);
+  scene.labels = force_labels(given.forces, scale);
+  if (!scene.labels.empty())
+    scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
+}
+
+// heights in proportion to normal forces; those of grasp:contact_forces name their contacts
+static std::vector<ContactLoad> read_loads(const GivenForces& given) {
+  std::vector<ContactLoad> loads;
+  for (size_t i = 0; i < given.forces.size(); ++i)
+    loads.push_back({given.forces[i].p_W, given.forces[i].f_W.dot(given.normals[i])});
+  return loads;
+}
+
+static void read_cones(Table& options, const GivenForces& given, SceneOptions& showing) {
+  showing.cone_sizes = options.choice("cones",
+                                      {{"apart", ConeSizes::apart},
+                                       {"equal", ConeSizes::equal},
+                                       {"friction", ConeSizes::friction},
+                                       {"force", ConeSizes::force}},
+                                      ConeSizes::apart);
+  if (showing.cone_sizes == ConeSizes::force && given.forces.empty())
+    fail("{}: cones: 'force' needs the option forces", options.subject());
+  showing.cone_height = options.positive("cone_height", 1);
+  if (!options.has("cone_height")) showing.cone_height = 0;
+  showing.loads = read_loads(given);
+  showing.framing = options.choice(
+      "frame", {{"contacts", Framing::contacts}, {"all", Framing::all}}, Framing::contacts);
+}
+
+// true, false, or the height of the floor
+static void read_ground(lua_State* L, Table& options, SceneOptions& showing) {
+  const int type = options.push("ground");
+  if (type == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1)))
+    showing.ground_height = lua_tonumber(L, -1);
+  else if (type == LUA_TBOOLEAN)
+    showing.ground = lua_toboolean(L, -1);
+  else if (type != LUA_TNIL)
+    fail_expected(options.what("ground"), "true, false, or the height of the floor in metres", -1);
+  lua_pop(L, 1);
+}
+
+Scene read_scene(lua_State* L, Table& options, std::span<const World* const> states) {
+  SceneOptions showing;
+  showing.patches = options.boolean("patches", showing.patches);
+  showing.contacts = options.boolean("contacts", !showing.patches);
+  read_ground(L, options, showing);
+  showing.transparent_objects = options.boolean("transparent_objects", showing.transparent_objects);
+  showing.file_colors = options.boolean("file_colors", showing.file_colors);
+  showing.approach = options.boolean("approach", showing.approach);
+  GivenForces given = read_forces(L, options);
+  read_cones(options, given, showing);
+  const bool arrows = options.boolean("arrows", true);
+  if (!arrows) given.forces.clear(), given.robots.clear();
+  showing.see_through = std::move(given.robots);
+  Scene scene = make_film_scene(states, showing);
+  add_forces(options, given, scene);
+  return scene;
+}
+
+}  // namespace clench

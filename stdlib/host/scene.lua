@@ -1,0 +1,76 @@
+--- The scene of `clench plan` and `clench render`: a hand, an object and obstacles, as options of the command line give them.
+local reading = require "clench.host.reading"
+local fail = require "clench.host.usage"
+local scene = {}
+
+-- numbers separated by commas; {} if anything else is among them
+function scene.numbers_of(text)
+  local numbers, count = {}, 0
+  for word in (text .. ","):gmatch "([^,]*)," do
+    count = count + 1
+    numbers[count] = word:match "^%s*[-+.%d][-+.%deE]*%s*$" and tonumber(word)
+  end
+  return count == #numbers and numbers or {}
+end
+
+-- "X,Y,Z" [m] or "X,Y,Z,ROLL,PITCH,YAW" [m and degrees]
+function scene.pose_of(option, text)
+  local numbers = scene.numbers_of(text)
+  if #numbers ~= 3 and #numbers ~= 6 then
+    fail("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'", option, text)
+  end
+  local pose = {xyz = {numbers[1], numbers[2], numbers[3]}}
+  if #numbers == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
+  return pose
+end
+
+-- "1,-2,thumb": DOFs by number or name, with the direction in which each closes
+local function closing_of(text)
+  local close = {}
+  for word in (text .. ","):gmatch "([^,]*)," do
+    local sign, name = word:match "^%s*([-+]?)(.-)%s*$"
+    if name == "" then fail("--close: expected DOFs by number or name, as in 1,-2,thumb, got '%s'", text) end
+    close[math.tointeger(tonumber(name)) or name] = sign == "-" and -1 or 1
+  end
+  return close
+end
+
+-- "DX,DY,DZ[,X,Y,Z]"
+local function approach_of(text)
+  local x = scene.numbers_of(text)
+  if #x ~= 3 and #x ~= 6 then fail("--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in metres, got '%s'", text) end
+  return {direction = {x[1], x[2], x[3]}, point = #x == 6 and {x[4], x[5], x[6]} or nil}
+end
+
+local function set_friction(world, hand, object, mu)
+  for _, body in ipairs(hand.bodies) do world:set_friction(body.material, object.material, {static = mu, kinetic = mu}) end
+end
+
+--- A new world with the hand, the object and the obstacles that the options of the command line give.
+---@param given table<string, string|string[]>  options by name
+---@param said table  what is said of reading
+---@return world, robot, body
+function scene.load(given, said)
+  local world = clench.world()
+  local function body(option, pose)
+    local options = reading("body", said)
+    options.pose = pose and scene.pose_of(option, pose) or nil
+    return options
+  end
+  local of_robot = reading("robot", said)
+  of_robot.unit = nil  -- robots' files have units of their own
+  of_robot.close = given.close and closing_of(given.close)
+  of_robot.approach = given.approach and approach_of(given.approach)
+  local hand = world:add_robot(given.hand, of_robot)
+  local options = body("--pose", given.pose)
+  options.mass, options.material = tonumber(given.mass), given.material
+  local object = world:add_object(given.object, options)
+  for i, path in ipairs(given.obstacle) do
+    world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))
+  end
+  if given.friction then set_friction(world, hand, object, tonumber(given.friction)) end
+  if not object.mesh then fail("%s: an object without a surface cannot be grasped", given.object) end
+  return world, hand, object
+end
+
+return scene
