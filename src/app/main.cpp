@@ -205,10 +205,10 @@ static void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       "of motors for which the hand's file gives no limit [N or N m]; default: none")
       ->type_name("N")
       ->check(positive);
-  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
+  several("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json; may be repeated")
       ->type_name("FILE")
       ->check(named);
-  add("--format", "of -o, where the ending does not say: graspgen ...")
+  add("--format", "of -o, where the ending does not say, or of a single -o: graspgen ...")
       ->type_name("NAME")
       ->check(list_format);
   add("--report", "a page with a table, pictures and each grasp in 3-D")
