@@ -103,8 +103,11 @@ std::vector<std::string> joint_names_of(const std::vector<NumberedJoint>& joints
     const JointSpec& joint = *one.joint;
     const auto dof = static_cast<size_t>(joint.dof);
     std::string name = joint.name;
-    if (name.empty() && leaders[dof] == &joint && !given.contains(dofs[dof].name))
-      name = dofs[dof].name;
+    if (name.empty() && leaders[dof] == &joint) {
+      const std::string own =
+          dofs[dof].name.empty() ? fmt::format("dof{}", dof + 1) : dofs[dof].name;
+      if (!given.contains(own)) name = own;
+    }
     if (name.empty()) name = fmt::format("chain{}_joint{}", one.chain, one.number);
     std::string only = name;
     for (int i = 2; !taken.insert(only).second; ++i) only = fmt::format("{}_{}", name, i);

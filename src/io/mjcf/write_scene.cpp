@@ -13,6 +13,7 @@
 #include "clench/io/mjcf/written_geoms.h"
 #include "clench/io/text/xml.h"
 #include "clench/math/decompositions.h"
+#include "clench/spec/plausibility.h"
 
 namespace clench {
 
@@ -62,6 +63,8 @@ Eigen::Matrix3d checked_by_mujoco(const Eigen::Matrix3d& per_mass) {
   const Eigen::Matrix3d out = axes * moments.asDiagonal() * axes.transpose();
   return 0.5 * (out + out.transpose());
 }
+
+constexpr double usual_threshold = 1e-4;  // of contacts in an empty world [m]
 
 class SceneWriter {
  public:
@@ -122,9 +125,10 @@ void SceneWriter::write_head() {
   line(2, fmt::format("<flag multiccd=\"enable\"{}/>", collides ? "" : " contact=\"disable\""));
   line(1, "</option>");
   line(1, "<size njmax=\"4000\" nconmax=\"1000\"/>");
-  // contacts as stiff as the step allows
+  // bodies touch at the distance at which they do here; contacts are as stiff as the step allows
   const std::string stiff =
-      fmt::format("solref=\"{} 1\" solimp=\"0.95 0.99 0.0001\"", 4 * request_.time_step);
+      fmt::format("margin=\"{}\" solref=\"{} 1\" solimp=\"0.95 0.99 0.0001\"",
+                  world.contact_threshold.value_or(usual_threshold), 4 * request_.time_step);
   line(1, "<default>");
   line(2, fmt::format("<geom {}/>", stiff));
   line(2, fmt::format("<pair {}/>", stiff));
@@ -415,12 +419,14 @@ void SceneWriter::tell_losses(MjcfFiles& out) const {
       names.push_back(
           fmt::format("limits of the sum of efforts on joints of '{}'", excerpt(robot.name)));
   }
+  std::vector<std::string> lighter, colored;
   for (const WrittenBody& body : scene_.bodies) {
-    if (body.spec->gravity_compensation != 0)
-      names.push_back(fmt::format("the gravity compensation of '{}'", excerpt(body.name)));
+    if (body.spec->gravity_compensation != 0) lighter.push_back(body.name);
     if (!body.spec->appearance.triangle_colors.empty() && body.spec->appearance.given)
-      names.push_back(fmt::format("colors of single triangles of '{}'", excerpt(body.name)));
+      colored.push_back(body.name);
   }
+  if (!lighter.empty()) names.push_back("the gravity compensation of " + some_names(lighter));
+  if (!colored.empty()) names.push_back("the colors of single triangles of " + some_names(colored));
   for (const SceneKey& key : request_.keys)
     if (const auto still = unmoved_in(key); !still.empty())
       names.push_back(fmt::format("the poses in key '{}' of bodies that stand fixed: {}",

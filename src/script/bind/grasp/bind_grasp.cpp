@@ -337,7 +337,7 @@ Positions of the hand's joints when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.joint_positions > #grasp.dofs  --> true)"},
     {"joint_names", getter<[](const GraspHandle& x) { return x.grasp.joint_names; }>, R"(
-Names of these joints, followers included: those of the hand's file, else that of the DOF, else "chain0_joint1". Empty in a
+Names of these joints, followers included: those of the hand's file; else that of the DOF, of the joint that has its value; else "chain0_joint1". Empty in a
 list from a file that does not name them.
 @type string[]
 > #grasp.joint_names == #grasp.joint_positions  --> true)"},
@@ -374,7 +374,7 @@ known. Planners set it; files keep it.
 > #grasp.pregrasp.dofs == #hand.dofs  --> true)",
      guarded<set_pregrasp>},
     {"squeeze", guarded<get_squeeze>, R"(
-Targets of the motors that press on the object, one per DOF; nil: not known. Files keep it.
+Targets of the motors that press on the object, one per DOF, perhaps beyond its limits; nil: not known. Planners that verify set it; files keep it.
 @type number[]?  [rad or m]
 > grasp.squeeze  --> nil
 > grasp.squeeze = grasp.dofs
@@ -446,7 +446,7 @@ Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, whe
     {"save", guarded<save_grasp>, R"(
 Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand stands on slides, named carriage_x, carriage_y
 and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and
-"lift" they press with contact forces in equilibrium, or to the targets of `squeeze`; between "grasp" and "lift" the hand rises.
+"lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
 @param path string  .xml or .mjcf
 @param options? {force?: number, height?: number, confine?: string}  force: sum of the normal forces, 10 times the object's weight by default, less where the motors cannot [N]; height: of the lift, 0.1 [m]
 > path = os.tmpname()

@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GraspSceneOptions {
+  bool is_force_given = false;
   double force = 0;      ///< sum of the normal forces [N]
   double height = 0.1;   ///< of the lift [m]
   double retreat = 0.1;  ///< of a pregrasp that is not known [m]
@@ -61,7 +62,7 @@ class GraspKeys {
 
   /// Efforts or targets of the motors that press.
   void press(SceneKey& key) const {
-    if (!grasp_.squeeze.empty()) {
+    if (!grasp_.squeeze.empty() && !options_.is_force_given) {
       key.targets.resize(spec_.robots.size());
       key.targets[hand()] = joints_at(robot(), grasp_.squeeze);
       return;
@@ -135,8 +136,9 @@ class GraspKeys {
 GraspSceneOptions read_grasp_scene(Table& options, const World& world, Id<Body> object) {
   const double gravity = world.gravity().isZero(0) ? standard_gravity : world.gravity().norm();
   GraspSceneOptions out;
+  out.is_force_given = options.has("force");
   out.force =
-      options.has("force") ? options.positive("force", 1) : 10 * gravity * world.body(object).mass;
+      out.is_force_given ? options.positive("force", 1) : 10 * gravity * world.body(object).mass;
   if (options.has("height")) out.height = options.positive("height", 1);
   return out;
 }

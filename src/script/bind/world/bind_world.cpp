@@ -266,7 +266,7 @@ Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder bes
 and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that holds everything. The old file
 stays until the new one has been read again; what the format cannot hold is told in a warning.
 @param path string  .xml, .mjcf, .wld or .lua
-@param options? {format?: string, root?: string, confine?: string}  format: of an .xml "mjcf", the default, or "graspit"; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
+@param options? {format?: string, root?: string, confine?: string}  format: of an .xml "mjcf" or "graspit"; default: "mjcf", unless a robot carries another one, as a scene read again has one robot in place of the two; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 > path = os.tmpname()
 > world:save(path .. ".lua")
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true

@@ -150,7 +150,7 @@ static void warn_of_losses(lua_State* L, const World& world, const World& again,
   if (!lost.empty()) log_warning(L, fmt::format("{} does not hold {}", file, name_list(lost)));
 }
 
-bool is_mjcf_target(const fs::path& path, const std::string& format) {
+bool is_mjcf_target(const World& world, const fs::path& path, const std::string& format) {
   const std::string ending = lower_case(path.extension().string());
   static const std::vector<std::string> formats = {"mjcf", "graspit", "lua"};
   if (!format.empty() && std::ranges::find(formats, format) == formats.end())
@@ -164,7 +164,9 @@ bool is_mjcf_target(const fs::path& path, const std::string& format) {
   if (!fits && (is_lua || is_wld || is_xml || is_mjcf))
     fail("{}: the format {} is not written to {}", path.filename().string(), in_quotes(format),
          in_quotes(ending));
-  return is_mjcf || (is_xml && format != "graspit");
+  const auto is_carried = [&](Id<Robot> id) { return world.robot(id).mounting.has_value(); };
+  if (is_xml && format.empty()) return std::ranges::none_of(world.robots(), is_carried);
+  return is_mjcf || (is_xml && format == "mjcf");
 }
 
 SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path& path) {
@@ -209,7 +211,12 @@ static void save_as_scene(lua_State* L, const World& world, const fs::path& path
 
 void save_world(lua_State* L, const World& world, const fs::path& path,
                 const SavingOptions& saving) {
-  if (is_mjcf_target(path, saving.format)) return save_as_scene(L, world, path, saving);
+  if (is_mjcf_target(world, path, saving.format)) return save_as_scene(L, world, path, saving);
+  if (saving.format.empty() && lower_case(path.extension().string()) == ".xml")
+    log(L, LogLevel::info,
+        fmt::format("{}: a robot carries another one, so this is an XML world of GraspIt!; "
+                    "format = \"mjcf\" writes a scene of MuJoCo",
+                    path.filename().string()));
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
   const std::string file = path.filename().string();

@@ -24,9 +24,11 @@ void save_scene(lua_State* L, const World& world, const std::filesystem::path& p
                 const SavingOptions& saving, SceneRequest& request);
 /// What a world gives to its scene.
 SceneRequest scene_of(const World& world, const WorldSpec& spec, const std::filesystem::path& path);
-/// Is MJCF what a world is written as there?
+/// Is a scene of MuJoCo what the world is written as there? An .xml is, unless a robot carries
+/// another one, which a scene read again would merge; `format` says otherwise.
 /// throws  Error for a format that the ending cannot have
-bool is_mjcf_target(const std::filesystem::path& path, const std::string& format);
+bool is_mjcf_target(const World& world, const std::filesystem::path& path,
+                    const std::string& format);
 
 /// (path, options) -> world
 int load_world(lua_State* L);
