@@ -15,18 +15,19 @@ using NamedArrays = std::map<std::string, NpyArray>;
 /// Can one array hold the joints of all grasps? They have the same joints, or none.
 bool has_same_joints(const std::vector<GraspSpec>& grasps);
 
-/// Adds, for n grasps of d DOFs and j joints, those of these that any grasp has: `joints` n x j with
-/// `joint_names`, `joint_units` and `joint_offsets` (j); `pregrasp_poses` n x 7, `pregrasp_dofs` and
-/// `squeeze_dofs` n x d; `com` n x 3, `rho`, `largest_radius`, `gyration_radius`, `edges`, `soft`,
-/// `moduli` (n), `normal_force` n x m; of all contacts in a row `contact_grasps`, `contact_points`,
-/// `contact_normals`, `contact_mu`, `contact_torsion_radius`, `contact_links`; `hand_files`,
-/// `object_files`, `measure_NAME`, `info_NAME`, `label_NAME` (n). Missing numbers are NaN.
+/// Adds, for n grasps of d DOFs and j joints, those of these that any grasp has: `joints` n x j
+/// with `joint_names`, `joint_units` and `joint_offsets` (j); `pregrasp_poses` n x 7,
+/// `pregrasp_dofs` and `squeeze_dofs` n x d; `com` n x 3, `rho`, `largest_radius`,
+/// `gyration_radius`, `edges`, `soft`, `moduli` (n), `normal_force` n x m; of all contacts in a row
+/// `contact_grasps`, `contact_points`, `contact_normals`, `contact_mu`, `contact_torsion_radius`,
+/// `contact_links`; `hand_files`, `object_files`, `measure_NAME`, `info_NAME`, `label_NAME` (n).
+/// Missing numbers are NaN.
 void add_array_parts(const std::vector<GraspSpec>& grasps, NamedArrays& out);
 
 /// Reads the same arrays, grasp by grasp.
 class ArrayParts {
  public:
-  /// throws  Error  "g.npz: joints: expected 3 x j numbers, got 2 x 5" for an array of another shape
+  /// throws  Error  "g.npz: joints: expected 3 x j numbers, got 2 x 5" for another shape
   ArrayParts(const std::string& file, const NamedArrays& arrays, size_t grasps, size_t dofs);
   /// Sets the parts of grasp i, whose pose and DOFs are known.
   void read(size_t i, GraspSpec& out) const;

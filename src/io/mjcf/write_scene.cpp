@@ -11,6 +11,7 @@
 #include "clench/io/mjcf/written_carriage.h"
 #include "clench/io/mjcf/written_friction.h"
 #include "clench/io/mjcf/written_geoms.h"
+#include "clench/io/mjcf/written_keys.h"
 #include "clench/io/text/xml.h"
 #include "clench/math/decompositions.h"
 #include "clench/spec/plausibility.h"
@@ -96,10 +97,6 @@ class SceneWriter {
   void write_tendons();
   void write_actuators();
   void write_keys();
-  std::vector<double> positions_of(const SceneKey& key) const;
-  std::vector<double> controls_of(const SceneKey& key) const;
-  std::vector<double> targets_of(const SceneKey& key, int robot) const;
-  std::vector<std::string> unmoved_in(const SceneKey& key) const;
   void tell_losses(MjcfFiles& out) const;
 
   const SceneRequest& request_;
@@ -201,7 +198,8 @@ void SceneWriter::write_geom(const WrittenBody& body, const WrittenGeom& geom, i
   if (!geom.collides)
     text += " contype=\"0\" conaffinity=\"0\" group=\"2\"";
   else if (bits != std::array<unsigned, 2>{1, 1})
-    text += fmt::format(" contype=\"{}\" conaffinity=\"{}\"", bits[0], bits[1]);
+    text += fmt::format(" contype=\"{}\" conaffinity=\"{}\"", static_cast<int>(bits[0]),
+                        static_cast<int>(bits[1]));
   if (geom.collides) text += surface_of(body) + (looks.visual ? " group=\"3\"" : "");
   const Eigen::Vector3f c = looks.color.cwiseMax(0.f).cwiseMin(1.f);
   text += fmt::format(" rgba=\"{} {} {} {}\"", c.x(), c.y(), c.z(),
@@ -297,9 +295,9 @@ void SceneWriter::write_actuators() {
     text += affine ? fmt::format(" gaintype=\"affine\" gainprm=\"{} {} {}\"", a.gain,
                                  a.gain_slopes[0], a.gain_slopes[1])
                    : fmt::format(" gainprm=\"{}\"", a.gain);
-    if (a.bias != std::array<double, 3>{0, 0, 0})
-      text += fmt::format(" biastype=\"affine\" biasprm=\"{} {} {}\"", a.bias[0] + 0.0, a.bias[1],
-                          a.bias[2]);
+    if (a.bias != std::array<double, 3>{0, 0, 0} || a.hold != 0)
+      text += fmt::format(" biastype=\"affine\" biasprm=\"{} {} {}\"", a.bias[0] + a.hold + 0.0,
+                          a.bias[1], a.bias[2]);
     if (a.control_range)
       text += fmt::format(" ctrllimited=\"true\" ctrlrange=\"{}\"", range_text(*a.control_range));
     if (a.force_range)
@@ -310,7 +308,8 @@ void SceneWriter::write_actuators() {
     WrittenActuator a;
     a.name = a.joint = axis.name;
     a.gain = axis.kp;
-    a.bias = {axis.hold, -axis.kp, -axis.kd};
+    a.bias = {0, -axis.kp, -axis.kd};
+    a.hold = axis.hold;
     write(a);
   }
   for (const WrittenActuator& a : drives_.actuators) write(a);
@@ -319,72 +318,12 @@ void SceneWriter::write_actuators() {
 
 // --- keys ---
 
-// coordinates of the joints to which servos drive
-std::vector<double> SceneWriter::targets_of(const SceneKey& key, int robot) const {
-  const auto r = static_cast<size_t>(robot);
-  const bool has_targets = r < key.targets.size() && !key.targets[r].empty();
-  std::vector<double> out = has_targets ? key.targets[r] : key.joints[r];
-  size_t j = 0;
-  each_joint(request_.world.robots[static_cast<size_t>(robot)].robot,
-             [&](const JointSpec& joint) { out[j] += joint.offset, ++j; });
-  return out;
-}
-
-// in the order of MuJoCo: body by body
-std::vector<double> SceneWriter::positions_of(const SceneKey& key) const {
-  std::vector<double> out;
-  for (const WrittenBody& body : scene_.bodies) {
-    if (body.free) {
-      const Pose& X = body.body >= 0 ? key.bodies[static_cast<size_t>(body.body)]
-                                     : key.robots[static_cast<size_t>(body.robot)];
-      const Eigen::Quaterniond& q = X.rotation;
-      out.insert(out.end(),
-                 {X.position.x(), X.position.y(), X.position.z(), q.w(), q.x(), q.y(), q.z()});
-    }
-    if (body.carried)
-      for (const double x : carriage_.coordinates(key.robots[static_cast<size_t>(body.robot)]))
-        out.push_back(x);
-    for (const WrittenJoint& joint : body.joints)
-      out.push_back(joint.coordinate(
-          key.joints[static_cast<size_t>(joint.robot)][static_cast<size_t>(joint.number)]));
-  }
-  return out;
-}
-
-std::vector<double> SceneWriter::controls_of(const SceneKey& key) const {
-  std::vector<double> out;
-  if (!carriage_.axes.empty())
-    out = carriage_.coordinates(key.robots[static_cast<size_t>(request_.carriage)]);
-  for (const WrittenActuator& a : drives_.actuators) {
-    const auto r = static_cast<size_t>(a.robot);
-    const double effort =
-        r < key.efforts.size() && a.dof >= 0 && a.dof < static_cast<int>(key.efforts[r].size())
-            ? key.efforts[r][static_cast<size_t>(a.dof)]
-            : 0;
-    out.push_back(control_for(a, targets_of(key, a.robot), effort));
-  }
-  return out;
-}
-
-// what a key moves although the scene has no joint for it
-std::vector<std::string> SceneWriter::unmoved_in(const SceneKey& key) const {
-  std::vector<std::string> out;
-  for (const WrittenBody& body : scene_.bodies) {
-    if (body.free || body.carried || body.parent >= 0) continue;
-    const bool is_base = body.robot >= 0 && body.link < 0;
-    if (body.body < 0 && !is_base) continue;
-    const Pose& X = is_base ? key.robots[static_cast<size_t>(body.robot)]
-                            : key.bodies[static_cast<size_t>(body.body)];
-    if (!(X == body.X_WB)) out.push_back(body.name);
-  }
-  return out;
-}
-
 void SceneWriter::write_keys() {
   if (request_.keys.empty()) return;
   line(1, "<keyframe>");
-  for (const SceneKey& key : request_.keys) {
-    const auto q = positions_of(key), control = controls_of(key);
+  for (const WrittenKey& key : request_.keys) {
+    const auto q = positions_of(key, scene_, carriage_),
+               control = controls_of(key, request_, drives_, carriage_);
     line(2, fmt::format("<key{}{}{}/>", named_as("name", key.name),
                         q.empty() ? "" : fmt::format(" qpos=\"{}\"", number_words(q)),
                         control.empty() ? "" : fmt::format(" ctrl=\"{}\"", number_words(control))));
@@ -427,8 +366,8 @@ void SceneWriter::tell_losses(MjcfFiles& out) const {
   }
   if (!lighter.empty()) names.push_back("the gravity compensation of " + some_names(lighter));
   if (!colored.empty()) names.push_back("the colors of single triangles of " + some_names(colored));
-  for (const SceneKey& key : request_.keys)
-    if (const auto still = unmoved_in(key); !still.empty())
+  for (const WrittenKey& key : request_.keys)
+    if (const auto still = unmoved_in(key, scene_); !still.empty())
       names.push_back(fmt::format("the poses in key '{}' of bodies that stand fixed: {}",
                                   excerpt(key.name), name_list(still)));
   for (const std::string& name : names) out.losses.push_back("it does not hold " + name);
@@ -457,44 +396,6 @@ MjcfFiles SceneWriter::write() {
 
 MjcfFiles mjcf_scene(const SceneRequest& request, const std::string& folder) {
   return SceneWriter(request, folder).write();
-}
-
-SceneKey key_of(const WorldSpec& world, const KeyframeSpec& keyframe) {
-  SceneKey out = present_key(world, keyframe.name);
-  for (const auto& placed : keyframe.bodies)
-    out.bodies[static_cast<size_t>(placed.body)] = placed.X_WB;
-  for (const auto& placed : keyframe.robots) {
-    const auto r = static_cast<size_t>(placed.robot);
-    if (placed.X_WB) out.robots[r] = *placed.X_WB;
-    out.joints[r] = joints_at(world.robots[r].robot, placed.dofs);
-  }
-  return out;
-}
-
-std::vector<double> joints_at(const RobotSpec& robot, const std::vector<double>& dofs) {
-  std::vector<double> out;
-  each_joint(robot, [&](const JointSpec& joint) {
-    out.push_back(joint.ratio * dofs[static_cast<size_t>(joint.dof)]);
-  });
-  return out;
-}
-
-SceneKey present_key(const WorldSpec& world, const std::string& name) {
-  SceneKey out;
-  out.name = name;
-  for (const PlacedBody& placed : world.bodies) out.bodies.push_back(placed.X_WB);
-  for (const PlacedRobot& placed : world.robots) {
-    out.robots.push_back(placed.X_WB);
-    std::vector<double> q;
-    each_joint(placed.robot, [&](const JointSpec& joint) {
-      const size_t j = q.size();
-      const JointPosition own =
-          j < placed.joint_positions.size() ? placed.joint_positions[j] : JointPosition();
-      q.push_back(own ? *own : joint.ratio * placed.dofs[static_cast<size_t>(joint.dof)]);
-    });
-    out.joints.push_back(std::move(q));
-  }
-  return out;
 }
 
 }  // namespace clench

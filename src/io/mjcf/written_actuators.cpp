@@ -93,7 +93,8 @@ void DrivePlanner::add_servo(int r, int d) {
   out.name = unique_name(dof_label(r, d), names_);
   out.joint = leader.name;
   out.gain = law.kp;
-  out.bias = {-load.weight / ratio, -law.kp, -law.kd};
+  out.bias = {0, -law.kp, -law.kd};
+  if (!std::ranges::count(request_.unsupported, r)) out.hold = -load.weight / ratio;
   if (dof.max_effort > 0) {
     const double most = dof.max_effort / std::abs(ratio);
     out.force_range = {-most, most};
@@ -210,8 +211,7 @@ void DrivePlanner::add_own(int r, const ActuatorSpec& from) {
   }
   out.name = unique_name(label, names_);
   add_law(r, from, out);
-  if (out.joint.empty() == false && from.pulls.empty() && from.joint.empty())
-    out.gear = out.arms.front().second;
+  if (!out.joint.empty() && from.joint.empty()) out.gear = out.arms.front().second;
   const auto drives_dof = [&](const WrittenActuator& other) {
     return other.robot == r && other.dof == from.dof && other.effort_share != 0;
   };
@@ -262,9 +262,7 @@ double control_for(const WrittenActuator& actuator, const std::vector<double>& j
     length += arm * joints[static_cast<size_t>(number)];
   const double gain = actuator.gain + actuator.gain_slopes[0] * length;
   if (gain == 0) return 0;
-  // a servo's constant force carries the weight at rest; that of other laws is compensated
-  const bool is_ours = actuator.bias[1] != 0;
-  const double own = (is_ours ? 0 : actuator.bias[0]) + actuator.bias[1] * length;
+  const double own = actuator.bias[0] + actuator.bias[1] * length;
   double control = (effort * actuator.effort_share - own) / gain;
   if (actuator.control_range)
     control = std::clamp(control, (*actuator.control_range)[0], (*actuator.control_range)[1]);

@@ -8,12 +8,14 @@
 
 namespace clench {
 
-/// force = gain * control + bias[0] + bias[1] * length + bias[2] * velocity, within its range.
+/// force = gain * control + bias[0] + hold + bias[1] * length + bias[2] * velocity, within its
+/// range.
 struct WrittenActuator {
   std::string name, joint, tendon;  ///< what it drives: one of the two
   double gear = 1, gain = 1;
   std::array<double, 2> gain_slopes = {0, 0};
   std::array<double, 3> bias = {0, 0, 0};
+  double hold = 0;  ///< carries the weight of what it moves at the reference posture
   std::optional<std::array<double, 2>> control_range = {}, force_range = {};
   int robot = -1, dof = -1;  ///< -1: of the carriage
   int axis = -1;             ///< of the carriage: 0 to 5

@@ -52,7 +52,7 @@ Carriage plan_carriage(const SceneRequest& request, const WrittenScene& scene) {
   if (request.carriage < 0) return out;
   const int base = scene.parts[static_cast<size_t>(request.carriage)].front();
   out.X_WB = scene.bodies[static_cast<size_t>(base)].X_WB;
-  const bool turns = std::ranges::any_of(request.keys, [&](const SceneKey& key) {
+  const bool turns = std::ranges::any_of(request.keys, [&](const WrittenKey& key) {
     const Pose& X = key.robots[static_cast<size_t>(request.carriage)];
     return out.X_WB.rotation.angularDistance(X.rotation) > least_turn;
   });

@@ -15,9 +15,9 @@ namespace {
 // more pairs than these slow MuJoCo down more than they are worth
 constexpr size_t max_friction_pairs = 3000;
 
-using Numbers = std::array<int, 2>;
+using BodyNumbers = std::array<int, 2>;
 
-Numbers ordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+BodyNumbers ordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 class ContactPlanner {
  public:
@@ -47,8 +47,8 @@ class ContactPlanner {
   const SceneRequest& request_;
   const WrittenScene& scene_;
   std::map<std::string, int> by_name_;
-  std::set<Numbers> off_;
-  std::vector<Numbers> meeting_;
+  std::set<BodyNumbers> off_;
+  std::vector<BodyNumbers> meeting_;
   WrittenContacts out_;
 };
 
@@ -84,7 +84,7 @@ bool ContactPlanner::meets(int a, int b) const {
 }
 
 void ContactPlanner::exclude_pairs() {
-  for (const Numbers& pair : off_)
+  for (const BodyNumbers& pair : off_)
     if (!(scene_.stands(pair[0]) && scene_.stands(pair[1]))) out_.excluded.push_back(pair);
   const int count = static_cast<int>(scene_.bodies.size());
   for (int a = 0; a < count; ++a)
@@ -95,7 +95,7 @@ void ContactPlanner::exclude_pairs() {
 /// Tries the smallest coefficients; `all`: of all pairs, else of those with objects.
 bool ContactPlanner::fit(bool all) {
   out_.friction.clear();
-  for (const Numbers& pair : meeting_) {
+  for (const BodyNumbers& pair : meeting_) {
     if (!all && !is_object(pair[0]) && !is_object(pair[1])) continue;
     const double both = mu(pair[0], pair[1]);
     for (const int b : pair) {
@@ -106,7 +106,7 @@ bool ContactPlanner::fit(bool all) {
   for (const WrittenBody& body : scene_.bodies)
     out_.friction.try_emplace(body.spec->material,
                               request_.friction(body.spec->material, body.spec->material)[0]);
-  return std::ranges::all_of(meeting_, [&](const Numbers& pair) {
+  return std::ranges::all_of(meeting_, [&](const BodyNumbers& pair) {
     return mu(pair[0], pair[1]) ==
            std::max(out_.friction.at(material(pair[0])), out_.friction.at(material(pair[1])));
   });
@@ -114,7 +114,7 @@ bool ContactPlanner::fit(bool all) {
 
 void ContactPlanner::list_pairs() {
   std::set<std::pair<std::string, std::string>> lost;
-  for (const Numbers& pair : meeting_) {
+  for (const BodyNumbers& pair : meeting_) {
     const auto& [a, b] = pair;
     const double both = mu(a, b);
     if (both == std::max(out_.friction.at(material(a)), out_.friction.at(material(b)))) continue;
@@ -129,7 +129,7 @@ void ContactPlanner::list_pairs() {
 
 void ContactPlanner::tell_losses() {
   std::set<std::string> differ;
-  for (const Numbers& pair : meeting_) {
+  for (const BodyNumbers& pair : meeting_) {
     const auto both = request_.friction(material(pair[0]), material(pair[1]));
     if (both[0] != both[1] && (is_object(pair[0]) || is_object(pair[1])))
       differ.insert(fmt::format("{} on {}", std::min(material(pair[0]), material(pair[1])),

@@ -40,7 +40,7 @@ struct WrittenBody {
 using FrictionOf = std::function<std::array<double, 2>(const std::string&, const std::string&)>;
 
 /// A state that a scene names.
-struct SceneKey {
+struct WrittenKey {
   std::string name;
   std::vector<Pose> bodies;                 ///< one per body of the world
   std::vector<Pose> robots;                 ///< base of each
@@ -55,11 +55,12 @@ struct SceneRequest {
   const WorldSpec& world;
   FrictionOf friction;
   std::string name = "scene";
-  std::vector<SceneKey> keys = {};
+  std::vector<WrittenKey> keys = {};
   /// robot whose base three slides along the world's axes move, and three hinges if keys turn it;
   /// -1: none
   int carriage = -1;
-  double time_step = 0.001;  ///< [s]
+  double time_step = 0.001;           ///< [s]
+  std::vector<int> unsupported = {};  ///< robots whose motors do not carry their weight
   /// radius of torsional friction between soft bodies [m]; 0: not known
   double torsion_radius = 0;
 };

@@ -49,7 +49,7 @@ struct Written {
   MujocoModel model;
   MujocoData data;
 
-  void write(std::vector<SceneKey> keys = {}, int carriage = -1) {
+  void write(std::vector<WrittenKey> keys = {}, int carriage = -1) {
     for (const PlacedRobot& placed : world.robots)
       for (const OwnFriction& own : placed.robot.frictions) table.add(own);
     SceneRequest request{.world = world, .friction = [this](const auto& a, const auto& b) {

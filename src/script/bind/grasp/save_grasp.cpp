@@ -3,11 +3,8 @@
 
 #include "clench/base/text.h"
 #include "clench/grasp/force/contact_forces.h"
-#include "clench/io/mjcf/write_scene.h"
+#include "clench/io/mjcf/written_keys.h"
 #include "clench/io/text/confine.h"
-#include "clench/model/describe_world.h"
-#include "clench/model/dof.h"
-#include "clench/model/effort_range.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/grasp/save_grasp.h"
 #include "clench/script/bind/output.h"
@@ -41,10 +38,10 @@ class GraspKeys {
       if (spec.bodies[b].body.name == world.body(grasp.object).name) object_ = static_cast<int>(b);
   }
 
-  std::vector<SceneKey> keys() const {
-    SceneKey grasp = present_key(spec_, "grasp");
+  std::vector<WrittenKey> keys() const {
+    WrittenKey grasp = present_key(spec_, "grasp");
     press(grasp);
-    SceneKey lift = grasp;
+    WrittenKey lift = grasp;
     lift.name = "lift";
     const Eigen::Vector3d up = upwards() * options_.height;
     lift.robots[hand()].position += up;
@@ -61,7 +58,7 @@ class GraspKeys {
   }
 
   /// Efforts or targets of the motors that press.
-  void press(SceneKey& key) const {
+  void press(WrittenKey& key) const {
     if (!grasp_.squeeze.empty() && !options_.is_force_given) {
       key.targets.resize(spec_.robots.size());
       key.targets[hand()] = joints_at(robot(), grasp_.squeeze);
@@ -95,8 +92,8 @@ class GraspKeys {
     return {};
   }
 
-  SceneKey pregrasp(const SceneKey& grasp) const {
-    SceneKey out = present_key(spec_, "pregrasp");
+  WrittenKey pregrasp(const WrittenKey& grasp) const {
+    WrittenKey out = present_key(spec_, "pregrasp");
     const Pose& X_WO = grasp.bodies[static_cast<size_t>(object_)];
     if (grasp_.pregrasp) {
       out.robots[hand()] = X_WO * grasp_.pregrasp->X_OH;
@@ -174,7 +171,7 @@ int save_grasp(lua_State* L) {
   Grasp grasp = measure_grasp(world, handle.grasp.hand, handle.grasp.object, handle.grasp.options);
   grasp.pregrasp = handle.grasp.pregrasp;
   grasp.squeeze = handle.grasp.squeeze;
-  const WorldSpec spec = describe_world(world);
+  const WorldSpec spec = scene_spec(world);
   SceneRequest request = scene_of(world, spec, path);
   request.torsion_radius = torsion_radius_of(grasp);
   request.keys = GraspKeys(L, world, grasp, spec, scene).keys();

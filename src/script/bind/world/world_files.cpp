@@ -2,7 +2,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
-#include "clench/io/mjcf/write_scene.h"
+#include "clench/io/mjcf/written_keys.h"
 #include "clench/io/text/confine.h"
 #include "clench/io/write_mjcf.h"
 #include "clench/io/write_world.h"
@@ -169,6 +169,47 @@ bool is_mjcf_target(const World& world, const fs::path& path, const std::string&
   return is_mjcf || (is_xml && format == "mjcf");
 }
 
+// gains and limits that scripts give to motors of DOFs
+static void apply_motor_settings(const RobotDynamics& settings, RobotSpec& robot) {
+  for (size_t d = 0; d < robot.dofs.size(); ++d) {
+    DofSpec& dof = robot.dofs[d];
+    if (d < settings.gains.size() && settings.gains[d]) {
+      dof.kp = settings.gains[d]->kp;
+      dof.kd = settings.gains[d]->kd;
+      dof.damping_ratio = 0;
+    }
+    if (settings.max_effort && dof.max_effort <= 0) dof.max_effort = *settings.max_effort;
+  }
+}
+
+WorldSpec scene_spec(const World& world) {
+  WorldSpec out = describe_world(world);
+  for (size_t r = 0; r < out.robots.size(); ++r)
+    apply_motor_settings(world.dynamic_settings().robot(world.robots()[r]), out.robots[r].robot);
+  return out;
+}
+
+// settings of dynamics that no scene holds
+static void warn_of_settings(lua_State* L, const World& world) {
+  const DynamicSettings& set = world.dynamic_settings();
+  const DynamicSettings plain;
+  std::vector<std::string> lost;
+  if (set.engine != plain.engine) lost.emplace_back("engine");
+  if (set.cone != plain.cone) lost.emplace_back("friction cone");
+  if (!set.surface_velocities.empty()) lost.emplace_back("belts");
+  if (!set.welds.empty()) lost.emplace_back("welds");
+  for (const auto& [id, robot] : set.robots) {
+    if (!world.alive(id) || !world.robot(id).passive || world.robot(id).passive->actuators.empty())
+      continue;
+    if (!robot.gains.empty() || robot.max_effort)
+      lost.push_back(fmt::format("gains and max_effort of '{}', which has actuators of its own",
+                                 world.robot(id).name));
+  }
+  if (!lost.empty())
+    log_warning(L, fmt::format("{}: these settings of dynamics are not saved: {}", subject(L),
+                               name_list(lost)));
+}
+
 SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path& path) {
   SceneRequest out{.world = spec, .friction = {}};
   const MaterialTable& table = world.materials();
@@ -178,6 +219,9 @@ SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path&
   };
   out.name = path.stem().string();
   out.time_step = world.dynamic_settings().step;
+  for (size_t r = 0; r < world.robots().size(); ++r)
+    if (!world.dynamic_settings().robot(world.robots()[r]).gravity_compensation)
+      out.unsupported.push_back(static_cast<int>(r));
   return out;
 }
 
@@ -187,22 +231,23 @@ void save_scene(lua_State* L, const World& world, const fs::path& path, const Sa
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
   // what would not load is not written
   writing.check = [&](const fs::path& written) {
-    if (lies_within(written, saving.confine))
+    if (!world.bodies().empty() && lies_within(written, saving.confine))
       build_world(read_world(written, {.confine = saving.confine}));
   };
   if (world.time() > 0)
     log_warning(L, fmt::format("{}: the time and velocities of a world that has run are not saved",
                                subject(L)));
+  warn_of_settings(L, world);
   write_mjcf(request, path, writing);
 }
 
 static void save_as_scene(lua_State* L, const World& world, const fs::path& path,
                           const SavingOptions& saving) {
-  const WorldSpec spec = describe_world(world);
+  const WorldSpec spec = scene_spec(world);
   SceneRequest request = scene_of(world, spec, path);
   request.keys.push_back(present_key(spec, "start"));
   for (const KeyframeSpec& keyframe : spec.keyframes) {
-    SceneKey key = key_of(spec, keyframe);
+    WrittenKey key = key_of(spec, keyframe);
     // the key of the state now takes the place of an older one
     if (key.name != "start") request.keys.push_back(std::move(key));
   }

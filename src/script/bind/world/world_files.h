@@ -22,7 +22,10 @@ void save_world(lua_State* L, const World& world, const std::filesystem::path& p
 /// time step are those of the world.
 void save_scene(lua_State* L, const World& world, const std::filesystem::path& path,
                 const SavingOptions& saving, SceneRequest& request);
-/// What a world gives to its scene.
+/// What a scene holds of a world: its description, with the gains and limits that scripts give to
+/// motors.
+WorldSpec scene_spec(const World& world);
+/// spec  as scene_spec gives it
 SceneRequest scene_of(const World& world, const WorldSpec& spec, const std::filesystem::path& path);
 /// Is a scene of MuJoCo what the world is written as there? An .xml is, unless a robot carries
 /// another one, which a scene read again would merge; `format` says otherwise.
