@@ -137,8 +137,10 @@ static void add_convert(CLI::App& app, ConvertOptions& convert) {
   verb->add_option("IN", convert.from, "a file of any kind that is read")->required();
   verb->add_option("OUT", convert.to, "what to write; its ending says how")->required();
   add_reading(*verb, convert.reading);
-  verb->add_option("--format", convert.format,
-                   "of a list of grasps: jsonl csv npz isaac_grasp graspgen multigripper graspit");
+  verb->add_option(
+      "--format", convert.format,
+      "of a list of grasps: jsonl csv npz isaac_grasp graspgen multigripper graspit; of an .xml "
+      "world: mjcf graspit");
   verb->add_option("--dof-order", convert.dof_order,
                    "names of a list's DOFs, with commas, where the file has none");
   verb->footer(

@@ -194,10 +194,11 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       "of motors for which the hand's file gives no limit [N or N m]; default: none")
       ->type_name("N")
       ->check(positive);
-  add("-o", "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json")
+  add.several("-o",
+              "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json; may be repeated")
       ->type_name("FILE")
       ->check(named);
-  add("--format", "of -o, where the ending does not say: graspgen ...")
+  add("--format", "of -o, where the ending does not say, or of a single -o: graspgen ...")
       ->type_name("NAME")
       ->check(list_format);
   add("--report", "a page with a table, pictures and each grasp in 3-D")
@@ -212,7 +213,7 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
   add.flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");
   add.flag("--overwrite", "replace the list of -o, once there are grasps");
   add.flag("--verify",
-       "shake each grasp in simulation, too, by the object's weight along six directions");
+           "shake each grasp in simulation, too, by the object's weight along six directions");
   add.flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
   add.flag("--no-verify", "keep all in force closure, loads and errors unseen");
 }

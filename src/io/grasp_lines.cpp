@@ -50,6 +50,9 @@ static Json json_of(const GraspSpec& g) {
   if (!g.dof_names.empty()) out["dof_names"] = g.dof_names;
   if (!g.dof_units.empty()) out["dof_units"] = g.dof_units;
   out["joints"] = g.joints;
+  if (!g.joint_names.empty()) out["joint_names"] = g.joint_names;
+  if (!g.joint_units.empty()) out["joint_units"] = g.joint_units;
+  if (!g.joint_offsets.empty()) out["joint_offsets"] = g.joint_offsets;
   Json points = Json::array();
   for (size_t i = 0; i < g.points.size(); ++i) {
     const PointContact& p = g.points[i];
@@ -74,6 +77,7 @@ static Json json_of(const GraspSpec& g) {
     out["pregrasp"] = json_of(g.pregrasp->X_OH);
     out["pregrasp"]["dofs"] = g.pregrasp->dofs;
   }
+  if (!g.squeeze.empty()) out["squeeze"] = g.squeeze;
   if (g.collision_free) out["collision_free"] = *g.collision_free;
   return out;
 }
@@ -321,6 +325,16 @@ PregraspState read_pregrasp(const Parsed& json, const std::string& place) {
   return out;
 }
 
+void read_joint_labels(Fields& fields, GraspSpec& out) {
+  for (const auto& [key, list] :
+       {std::pair{"joint_names", &out.joint_names}, {"joint_units", &out.joint_units}})
+    if (fields.find(key)) *list = fields.texts(key, out.joints.size());
+  check_dof_names(fields.at("joint_names"), out.joint_names);
+  check_dof_units(fields.at("joint_units"), out.joint_units);
+  if (fields.find("joint_offsets"))
+    out.joint_offsets = fields.numbers("joint_offsets", static_cast<int>(out.joints.size()));
+}
+
 /// Of the friction pyramids; 0 and "exact" stand for round cones.
 int read_edges(Fields& fields) {
   const Parsed& value = fields.get("edges");
@@ -350,6 +364,7 @@ GraspSpec read_line(const Parsed& json, const std::string& place) {
   check_dof_units(fields.at("dof_units"), out.dof_units);
   // without them the DOFs say it all
   if (fields.find("joints")) out.joints = fields.numbers("joints");
+  read_joint_labels(fields, out);
   const Parsed& points = fields.get("points");
   if (!points.is_array() || points.size() > max_list)
     Fields::refuse(fields.at("points"), "a list of contacts", points);
@@ -376,6 +391,8 @@ GraspSpec read_line(const Parsed& json, const std::string& place) {
   if (fields.find("labels")) out.labels = fields.named<std::string>("labels");
   if (const Parsed* pregrasp = fields.find("pregrasp"))
     out.pregrasp = read_pregrasp(*pregrasp, fields.at("pregrasp"));
+  if (fields.find("squeeze"))
+    out.squeeze = fields.numbers("squeeze", static_cast<int>(out.dofs.size()));
   if (fields.find("collision_free")) out.collision_free = fields.boolean("collision_free");
   fields.done();
   return out;

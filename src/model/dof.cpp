@@ -18,6 +18,16 @@ std::string dof_name(const Robot& robot, int dof) {
   return name.empty() ? fmt::format("dof{}", dof + 1) : name;
 }
 
+std::vector<std::string> joint_names(const Robot& robot) {
+  std::vector<NumberedJoint> joints(robot.joints.size());
+  for (size_t c = 0; c < robot.chains.size(); ++c) {
+    int number = 0;
+    for (const int j : joints_of(robot, robot.chains[c]))
+      joints[static_cast<size_t>(j)] = {static_cast<int>(c), number++, &robot.joints[j]};
+  }
+  return joint_names_of(joints, robot.dofs);
+}
+
 bool dof_slides(const Robot& robot, int dof) {
   const auto first = std::ranges::find(robot.joints, dof, &Joint::dof);
   return first != robot.joints.end() && first->kind == JointKind::prismatic;

@@ -7,6 +7,8 @@ namespace clench {
 
 /// As its file calls it; "dof3" where it does not.   dof  from 0
 std::string dof_name(const Robot& robot, int dof);
+/// Names of all joints, as joint_names_of gives them.
+std::vector<std::string> joint_names(const Robot& robot);
 /// Does its first joint slide? Then it counts in metres, else in radians.
 bool dof_slides(const Robot& robot, int dof);
 

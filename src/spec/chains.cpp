@@ -1,5 +1,9 @@
 #include "clench/spec/chains.h"
 
+#include <fmt/format.h>
+
+#include <set>
+
 namespace clench {
 
 // of each link the child that goes on in its chain; -1: none
@@ -74,6 +78,41 @@ std::vector<NumberedJoint> joints_of(const RobotSpec& robot) {
   for (size_t l = 0; l < robot.links.size(); ++l)
     for (const JointSpec& joint : robot.links[l].joints)
       out.push_back({chain_of[l], counts[chain_of[l]]++, &joint});
+  return out;
+}
+
+// of each DOF the joint with its value, its opposite, or else the first
+static std::vector<const JointSpec*> leading_joints(const std::vector<NumberedJoint>& joints,
+                                                    size_t dofs) {
+  std::vector<const JointSpec*> out(dofs);
+  for (const double ratio : {1.0, -1.0, 0.0})
+    for (const NumberedJoint& one : joints)
+      if (const auto dof = static_cast<size_t>(one.joint->dof);
+          !out[dof] && (ratio == 0 || one.joint->ratio == ratio))
+        out[dof] = one.joint;
+  return out;
+}
+
+std::vector<std::string> joint_names_of(const std::vector<NumberedJoint>& joints,
+                                        const std::vector<DofSpec>& dofs) {
+  const auto leaders = leading_joints(joints, dofs.size());
+  std::set<std::string> given, taken;
+  for (const NumberedJoint& one : joints) given.insert(one.joint->name);
+  std::vector<std::string> out;
+  for (const NumberedJoint& one : joints) {
+    const JointSpec& joint = *one.joint;
+    const auto dof = static_cast<size_t>(joint.dof);
+    std::string name = joint.name;
+    if (name.empty() && leaders[dof] == &joint) {
+      const std::string own =
+          dofs[dof].name.empty() ? fmt::format("dof{}", dof + 1) : dofs[dof].name;
+      if (!given.contains(own)) name = own;
+    }
+    if (name.empty()) name = fmt::format("chain{}_joint{}", one.chain, one.number);
+    std::string only = name;
+    for (int i = 2; !taken.insert(only).second; ++i) only = fmt::format("{}_{}", name, i);
+    out.push_back(std::move(only));
+  }
   return out;
 }
 

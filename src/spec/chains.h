@@ -39,6 +39,11 @@ struct NumberedJoint {
 /// One per joint, link by link.
 std::vector<NumberedJoint> joints_of(const RobotSpec& robot);
 
+/// Names of all joints, link by link, each once: that of its file; else that of the DOF, or "dof1",
+/// of the joint that has its value; else "chain0_joint1", by chain and number in it.
+std::vector<std::string> joint_names_of(const std::vector<NumberedJoint>& joints,
+                                        const std::vector<DofSpec>& dofs);
+
 /// Puts the links of each chain side by side, chain by chain.
 /// returns  of each former link: its new place
 std::vector<int> order_by_chains(RobotSpec& robot);

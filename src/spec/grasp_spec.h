@@ -55,9 +55,13 @@ struct GraspSpec {
   std::string hand_file = {}, object_file = {};  ///< where they come from; empty: not known
   std::optional<Pose> X_OH = {};  ///< the hand's base in the object; empty: put together by hand
   std::vector<double> dofs = {};  ///< values of all [rad or m]; of those that are named, else
-  std::vector<std::string> dof_names = {};  ///< empty: not known, and the DOFs are all in order
-  std::vector<std::string> dof_units = {};  ///< "rad" or "m", as many as names
-  std::vector<double> joints = {};          ///< positions of all [rad or m]
+  std::vector<std::string> dof_names = {};    ///< empty: not known, and the DOFs are all in order
+  std::vector<std::string> dof_units = {};    ///< "rad" or "m", as many as names
+  std::vector<double> joints = {};            ///< positions of all [rad or m]
+  std::vector<std::string> joint_names = {};  ///< as many as joints, else empty: not known
+  std::vector<std::string> joint_units = {};  ///< "rad" or "m", as many as names
+  /// position + offset is the value of a joint in the hand's own file; empty: all are 0
+  std::vector<double> joint_offsets = {};
   std::vector<PointContact> points = {};
   std::vector<std::string> links = {};             ///< one per contact: what touches there
   Eigen::Vector3d com = Eigen::Vector3d::Zero();   ///< of the object, object frame [m]
@@ -70,8 +74,14 @@ struct GraspSpec {
   std::map<std::string, double> info = {};
   std::map<std::string, std::string> labels = {};  ///< the same in words: planner, script
   std::optional<PregraspState> pregrasp = {};
+  /// targets of the motors that press on the object, one per DOF [rad or m]; empty: not known
+  std::vector<double> squeeze = {};
   std::optional<bool> collision_free = {};  ///< was the hand, as it grasped? empty: nobody looked
 
+  /// Value of a joint in the hand's own file, as other programs count it [rad or m].
+  double joint_value(size_t joint) const {
+    return joint < joint_offsets.size() ? joints[joint] + joint_offsets[joint] : joints[joint];
+  }
   double length(TorqueLength which) const {
     return which == TorqueLength::largest_radius ? largest_radius : gyration_radius;
   }

@@ -22,7 +22,7 @@ local function visible(text) return printable(in_utf8(text), "\n") end
 
 -- words of the command line: name, value, name, value ...; some names come several times
 local function read_words(...)
-  local given = {obstacle = {}, ["obstacle-pose"] = {}}
+  local given = {obstacle = {}, ["obstacle-pose"] = {}, o = {}}
   local words = {...}
   for i = 1, #words, 2 do
     local name, value = words[i], words[i + 1]

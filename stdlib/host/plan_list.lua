@@ -1,4 +1,4 @@
---- The list that `clench plan -o` writes. Grasps are appended as they are found; at the end the list is replaced by the best, best first.
+--- The lists that `clench plan -o` writes: the first one of JSON lines, or else the first one, and copies of it in other formats. Grasps are appended as they are found; at the end the list is replaced by the best, best first.
 --- Until the search is complete, a list of JSON lines is accompanied by the journal of its search, which --resume reads.
 local error_text = require "clench.host.error_text"
 local identity = require "clench.host.plan_identity"
@@ -16,22 +16,56 @@ local function folder_of(path)
   return folder == "" and "/" or folder or "."
 end
 
---- Checks the options and the files on the disk, and changes nothing. Returns nil without -o.
----@param given {o?: string, format?: string, overwrite?: string, resume?: string}
-function List.check(given)
-  if given.format and not given.o then fail "--format says how -o FILE is written, and there is no -o" end
-  for _, name in ipairs {"overwrite", "resume"} do
-    if given[name] and not given.o then fail("--%s is about the list of -o FILE, and there is no -o", name) end
-  end
-  if given.overwrite and given.resume then fail "expected --overwrite or --resume, got both" end
-  if not given.o then return nil end
-  local self = setmetatable({path = given.o, given_format = given.format, is_overwriting = given.overwrite ~= nil,
-                             is_resuming = given.resume ~= nil, kept = clench.grasps(), known = {}, pending = ""}, List)
-  local ok, format = pcall(function() return self.kept:check_save(self.path, {format = given.format}) end)
+-- does the ending of a name tell the format?
+local function has_known_ending(path)
+  local ending = path:match "[^/](%.[^./]*)$"
+  return ending ~= nil and pcall(function() return clench.grasps():check_save("list" .. ending) end)
+end
+
+-- The format of a list, and what --format says of it: with several lists, only what the ending does not tell.
+local function format_of(path, given)
+  local said = given.format
+  if said and #given.o > 1 and has_known_ending(path) then said = nil end
+  local ok, format = pcall(function() return clench.grasps():check_save(path, {format = said}) end)
   if not ok and format.kind == "input" then fail("-o: %s", format.sentence) end
   if not ok then error(format, 0) end
   -- /dev/stdout may be a link to a file, which the list would replace under another name
-  if self.path:find "^/dev/" then refuse("-o: %s: expected a file to write, got a special file", self.path) end
+  if path:find "^/dev/" then refuse("-o: %s: expected a file to write, got a special file", path) end
+  return {path = path, format = format, given_format = said}
+end
+
+-- all lists, the one that is written during the search first
+local function lists_of(given)
+  local lists, known = {}, {}
+  for i, path in ipairs(given.o) do
+    if known[path] then fail("-o: %s is given twice", path) end
+    known[path] = true
+    lists[i] = format_of(path, given)
+  end
+  for i, list in ipairs(lists) do
+    if list.format == "jsonl" then
+      table.insert(lists, 1, table.remove(lists, i))
+      break
+    end
+  end
+  return lists
+end
+
+--- Checks the options and the files on the disk, and changes nothing. Returns nil without -o.
+---@param given {o: string[], format?: string, overwrite?: string, resume?: string}
+function List.check(given)
+  local is_without = #given.o == 0
+  if given.format and is_without then fail "--format says how -o FILE is written, and there is no -o" end
+  for _, name in ipairs {"overwrite", "resume"} do
+    if given[name] and is_without then fail("--%s is about the list of -o FILE, and there is no -o", name) end
+  end
+  if given.overwrite and given.resume then fail "expected --overwrite or --resume, got both" end
+  if is_without then return nil end
+  local lists = lists_of(given)
+  local main = table.remove(lists, 1)
+  local format = main.format
+  local self = setmetatable({path = main.path, given_format = main.given_format, copies = lists, is_overwriting = given.overwrite ~= nil,
+                             is_resuming = given.resume ~= nil, kept = clench.grasps(), known = {}, pending = ""}, List)
   self.format, self.journal_path = format, self.path .. ".search"
   if self.is_resuming and format ~= "jsonl" then
     fail("--resume: expected a list of JSON lines, -o FILE.jsonl, got '%s'", self.path)
@@ -119,6 +153,11 @@ end
 ---@param count? integer  number of grasps searched for; nil: the number of the list that is continued
 function List:compare(search, count)
   self.search, self.count = search, count
+  for _, copy in ipairs(self.copies) do
+    if not self.is_overwriting and not self.is_resuming and look_at(copy.path) then
+      refuse("-o: %s exists already; --overwrite replaces it", copy.path)
+    end
+  end
   local head, has_more = look_at(self.path)
   self.first_line = first_line(self.path)
   self.is_replacing = self.is_overwriting and head ~= nil
@@ -235,11 +274,27 @@ function List:journal()
   return record
 end
 
---- Replaces the list by the grasps found, best first.
+-- Copies in other formats; lists that exist are replaced by lists with grasps alone.
+function List:save_copies(grasps)
+  for _, copy in ipairs(self.copies) do
+    if #grasps > 0 or not look_at(copy.path) then grasps:save(copy.path, {format = copy.given_format}) end
+  end
+end
+
+--- Replaces the lists by the grasps found, best first.
 ---@param grasps grasps
 ---@param is_search_complete boolean
 ---@return string? note  for the user
 function List:save(grasps, is_search_complete)
+  local ok, note = pcall(self.save_main, self, grasps, is_search_complete)
+  if not ok and is_stopped(note) then error(note, 0) end
+  -- a failure of one list does not prevent the others
+  self:save_copies(grasps)
+  if not ok then error(note, 0) end
+  return note
+end
+
+function List:save_main(grasps, is_search_complete)
   if self.is_complete then return nil end
   if #grasps == 0 and self.is_replacing then
     return ("%s is as it was, as no grasps were found"):format(self.path)

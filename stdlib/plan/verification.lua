@@ -138,6 +138,19 @@ function verification.slippery_load(hand, object, force_ratio, options)
   return load
 end
 
+--- Targets of the DOFs at which motors with the gains of the hand press with contact forces in equilibrium, whose normal forces sum to
+--- `force_ratio` weights; perhaps beyond the limits of DOFs. nil: the motors cannot.
+---@return number[]?  [rad or m]
+function verification.squeeze(hand, object, grasp, force_ratio)
+  local found = grasp:contact_forces {objective = "max_margin", total_force = force_ratio * 9.81 * object.mass, torque_limits = true}
+  if found.status ~= "optimal" then return nil end
+  local targets, gains = grasp.dofs, hand.gains
+  for i, torque in ipairs(found.joint_torques) do
+    if gains[i].kp > 0 then targets[i] = targets[i] + torque / gains[i].kp end
+  end
+  return targets
+end
+
 --- Do hand and object stay clear of everything else while they are lifted together?
 function verification.can_be_lifted(hand, object, height)
   local world = hand.world
@@ -183,6 +196,7 @@ function verification.check(hand, object, grasp, options)
   end
   local epsilon = verification.perturbed_epsilon(hand, object, grasp, options.displacement, options.min_epsilon, options.grasp)
   if epsilon < options.min_epsilon then return nil, "lost when the object is displaced" end
+  grasp.squeeze = verification.squeeze(hand, object, grasp, options.force_ratio)
   local numbers = {load_margin = load, perturbed_epsilon = epsilon}
   if options.shake then
     local held, survived = verification.shake(hand, object, options.shake, options.force_ratio)

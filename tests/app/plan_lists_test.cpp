@@ -32,6 +32,26 @@ TEST_CASE(
   CHECK(text_of(out) == text_of(other));
 }
 
+TEST_CASE("a search is written in several formats at once") {
+  const Folder folder;
+  const std::string lines = folder / "a.jsonl", table = folder / "a.csv", arrays = folder / "a.npz",
+                    other = folder / "a.json";
+  const std::string command = barrett + "--no-verify --count 2 -o " + table + " -o " + lines +
+                              " -o " + arrays + " -o " + other + " --format graspgen";
+  CHECK(run(command).code == 0);
+  CHECK(epsilons(lines).size() > 4);
+  CHECK(epsilons(table) == epsilons(lines));
+  CHECK(epsilons(arrays) == epsilons(lines));
+  CHECK(has(text_of(other), "transforms"));
+  const auto refused = run(command);
+  CHECK(refused.code == 1);
+  CHECK(has(refused.out, "-o: " + table + " exists already; --overwrite replaces it"));
+  CHECK(run(command + " --overwrite").code == 0);
+  const auto twice = run(barrett + "-o " + lines + " -o " + lines);
+  CHECK(twice.code == 2);
+  CHECK(has(twice.out, "-o: " + lines + " is given twice"));
+}
+
 TEST_CASE("a list that exists is replaced or continued only as asked") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";

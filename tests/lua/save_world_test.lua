@@ -101,12 +101,15 @@ test("a world that loads itself says so", function(t)
   t.ok(clench.load(twice))
 end)
 
+-- an .xml is a scene of MuJoCo unless it says otherwise
+local formats = {[".xml"] = "graspit"}
+
 test("any world of ours comes back to the bit as Lua, its poses and DOFs in every format", function(t)
   for _, name in ipairs {"dlr_flask", "barrett_mug", "barrett_glass_table"} do
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
     for _, ending in ipairs {".wld", ".xml", ".lua"} do
       local path = folder .. "/" .. name .. ending
-      t.equal(t.warnings(function() world:save(path, {root = "."}) end), {})
+      t.equal(t.warnings(function() world:save(path, {root = ".", format = formats[ending]}) end), {})
       t.equal(clench.load(path, {root = "."}):hash(), world:hash())
     end
   end
@@ -117,7 +120,7 @@ test("a hand that has closed comes back closed", function(t)
   world.robots[1]:autograsp()
   for _, ending in ipairs {".wld", ".xml", ".lua"} do
     local path = folder .. "/closed" .. ending
-    world:save(path, {root = "."})
+    world:save(path, {root = ".", format = formats[ending]})
     local again = clench.load(path, {root = "."})
     t.equal(again.robots[1].dofs, world.robots[1].dofs)
     t.equal(#again:contacts(), #world:contacts())
@@ -128,7 +131,7 @@ end)
 test("what .wld and .xml cannot hold is told in one warning that names it", function(t)
   local world = rich_world()
   for _, ending in ipairs {".wld", ".xml"} do
-    local said = table.concat(t.warnings(function() world:save(folder .. "/lossy" .. ending, {root = "."}) end), "\n")
+    local said = table.concat(t.warnings(function() world:save(folder .. "/lossy" .. ending, {root = ".", format = formats[ending]}) end), "\n")
     t.ok(said:find("lossy" .. ending .. " does not hold which bodies may collide, the contact threshold, the name 'bottle'", 1, true), said)
     for _, part in ipairs {"the mass of 'bottle'", "the centre of mass of 'bottle'", " more"} do t.ok(said:find(part, 1, true), said) end
     t.equal(select(2, said:gsub("\n", "")), 0)
@@ -152,7 +155,7 @@ test("that a soft layer and Poisson's ratio are kept by .lua alone is told", fun
   local world = clench.world()
   world:add_object(clench.shapes.sphere {0.03}, {name = "ball", elastic_modulus = 1e6, soft_layer = 0.004, poisson_ratio = 0.25})
   for _, ending in ipairs {".wld", ".xml"} do
-    t.equal(t.warnings(function() world:save(folder .. "/soft" .. ending) end),
+    t.equal(t.warnings(function() world:save(folder .. "/soft" .. ending, {format = formats[ending]}) end),
       {"soft" .. ending .. " does not hold the soft layer of 'ball', Poisson's ratio of 'ball'"})
   end
   t.equal(t.warnings(function() world:save(folder .. "/soft.lua") end), {})
@@ -162,7 +165,7 @@ test("bodies made in a script are written beside worlds for GraspIt!, and come b
   local world = clench.world()
   local ball = world:add_object(clench.shapes.sphere {0.03}, {name = "ball", mass = 0.2, material = "rubber"})
   for _, ending in ipairs {".wld", ".xml"} do
-    t.equal(t.warnings(function() world:save(folder .. "/made" .. ending) end), {})
+    t.equal(t.warnings(function() world:save(folder .. "/made" .. ending, {format = formats[ending]}) end), {})
     local again = clench.load(folder .. "/made" .. ending)
     t.equal(again.objects[1].source ~= "", ending == ".wld")
     t.equal(again.objects[1].mesh.triangle_count, ball.mesh.triangle_count)
@@ -175,7 +178,7 @@ test("a file that cannot be written leaves the old one as it was", function(t)
   local path = write("old.wld", "precious")
   local world = clench.world()
   t.fails(function() world:save "no/such/folder/a.wld" end, "no such folder: no/such/folder")
-  t.fails(function() world:save(folder .. "/a.obj") end, "expected a world to .wld, .xml or .lua, got '.obj'")
+  t.fails(function() world:save(folder .. "/a.obj") end, "expected a world to .xml, .mjcf, .wld or .lua, got '.obj'")
   t.fails(function() world:save(path, {rot = "."}) end, "unknown key 'rot'")
   t.equal(read(path), "precious")
   world:save(path)
@@ -235,7 +238,7 @@ end)
 test("files outside of the folder of confine are not read again to save a world", function(t)
   local world = clench.world()
   world:add_object "models/objects/flask.iv"
-  local told = table.concat(t.warnings(function() world:save(folder .. "/confined.xml", {confine = "worlds"}) end), "\n")
+  local told = table.concat(t.warnings(function() world:save(folder .. "/confined.xml", {confine = "worlds", format = "graspit"}) end), "\n")
   t.ok(told:find("'flask' is saved with its triangles, for '", 1, true) and told:find("lies outside of worlds", 1, true), told)
   t.ok(told:find("confined.xml lies outside of worlds, to which reading is confined: what it does not hold is not told", 1, true), told)
   t.equal(clench.load(folder .. "/confined.xml").objects[1].mass, world.objects[1].mass)
@@ -282,7 +285,7 @@ test("worlds of the original come back from every format, and are the same in bo
     local world = clench.load(root .. "/worlds/" .. name, {root = root})
     loaded[i] = world
     for _, ending in ipairs {".wld", ".xml", ".lua"} do
-      world:save(folder .. "/original" .. ending, {root = root})
+      world:save(folder .. "/original" .. ending, {root = root, format = formats[ending]})
       local again = clench.load(folder .. "/original" .. ending, {root = root})
       -- the hand of the first one is carried: its place there and in the world are written both, and not every length in
       -- metres has a decimal in millimetres that is read as it
@@ -294,4 +297,49 @@ test("worlds of the original come back from every format, and are the same in bo
     end
   end
   for i, body in ipairs(loaded[2].bodies) do t.equal(body.pose, loaded[3].bodies[i].pose) end
+end)
+
+test("an .xml is a scene of MuJoCo, or a world of GraspIt! where it says so or a robot carries another", function(t)
+  local world = clench.load("worlds/dlr_flask.wld", {root = "."})
+  world.robots[1]:autograsp()
+  world:save(folder .. "/scene.xml")
+  t.ok(read(folder .. "/scene.xml"):find("^<mujoco"))
+  t.ok(io.open(folder .. "/scene_files/flask.obj")):close()
+  local again = clench.load(folder .. "/scene.xml")
+  t.equal(again.keyframes[1], "start")
+  t.equal(#again.bodies, #world.bodies)
+  for i, body in ipairs(world.bodies) do
+    local other = again:body(body.name)
+    t.close((other.pose.position - body.pose.position):norm(), 0, 1e-9)
+    t.close(other.mass, body.mass, 1e-12)
+  end
+  for i, value in ipairs(again.robots[1].dofs) do t.close(value, world.robots[1].dofs[i], 1e-12) end
+  world:save(folder .. "/scene.mjcf")
+  t.equal(#clench.load(folder .. "/scene.mjcf").robots, 1)
+  t.fails(function() world:save(folder .. "/scene.xml", {format = "wld"}) end, "unknown format 'wld', expected one of mjcf, graspit or lua")
+  t.fails(function() world:save(folder .. "/scene.wld", {format = "mjcf"}) end, "scene.wld: the format 'mjcf' is not written to '.wld'")
+  local carried = clench.world()
+  local arm, hand = carried:add_robot "models/arms/puma560/puma560.cfg", carried:add_robot "models/hands/barrett/barrett.cfg"
+  arm:attach(hand)
+  local told = {}
+  clench.log.sink(function(level, text) if level == "info" then told[#told + 1] = text end end)
+  carried:save(folder .. "/carried.xml")
+  clench.log.sink()
+  t.ok(table.concat(told, "\n"):find("carried.xml: a robot carries another one", 1, true), table.concat(told, "\n"))
+  t.equal(#clench.load(folder .. "/carried.xml").robots, 2)
+  carried:save(folder .. "/carried.xml", {format = "mjcf"})
+  t.equal(#clench.load(folder .. "/carried.xml").robots, 1)
+end)
+
+test("the friction of pairs that a scene gives its geoms is that of the world", function(t)
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  local cube = world:add_object("models/objects/cube.iv")
+  world:save(folder .. "/friction.xml")
+  local again = clench.load(folder .. "/friction.xml")
+  for i, body in ipairs(hand.bodies) do
+    local ours = world:friction(body.material, cube.material).static
+    local other = again:body(body.name)
+    t.close(again:friction(other.material, again:body(cube.name).material).static, ours, 1e-12)
+  end
 end)

@@ -94,7 +94,7 @@ test("saved scenes come back equal", function(t)
   clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
   world:save(folder .. "/saved.wld")
   local text = clench.load(folder .. "/saved.wld")
-  world:save(folder .. "/saved.xml")
+  world:save(folder .. "/saved.xml", {format = "graspit"})
   local xml = clench.load(folder .. "/saved.xml")
   clench.log.sink()
   t.ok(table.concat(said, "\n"):find("the material of 'floor'", 1, true))
@@ -150,7 +150,7 @@ end)
 
 test("a robot's new file may be a URDF or a world", function(t)
   t.fails(function() clench.convert(scene, folder .. "/made.foo") end,
-          "made.foo: expected a robot to .urdf, or its world to .lua or .wld, got '.foo'")
+          "made.foo: expected a robot to .urdf, or its world to .xml, .mjcf, .lua or .wld, got '.foo'")
 end)
 
 test("a scene is converted to a world, and its robots are kept with their actuators", function(t)

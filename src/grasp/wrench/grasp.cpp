@@ -113,6 +113,13 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     grasp.dof_names.push_back(dof_name(robot, d));
     grasp.dof_units.push_back(dof_slides(robot, d) ? "m" : "rad");
   }
+  grasp.joint_names = joint_names(robot);
+  for (const Joint& joint : robot.joints) {
+    grasp.joint_units.emplace_back(joint.kind == JointKind::prismatic ? "m" : "rad");
+    if (joint.offset != 0) grasp.joint_offsets.resize(robot.joints.size());
+  }
+  for (size_t j = 0; j < grasp.joint_offsets.size(); ++j)
+    grasp.joint_offsets[j] = robot.joints[j].offset;
   grasp.com = held.com;
   grasp.options = options;
   // a body without extent has no contacts either: any length will do

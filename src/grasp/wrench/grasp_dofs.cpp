@@ -123,7 +123,7 @@ class PostureReader {
 
   std::vector<Listed> by_name(const std::vector<double>& values,
                               const std::vector<std::string>& names) const {
-    const auto dofs = names_of_dofs(robot_);
+    const auto dofs = names_of_dofs(robot_), joints = joint_names(robot_);
     std::vector<Listed> out;
     for (size_t i = 0; i < values.size(); ++i) {
       const std::string& name = names[i];
@@ -131,13 +131,11 @@ class PostureReader {
         out.push_back({.dof = static_cast<int>(d - dofs.begin()), .value = values[i], .place = i});
         continue;
       }
-      const auto j = std::ranges::find(robot_.joints, name, &Joint::name);
-      if (name.empty() || j == robot_.joints.end())
+      const auto found = std::ranges::find(joints, name);
+      if (name.empty() || found == joints.end())
         fail("{}: the hand has no DOF {}{}", place_, in_quotes(name), instead_of(name, dofs));
-      out.push_back({.dof = j->dof,
-                     .joint = static_cast<int>(j - robot_.joints.begin()),
-                     .value = values[i],
-                     .place = i});
+      const auto j = static_cast<int>(found - joints.begin());
+      out.push_back({.dof = robot_.joints[j].dof, .joint = j, .value = values[i], .place = i});
     }
     return out;
   }

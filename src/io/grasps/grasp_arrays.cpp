@@ -5,6 +5,7 @@
 
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
+#include "clench/io/grasps/grasp_array_parts.h"
 #include "clench/io/grasps/npz.h"
 #include "clench/io/text/number_reader.h"
 
@@ -45,14 +46,18 @@ std::string grasp_arrays_bytes(const std::vector<GraspSpec>& grasps, const std::
   texts("planners", [](const GraspSpec& g) {
     return g.labels.contains("planner") ? g.labels.at("planner") : std::string();
   });
-  // contents of the arrays are not losses
-  std::vector<GraspSpec> rest = grasps;
-  for (GraspSpec& g : rest) {
-    g.info.erase("energy");
-    g.info.erase("seed");
-    g.labels.erase("planner");
-  }
-  report_lost(rest, {.dofs = true, .epsilon = true}, file, "npz", options);
+  add_array_parts(grasps, out);
+  report_lost(grasps,
+              {.dofs = true,
+               .epsilon = true,
+               .pregrasp_dofs = true,
+               .notes = true,
+               .files = true,
+               .joints = has_same_joints(grasps),
+               .contacts = true,
+               .pregrasp_poses = true,
+               .squeeze = true},
+              file, "npz", options);
   return npz_bytes(out);
 }
 
@@ -93,11 +98,6 @@ static Pose pose_in_rows(const NpyArray& poses, size_t i, const std::string& fil
 void read_grasp_arrays(const std::string& file, std::string_view bytes, const GraspSink& sink,
                        const ReadOptions& options) {
   const auto arrays = read_npz(file, bytes);
-  const auto shape_text = [](const NpyArray& a) {
-    std::string out;
-    for (const size_t n : a.shape) out += (out.empty() ? "" : " x ") + std::to_string(n);
-    return (out.empty() ? "a single value" : out) + (a.is_text ? " texts" : "");
-  };
   const auto find = [&](const std::string& name) {
     const auto found = arrays.find(name);
     return found == arrays.end() ? nullptr : &found->second;
@@ -133,6 +133,7 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
                  *seed = of_grasps("seed", false), *free = of_grasps("collision_free", false),
                  *hands = of_grasps("hands", true), *objects = of_grasps("objects", true),
                  *planners = of_grasps("planners", true);
+  const ArrayParts parts(file, arrays, n, d);
   // a file of float32 counts as the same one of float64: its grasps take as much
   size_t numbers = 0;
   for (const NpyArray* a : {poses, dofs}) numbers += a ? a->numbers.size() : 0;
@@ -161,6 +162,7 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
     if (hands) g.hand_name = hands->texts[i];
     if (objects) g.object_name = objects->texts[i];
     if (planners && !planners->texts[i].empty()) g.labels["planner"] = planners->texts[i];
+    parts.read(i, g);
     list.add(std::move(g));
   }
   static const std::vector<std::string> known = {
@@ -168,7 +170,8 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
       "seed",  "collision_free", "hands",     "objects",   "planners"};
   std::vector<std::string> unused;
   for (const auto& [name, array] : arrays)
-    if (std::ranges::find(known, name) == known.end()) unused.push_back(in_quotes(name));
+    if (std::ranges::find(known, name) == known.end() && !ArrayParts::knows(name))
+      unused.push_back(in_quotes(name));
   if (!unused.empty() && options.warn)
     options.warn(fmt::format("{}: the array{} {} {} not used", file, unused.size() > 1 ? "s" : "",
                              name_list(unused), unused.size() > 1 ? "are" : "is"));

@@ -7,8 +7,9 @@
 namespace clench {
 
 /// Arrays, n grasps, d DOFs: `poses` n x 7 (x y z [m], qw qx qy qz: the hand's base in the object),
-/// `dofs` n x d [rad or m] with their `dof_names` and `dof_units` (d), where known, `epsilon`, `energy`, `seed`,
-/// `collision_free` (1, 0) (n; NaN: not known), `hands`, `objects`, `planners` (n).
+/// `dofs` n x d [rad or m] with their `dof_names` and `dof_units` (d), where known, `epsilon`,
+/// `energy`, `seed`, `collision_free` (1, 0) (n; NaN: not known), `hands`, `objects`, `planners`
+/// (n); and those of add_array_parts().
 /// throws Error when DOFs differ from grasp to grasp
 std::string grasp_arrays_bytes(const std::vector<GraspSpec>& grasps, const std::string& file,
                                const WriteOptions& options);

@@ -67,6 +67,15 @@ GraspSpec by_names(const GraspSpec& g) {
   return out;
 }
 
+// isaac_grasp lists joints that follow behind the DOFs
+bool same_dofs(const GraspSpec& a, const GraspSpec& back, bool more) {
+  if (back.dofs.size() < a.dofs.size() || back.dof_names.size() < a.dof_names.size()) return false;
+  if (!more && (back.dofs.size() > a.dofs.size() || back.dof_names.size() > a.dof_names.size()))
+    return false;
+  return std::equal(a.dofs.begin(), a.dofs.end(), back.dofs.begin()) &&
+         std::equal(a.dof_names.begin(), a.dof_names.end(), back.dof_names.begin());
+}
+
 bool same_point(const PointContact& a, const PointContact& b) {
   return a.p_O == b.p_O && a.n_O == b.n_O && a.mu == b.mu &&
          std::max(a.torsion_radius, 0.0) == b.torsion_radius;
@@ -85,8 +94,19 @@ bool same_pregrasp(const GraspSpec& a, const GraspSpec& back) {
          (a.pregrasp->X_OH == back.pregrasp->X_OH && a.pregrasp->dofs == back.pregrasp->dofs);
 }
 
-std::string of_lines(const GraspSpec& a, const GraspSpec& back) {
-  if (a.joints != back.joints) return "joints";
+bool same_joints(const GraspSpec& a, const GraspSpec& back) {
+  if (a.joint_names != back.joint_names || a.joint_offsets != back.joint_offsets ||
+      a.joints.size() != back.joints.size())
+    return false;
+  // values are written with their offsets
+  for (size_t j = 0; j < a.joints.size(); ++j) {
+    const double slack = a.joint_offsets.empty() ? 0 : 1e-12 * (1 + std::abs(a.joint_offsets[j]));
+    if (!(std::abs(a.joints[j] - back.joints[j]) <= slack)) return false;
+  }
+  return true;
+}
+
+std::string of_measured(const GraspSpec& a, const GraspSpec& back) {
   if (!same_contacts(a, back)) return "contacts";
   if (a.com != back.com) return "the centre of mass";
   if (a.rho != back.rho || a.largest_radius != back.largest_radius ||
@@ -97,24 +117,7 @@ std::string of_lines(const GraspSpec& a, const GraspSpec& back) {
       a.options.modulus != back.options.modulus)
     return "an option";
   if (!same_pregrasp(a, back)) return "the pregrasp";
-  return "";
-}
-
-std::string of_arrays(const GraspSpec& a, const GraspSpec& back) {
-  const auto only = [](const auto& named, std::initializer_list<const char*> names) {
-    auto out = named;
-    std::erase_if(out, [&](const auto& one) {
-      return std::ranges::find(names, one.first) == std::end(names);
-    });
-    return out;
-  };
-  for (const std::string& what :
-       {numbers_differ("measure", only(a.measures, {"epsilon"}), back.measures),
-        numbers_differ("note", only(a.info, {"energy", "seed"}), back.info)})
-    if (!what.empty()) return what;
-  auto labels = only(a.labels, {"planner"});
-  std::erase_if(labels, [](const auto& one) { return one.second.empty(); });
-  return labels_differ(labels, back.labels);
+  return a.squeeze != back.squeeze ? "the squeeze posture" : "";
 }
 
 std::string of_graspit(const GraspSpec& a, const GraspSpec& back) {
@@ -145,23 +148,29 @@ std::string difference(const GraspSpec& a, const GraspSpec& back, GraspFormat fo
     const GraspSpec own = by_names(a), other = by_names(back);
     if (own.dofs != other.dofs || own.dof_names != other.dof_names || !same_units(own, other))
       return "a DOF";
-  } else if (a.dofs != back.dofs || a.dof_names != back.dof_names) {
+  } else if (!same_dofs(a, back, format == isaac_grasp)) {
     return "a DOF";
   }
   if (format == isaac_grasp) {
     const auto& before = a.pregrasp ? a.pregrasp->dofs : a.dofs;
-    return before != back.pregrasp->dofs ? "the pregrasp" : "";
+    return !std::equal(before.begin(), before.end(), back.pregrasp->dofs.begin()) ? "the pregrasp"
+                                                                                  : "";
   }
   if (format == multigripper) return "";
   if (format != csv && !same_units(a, back)) return "the unit of a DOF";
   if (a.collision_free != back.collision_free) return "collision_free";
-  if (format == npz) return of_arrays(a, back);
   if (a.hand_file != back.hand_file || a.object_file != back.object_file) return "a file";
+  auto labels = a.labels;
+  // an array of texts has empty ones where a grasp has none
+  if (format == npz) std::erase_if(labels, [](const auto& one) { return one.second.empty(); });
   for (const std::string& what :
        {numbers_differ("measure", a.measures, back.measures),
-        numbers_differ("note", a.info, back.info), labels_differ(a.labels, back.labels)})
+        numbers_differ("note", a.info, back.info), labels_differ(labels, back.labels)})
     if (!what.empty()) return what;
-  return format == lines ? of_lines(a, back) : "";
+  // a table of hands with their joints in different orders holds none
+  const bool without = (format == csv || format == npz) && back.joints.empty();
+  if (!without && !same_joints(a, back)) return "a joint";
+  return of_measured(a, back);
 }
 
 }  // namespace clench

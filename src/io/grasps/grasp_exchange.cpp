@@ -9,6 +9,7 @@
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
+#include "clench/io/grasps/grasp_array_parts.h"
 #include "clench/io/grasps/grasp_arrays.h"
 #include "clench/io/text/number_reader.h"
 
@@ -127,6 +128,23 @@ std::vector<std::string> grasp_names(const std::vector<GraspSpec>& grasps) {
   return out;
 }
 
+bool has_joint_names(const std::vector<GraspSpec>& grasps) {
+  return std::ranges::all_of(
+      grasps, [](const GraspSpec& g) { return g.joint_names.size() == g.joints.size(); });
+}
+
+// names and values of the DOFs, then of the joints that have other names
+std::pair<std::vector<std::string>, std::vector<double>> with_followers(const GraspSpec& g) {
+  std::pair<std::vector<std::string>, std::vector<double>> out{g.dof_names, g.dofs};
+  if (g.joint_names.size() != g.joints.size()) return out;
+  for (size_t j = 0; j < g.joints.size(); ++j) {
+    if (std::ranges::find(g.dof_names, g.joint_names[j]) != g.dof_names.end()) continue;
+    out.first.push_back(g.joint_names[j]);
+    out.second.push_back(g.joint_value(j));
+  }
+  return out;
+}
+
 std::string text_list(const std::vector<std::string>& texts) {
   std::string out;
   for (const auto& text : texts) out += (out.empty() ? "" : ", ") + yaml_quoted(text);
@@ -146,8 +164,9 @@ std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::st
     g.info.erase("confidence");
     g.labels.erase("name");
   }
-  report_lost(rest, {.dofs = true, .epsilon = true, .pregrasp_dofs = true}, file, "isaac_grasp",
-              options);
+  report_lost(
+      rest, {.dofs = true, .epsilon = true, .pregrasp_dofs = true, .joints = has_joint_names(rest)},
+      file, "isaac_grasp", options);
   const GraspSpec first = grasps.empty() ? GraspSpec{} : grasps[0];
   std::string out = fmt::format(
       "format: isaac_grasp\nformat_version: 1.0\n\nobject_frame: {}\ngripper_frame: "
@@ -172,7 +191,8 @@ std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::st
         "  {}:\n    confidence: {}\n    position: {}\n    orientation: {{w: {}, xyz: {}}}\n",
         names_of_grasps[i], real_text(confidence), real_list({p.x(), p.y(), p.z()}),
         real_text(q.w()), real_list({q.x(), q.y(), q.z()}));
-    out += "    cspace_position:" + named_list(g.dof_names, g.dofs);
+    const auto [names, values] = with_followers(g);
+    out += "    cspace_position:" + named_list(names, values);
     out += "    pregrasp_cspace_position:" +
            named_list(g.dof_names, g.pregrasp ? g.pregrasp->dofs : g.dofs);
   }
@@ -358,20 +378,28 @@ std::string multigripper_text(const std::vector<GraspSpec>& grasps, const std::s
                               const WriteOptions& options) {
   check_writable(grasps, file, true, true);
   check_same_dofs(grasps, file);
-  report_lost(grasps, {.dofs = true}, file, "multigripper", options);
+  const bool with_joints = has_joint_names(grasps) && has_same_joints(grasps);
+  report_lost(grasps, {.dofs = true, .joints = with_joints}, file, "multigripper", options);
   const GraspSpec first = grasps.empty() ? GraspSpec{} : grasps[0];
-  std::string poses, dofs;
+  std::string poses, dofs, joints;
   for (const GraspSpec& g : grasps) {
     poses += (poses.empty() ? "" : ",\n    ") + real_list(pose_numbers(*g.X_OH));
     dofs += (dofs.empty() ? "" : ",\n    ") + real_list(g.dofs);
+    std::vector<double> values;
+    for (size_t j = 0; j < g.joints.size(); ++j) values.push_back(g.joint_value(j));
+    joints += (joints.empty() ? "" : ",\n    ") + real_list(values);
   }
+  if (!with_joints || first.joints.empty()) joints.clear();
+  if (!joints.empty())
+    joints = fmt::format(",\n  \"joints\": [\n    {}\n  ],\n  \"joint_names\": {}", joints,
+                         text_list(first.joint_names));
   const std::string object = yaml_quoted(first.object_name);
   // its documentation says object_ID, its program reads object_id
   return fmt::format(
       "{{\n  \"gripper\": {},\n  \"object_ID\": {},\n  \"object_id\": {},\n  \"pose\": [\n    {}\n "
-      " ],\n  \"dofs\": [\n    {}\n  ]{}\n}}\n",
+      " ],\n  \"dofs\": [\n    {}\n  ]{}{}\n}}\n",
       yaml_quoted(first.hand_name), object, object, poses, dofs,
-      first.dof_names.empty() ? "" : ",\n  \"dof_names\": " + text_list(first.dof_names));
+      first.dof_names.empty() ? "" : ",\n  \"dof_names\": " + text_list(first.dof_names), joints);
 }
 
 void read_multigripper(const ValueTree& tree, const std::string& file, GraspCollector& list,
@@ -395,8 +423,8 @@ void read_multigripper(const ValueTree& tree, const std::string& file, GraspColl
     dofs.emplace(top.get(dofs_key));
     dofs->list("lists of DOFs", count);
   }
-  std::vector<std::string> known = {"gripper", "object_ID",  "object_id", "pose",
-                                    "dofs",    "final_dofs", "dof_names"};
+  std::vector<std::string> known = {"gripper",    "object_ID", "object_id", "pose",       "dofs",
+                                    "final_dofs", "dof_names", "joints",    "joint_names"};
   std::vector<std::pair<std::string, Value>> results;
   for (const char* key : {"result", "result_time", "fall_time", "slip_time"}) {
     if (!top.has(key)) continue;

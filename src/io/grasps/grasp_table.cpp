@@ -9,6 +9,7 @@
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
+#include "clench/io/grasps/grasp_columns.h"
 #include "clench/io/text/csv.h"
 #include "clench/io/text/number_reader.h"
 
@@ -39,27 +40,74 @@ static std::string note_cell(double x) {
 // units that are not known, of each
 static constexpr const char* any_unit = "rad or m";
 
-/// Of each DOF, in their order.
-static std::vector<std::string> dof_columns(const GraspSpec& g) {
+/// "dof NAME [rad]" of each value, or "dof_1 [rad]", in their order.
+static std::vector<std::string> value_columns(const std::string& kind, size_t count,
+                                              const std::vector<std::string>& names,
+                                              const std::vector<std::string>& units) {
   std::vector<std::string> out;
-  for (size_t i = 0; i < g.dofs.size(); ++i) {
-    const std::string unit =
-        i < g.dof_units.size() && !g.dof_units[i].empty() ? g.dof_units[i] : any_unit;
-    out.push_back(g.dof_names.empty() ? fmt::format("dof_{} [{}]", i + 1, unit)
-                                      : fmt::format("dof {} [{}]", g.dof_names[i], unit));
+  for (size_t i = 0; i < count; ++i) {
+    const std::string unit = i < units.size() && !units[i].empty() ? units[i] : any_unit;
+    out.push_back(names.empty() ? fmt::format("{}_{} [{}]", kind, i + 1, unit)
+                                : fmt::format("{} {} [{}]", kind, names[i], unit));
   }
   return out;
 }
 
-static Row row_of(const GraspSpec& g) {
+using Cells = std::vector<std::pair<std::string, std::string>>;
+
+static void add_values(const std::string& kind, const std::vector<double>& values,
+                       const std::vector<std::string>& names, const std::vector<std::string>& units,
+                       Cells& out) {
+  const auto columns = value_columns(kind, values.size(), names, units);
+  for (size_t i = 0; i < values.size(); ++i) out.emplace_back(columns[i], real_text(values[i]));
+}
+
+static void add_joints(const GraspSpec& g, Cells& out) {
+  std::vector<double> values;
+  for (size_t j = 0; j < g.joints.size(); ++j) values.push_back(g.joint_value(j));
+  add_values("joint", values, g.joint_names, g.joint_units, out);
+  add_values("joint_offset", g.joint_offsets, g.joint_names, g.joint_units, out);
+}
+
+/// Values of DOFs and joints, in their order.
+static Cells posture_cells(const GraspSpec& g, bool with_joints) {
+  Cells out;
+  add_values("dof", g.dofs, g.dof_names, g.dof_units, out);
+  if (with_joints) add_joints(g, out);
+  const auto add_other = [&](const char* kind, const std::vector<double>& dofs) {
+    if (dofs.size() == g.dofs.size()) add_values(kind, dofs, g.dof_names, g.dof_units, out);
+  };
+  if (g.pregrasp) add_other("pregrasp dof", g.pregrasp->dofs);
+  add_other("squeeze dof", g.squeeze);
+  return out;
+}
+
+/// Are the joints of all hands in one order? A table has one for all rows.
+static bool is_one_joint_order(const std::vector<GraspSpec>& grasps) {
+  std::map<std::string, size_t> places;
+  for (const GraspSpec& g : grasps) {
+    Cells cells;
+    add_joints(g, cells);
+    size_t last = 0;
+    for (const auto& cell : cells) {
+      const size_t place = places.try_emplace(cell.first, places.size() + 1).first->second;
+      if (place <= last) return false;
+      last = place;
+    }
+  }
+  return true;
+}
+
+static Row row_of(const GraspSpec& g, bool with_joints) {
   Row row;
   for (const auto& [name, text] : text_columns) row[name] = text_cell(g.*text);
   if (g.X_OH) {
     const auto numbers = pose_numbers(*g.X_OH);
     for (size_t i = 0; i < 7; ++i) row[pose_columns[i]] = real_text(numbers[i]);
   }
-  const auto dofs = dof_columns(g);
-  for (size_t i = 0; i < dofs.size(); ++i) row[dofs[i]] = real_text(g.dofs[i]);
+  for (const auto& [name, cell] : posture_cells(g, with_joints)) row[name] = cell;
+  for (const auto& [name, text] : part_cells(g))
+    row[name] = parse_number(text) || text == "true" || text == "false" ? text : csv_cell(text);
   for (const auto& [name, x] : g.measures)
     row[name == "epsilon" ? name : "measure " + name] = number_cell(x);
   for (const auto& [name, x] : g.info) {
@@ -80,12 +128,20 @@ std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::st
                                       "epsilon", "energy", "collision_free"};
   columns.insert(columns.end(), std::begin(pose_columns), std::end(pose_columns));
   std::set<std::string> known(columns.begin(), columns.end());
-  // DOFs in their order; then the rest by name
-  for (const GraspSpec& g : grasps)
-    for (const std::string& column : dof_columns(g))
-      if (known.insert(column).second) columns.push_back(column);
+  const bool with_joints = is_one_joint_order(grasps);
+  const auto add = [&](const std::string& column) {
+    if (known.insert(column).second) columns.push_back(column);
+  };
+  // DOFs and joints in their order, parts in theirs; then the rest by name
+  for (const bool of_dofs : {true, false})
+    for (const GraspSpec& g : grasps)
+      for (const auto& [column, cell] : posture_cells(g, with_joints))
+        if (column.starts_with("dof") == of_dofs) add(column);
   std::vector<Row> rows;
-  for (const GraspSpec& g : grasps) rows.push_back(row_of(g));
+  for (const GraspSpec& g : grasps) rows.push_back(row_of(g, with_joints));
+  for (const std::string& column : part_column_names())
+    if (std::ranges::any_of(rows, [&](const Row& row) { return row.contains(column); }))
+      add(column);
   std::set<std::string> rest = {"hand_file", "object_file"};
   for (const Row& row : rows)
     for (const auto& [name, cell] : row)
@@ -101,8 +157,17 @@ std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::st
     }
     out += '\n';
   }
-  report_lost(grasps, {.dofs = true, .epsilon = true, .notes = true, .files = true}, file, "csv",
-              options);
+  report_lost(grasps,
+              {.dofs = true,
+               .epsilon = true,
+               .pregrasp_dofs = true,
+               .notes = true,
+               .files = true,
+               .joints = with_joints,
+               .contacts = true,
+               .pregrasp_poses = true,
+               .squeeze = true},
+              file, "csv", options);
   return out;
 }
 
@@ -121,7 +186,12 @@ enum class ColumnRole {
   collision_free,
   dof,
   numbered_dof,
-  pose
+  joint,
+  joint_offset,
+  pregrasp_dof,
+  squeeze_dof,
+  pose,
+  part
 };
 
 /// A column, its role, and the name in it: "dof thumb [rad]" is the DOF "thumb", in rad.
@@ -129,7 +199,8 @@ struct Column {
   std::string name = {};
   ColumnRole role = ColumnRole::unused;
   std::string key = {}, unit = {};
-  size_t number = 0;  ///< of a part of the pose, or of a text
+  bool numbered = false;  ///< a joint without a name
+  size_t number = 0;      ///< of a part of the pose or of the grasp, or of a text
 };
 
 // "thumb [rad]" as name and unit
@@ -140,10 +211,25 @@ void split_unit(Column& column) {
   column.key.resize(bracket);
 }
 
+// " thumb [rad]" or "_1 [rad]", behind the kind of value
+void split_name(Column& column) {
+  split_unit(column);
+  column.numbered = column.key.starts_with('_');
+  if (column.key.empty() || (!column.numbered && column.key[0] != ' ') ||
+      (column.numbered && !parse_integer(column.key.substr(1))))
+    column.role = ColumnRole::unused;
+  else
+    column.key.erase(0, 1);
+}
+
 Column column_of(std::string name) {
   static constexpr std::pair<std::string_view, ColumnRole> prefixes[] = {
       {"dof ", ColumnRole::dof},
       {"dof_", ColumnRole::numbered_dof},
+      {"joint_offset", ColumnRole::joint_offset},
+      {"joint", ColumnRole::joint},
+      {"pregrasp dof", ColumnRole::pregrasp_dof},
+      {"squeeze dof", ColumnRole::squeeze_dof},
       {"measure ", ColumnRole::measure},
       {"info ", ColumnRole::note},
       {"label ", ColumnRole::label}};
@@ -161,6 +247,7 @@ Column column_of(std::string name) {
       if (role == ColumnRole::dof || role == ColumnRole::numbered_dof) split_unit(out);
       if (role == ColumnRole::numbered_dof && !parse_integer(out.key))
         out.role = ColumnRole::unused;
+      if (role >= ColumnRole::joint && role <= ColumnRole::squeeze_dof) split_name(out);
       return out;
     }
   for (const auto& [known, role] : names)
@@ -172,6 +259,9 @@ Column column_of(std::string name) {
     if (out.name == text_columns[i].first) out.role = ColumnRole::text, out.number = i;
   for (size_t i = 0; i < std::size(pose_columns); ++i)
     if (out.name == pose_columns[i]) out.role = ColumnRole::pose, out.number = i;
+  static const std::vector<std::string> parts = part_column_names();
+  for (size_t i = 0; i < parts.size(); ++i)
+    if (out.name == parts[i]) out.role = ColumnRole::part, out.number = i;
   return out;
 }
 
@@ -202,6 +292,8 @@ class TableReader {
     GraspSpec g;
     std::optional<double> pose[7];
     bool has_units = false;
+    std::vector<double> before;
+    PartReader parts;
     for (size_t c = 0; c < columns_.size(); ++c) {
       const Column& column = columns_[c];
       const CsvCell& cell = record.cells[c];
@@ -237,6 +329,24 @@ class TableReader {
           g.dof_units.push_back(column.unit == any_unit ? "" : column.unit);
           has_units = has_units || !g.dof_units.back().empty();
           break;
+        case ColumnRole::joint:
+          g.joints.push_back(number(column, cell, record.line));
+          if (!column.numbered) g.joint_names.push_back(column.key);
+          g.joint_units.push_back(column.unit == any_unit ? "" : column.unit);
+          break;
+        case ColumnRole::joint_offset:
+          g.joint_offsets.push_back(number(column, cell, record.line));
+          break;
+        case ColumnRole::pregrasp_dof:
+          before.push_back(number(column, cell, record.line));
+          break;
+        case ColumnRole::squeeze_dof:
+          g.squeeze.push_back(number(column, cell, record.line));
+          break;
+        case ColumnRole::part:
+          parts.read(column.number, cell.text,
+                     fmt::format("{}:{}: {}", file_, record.line, column.name));
+          break;
         case ColumnRole::pose:
           pose[column.number] = number(column, cell, record.line);
           break;
@@ -247,6 +357,14 @@ class TableReader {
       fail("{}:{}: expected DOFs with names or with numbers, got both", file_, record.line);
     if (std::ranges::any_of(pose, [](const auto& x) { return x.has_value(); }))
       g.X_OH = pose_of(pose, record.line);
+    const std::string place = fmt::format("{}:{}", file_, record.line);
+    finish_joints(g, place);
+    if (!before.empty()) g.pregrasp = PregraspState{Pose{}, before};
+    for (const auto* other : {&before, &g.squeeze})
+      if (!other->empty() && other->size() != g.dofs.size())
+        fail("{}: expected as many values of each posture as DOFs, {}, got {}", place,
+             g.dofs.size(), other->size());
+    parts.finish(g, place);
     return g;
   }
 
@@ -257,8 +375,9 @@ class TableReader {
     for (const Column& c : columns_) {
       if (!known.insert(c.name).second)
         fail("{}: column {} appears twice", place, in_quotes(c.name));
+      if (c.role >= ColumnRole::dof && c.role <= ColumnRole::squeeze_dof)
+        check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
       if (c.role != ColumnRole::dof && c.role != ColumnRole::numbered_dof) continue;
-      check_dof_unit(fmt::format("{}: {}", place, excerpt(c.name)), c.unit);
       (c.role == ColumnRole::dof ? dofs : numbered).push_back(c.key);
     }
     for (const char* name : pose_columns)
@@ -270,6 +389,17 @@ class TableReader {
     for (size_t i = 0; i < numbered.size(); ++i)
       if (parse_integer(numbered[i]) != static_cast<int>(i) + 1)
         fail("{}: expected a column dof_{}, got dof_{}", place, i + 1, excerpt(numbered[i]));
+  }
+
+  static void finish_joints(GraspSpec& g, const std::string& place) {
+    if (!g.joint_names.empty() && g.joint_names.size() != g.joints.size())
+      fail("{}: expected joints with names or with numbers, got both", place);
+    if (std::ranges::all_of(g.joint_units, &std::string::empty)) g.joint_units.clear();
+    if (g.joint_offsets.empty()) return;
+    if (g.joint_offsets.size() != g.joints.size())
+      fail("{}: expected as many offsets as joints, {}, got {}", place, g.joints.size(),
+           g.joint_offsets.size());
+    for (size_t j = 0; j < g.joints.size(); ++j) g.joints[j] -= g.joint_offsets[j];
   }
 
   double number(const Column& column, const CsvCell& cell, int line) const {

@@ -40,11 +40,13 @@ void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const
     if (!held && any(has)) lost.emplace_back(what);
   };
   tell(holds.dofs, "DOFs", [](const GraspSpec& g) { return !g.dofs.empty(); });
-  tell(false, "joint positions", [](const GraspSpec& g) { return !g.joints.empty(); });
-  tell(false, "contacts", [](const GraspSpec& g) { return !g.points.empty(); });
-  tell(false, "poses of pregrasps", [](const GraspSpec& g) { return g.pregrasp.has_value(); });
+  tell(holds.joints, "joint positions", [](const GraspSpec& g) { return !g.joints.empty(); });
+  tell(holds.contacts, "contacts", [](const GraspSpec& g) { return !g.points.empty(); });
+  tell(holds.pregrasp_poses, "poses of pregrasps",
+       [](const GraspSpec& g) { return g.pregrasp.has_value(); });
   tell(holds.pregrasp_dofs, "DOFs of pregrasps",
        [](const GraspSpec& g) { return g.pregrasp.has_value(); });
+  tell(holds.squeeze, "squeeze postures", [](const GraspSpec& g) { return !g.squeeze.empty(); });
   tell(holds.epsilon, "epsilon", [](const GraspSpec& g) { return g.measures.contains("epsilon"); });
   tell(holds.notes, "other measures",
        [](const GraspSpec& g) { return g.measures.size() > g.measures.count("epsilon"); });

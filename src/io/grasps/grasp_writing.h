@@ -24,6 +24,7 @@ std::vector<std::string> dof_names_of(const GraspSpec& grasp);
 struct Holds {
   bool dofs = false, epsilon = false, pregrasp_dofs = false, notes = false, hand = true,
        object = true, files = false;
+  bool joints = false, contacts = false, pregrasp_poses = false, squeeze = false;
 };
 /// Warns once of what the grasps have and the format does not hold:
 /// "g.yaml: the format isaac_grasp does not hold contacts and joint positions, which are not

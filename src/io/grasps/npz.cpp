@@ -63,14 +63,19 @@ static std::string npy_bytes(const NpyArray& array) {
 }
 
 std::string npz_bytes(const std::map<std::string, NpyArray>& arrays) {
+  constexpr size_t max_arrays = 65'000;
+  if (arrays.size() > max_arrays)
+    fail("an .npz holds at most {} arrays, got {}", max_arrays, arrays.size());
   std::string out, directory;
   for (const auto& [key, array] : arrays) {
     const std::string name = key + ".npy", body = npy_bytes(array);
     if (out.size() + body.size() > 0xF0000000U) fail("an .npz holds at most 4 GB of arrays");
     const auto place = static_cast<uint32_t>(out.size());
-    // version 2.0, no flags, stored, the first of January 1980
+    // version 2.0, a name in UTF-8, stored, the first of January 1980
+    const bool is_plain = std::ranges::all_of(name, [](unsigned char c) { return c < 128; });
     std::string fields;
-    for (const int x : {20, 0, 0, 0, 33}) append_little_endian(fields, static_cast<uint16_t>(x));
+    for (const int x : {20, is_plain ? 0 : 1 << 11, 0, 0, 33})
+      append_little_endian(fields, static_cast<uint16_t>(x));
     append_little_endian(fields, crc32(body));
     append_little_endian(fields, static_cast<uint32_t>(body.size()));
     append_little_endian(fields, static_cast<uint32_t>(body.size()));

@@ -5,6 +5,7 @@
 #include "clench/io/grasp_lines.h"
 #include "clench/planning/apply_by_arm.h"
 #include "clench/script/bind/grasp/dof_order.h"
+#include "clench/script/bind/grasp/save_grasp.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
@@ -110,6 +111,39 @@ static int set_pregrasp(lua_State* L) {
   return 0;
 }
 
+static int set_squeeze(lua_State* L) {
+  auto& g = self<GraspHandle>(L).grasp;
+  if (!given(L, 2)) return g.squeeze.clear(), 0;
+  const auto values = read_numbers(L, 2, What{L, {}, "value"});
+  if (values.size() != g.dofs.size())
+    fail("{}: expected {} numbers, one per DOF, got {}", subject(L), g.dofs.size(), values.size());
+  g.squeeze = values;
+  return 0;
+}
+
+static int get_squeeze(lua_State* L) {
+  const auto& squeeze = self<GraspHandle>(L).grasp.squeeze;
+  return squeeze.empty() ? push_nil(L) : push(L, squeeze);
+}
+
+static int push_file(lua_State* L, const std::string& file) {
+  return file.empty() ? push_nil(L) : push(L, file);
+}
+
+static int get_hand_file(lua_State* L) {
+  return push_file(L, self<GraspHandle>(L).grasp.hand_file);
+}
+
+static int get_object_file(lua_State* L) {
+  return push_file(L, self<GraspHandle>(L).grasp.object_file);
+}
+
+static std::vector<double> joint_values(const GraspHandle& x) {
+  std::vector<double> out;
+  for (size_t j = 0; j < x.grasp.joints.size(); ++j) out.push_back(x.grasp.joint_value(j));
+  return out;
+}
+
 static int set_collision_free(lua_State* L) {
   auto& g = self<GraspHandle>(L).grasp;
   g.collision_free.reset();
@@ -181,6 +215,8 @@ static int apply(lua_State* L) {
   measured.info = g.grasp.info;
   measured.labels = g.grasp.labels;
   measured.pregrasp = before;
+  // values of DOFs in another order would be those of other motors
+  if (named.dof_names == measured.dof_names) measured.squeeze = g.grasp.squeeze;
   return push_object(L, GraspHandle{world, std::move(measured)});
 }
 
@@ -276,13 +312,13 @@ Name of the robot that grasps; a grasp that stands in no world has it, too.
 Name of the body that is grasped.
 @type string
 > grasp.object_name  --> flask)"},
-    {"hand_file", getter<[](const GraspHandle& x) { return x.grasp.hand_file; }>, R"(
-File of the robot that grasps, as it was named when it was read; empty where it is not known.
-@type string
+    {"hand_file", guarded<get_hand_file>, R"(
+File that the hand was read from, as it was named; nil: not known.
+@type string?
 > grasp.hand_file == hand.source  --> true)"},
-    {"object_file", getter<[](const GraspHandle& x) { return x.grasp.object_file; }>, R"(
-File of the body that is grasped; empty where it is not known.
-@type string
+    {"object_file", guarded<get_object_file>, R"(
+File that the object was read from, as it was named; nil: not known.
+@type string?
 > grasp.object_file == flask.source  --> true)"},
     {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
 Where the hand's base stood in the object's frame when the grasp was measured.
@@ -300,6 +336,16 @@ Names of these DOFs; empty in a list from a file that does not name them.
 Positions of the hand's joints when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.joint_positions > #grasp.dofs  --> true)"},
+    {"joint_names", getter<[](const GraspHandle& x) { return x.grasp.joint_names; }>, R"(
+Names of these joints, followers included: those of the hand's file; else that of the DOF, of the joint that has its value; else "chain0_joint1". Empty in a
+list from a file that does not name them.
+@type string[]
+> #grasp.joint_names == #grasp.joint_positions  --> true)"},
+    {"joint_values", method<joint_values>, R"(
+The same positions as the hand's own file counts them, which other programs expect: they differ where the file's joint has
+another zero.
+@type number[]  [rad or m]
+> #grasp.joint_values == #grasp.joint_names  --> true)"},
     {"measures", getter<[](const GraspHandle& x) { return x.grasp.measures; }>, R"(
 Measures that were asked for so far, by name; in a file they are kept with the grasp.
 @type table<string, number>
@@ -327,6 +373,14 @@ known. Planners set it; files keep it.
 > grasp.pregrasp = {pose = grasp.pose, dofs = grasp.dofs}
 > #grasp.pregrasp.dofs == #hand.dofs  --> true)",
      guarded<set_pregrasp>},
+    {"squeeze", guarded<get_squeeze>, R"(
+Targets of the motors that press on the object, one per DOF, perhaps beyond its limits; nil: not known. Planners that verify set it; files keep it.
+@type number[]?  [rad or m]
+> grasp.squeeze  --> nil
+> grasp.squeeze = grasp.dofs
+> #grasp.squeeze == #hand.dofs  --> true
+> grasp.squeeze = {1}  --> error: numbers, one per DOF, got 1)",
+     guarded<set_squeeze>},
     {"collision_free", getter<[](const GraspHandle& x) { return x.grasp.collision_free; }>, R"(
 Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
 @type boolean?
@@ -389,6 +443,18 @@ Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, whe
 @param options? {dof_order?: string|string[]}  as `apply` takes it
 @return number[] dofs, number[]? pregrasp  [rad or m]
 > #grasp:dofs_for(hand) == #hand.dofs  --> true)"},
+    {"save", guarded<save_grasp>, R"(
+Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand stands on slides, named carriage_x, carriage_y
+and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and
+"lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
+@param path string  .xml or .mjcf
+@param options? {force?: number, height?: number, confine?: string}  force: sum of the normal forces, 10 times the object's weight by default, less where the motors cannot [N]; height: of the lift, 0.1 [m]
+> path = os.tmpname()
+> grasp:save(path .. ".xml")
+> clench.load(path .. ".xml", {keyframe = "lift"}).keyframes[2]  --> grasp
+> os.remove(path)
+> os.remove(path .. ".xml")
+> grasp:save "grasp.wld"  --> error: expected a scene of MuJoCo to .xml or .mjcf, got '.wld')"},
     {"is_force_closure",
      method<[](const GraspHandle& x) { return space_of(x.grasp)->is_force_closure(); }>, R"(
 Can it resist every wrench?

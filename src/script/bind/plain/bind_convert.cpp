@@ -33,20 +33,24 @@ static int convert(lua_State* L) {
   const FileKind kind = file_kind(found);
   if (kind == FileKind::robot) read_robot_options(L, options, reading);
   GraspConversion grasps;
+  std::string format;
   if (is_grasp_list(kind)) {
     grasps.format = options.string("format", "");
     grasps.dof_names = dof_names_option(options);
+  } else if (kind == FileKind::world || kind == FileKind::robot) {
+    format = options.string("format", "");
   }
   options.done();
   const std::string ending = ending_of(to);
-  const bool as_world = kind == FileKind::robot && (ending == ".lua" || ending == ".wld");
+  const bool as_world = kind == FileKind::robot && (ending == ".lua" || ending == ".wld" ||
+                                                    ending == ".xml" || ending == ".mjcf");
   if (kind == FileKind::robot && !as_world && ending != ".urdf")
-    fail("{}: expected a robot to .urdf, or its world to .lua or .wld, got {}", to,
+    fail("{}: expected a robot to .urdf, or its world to .xml, .mjcf, .lua or .wld, got {}", to,
          in_quotes(ending));
   if (kind == FileKind::world ||
       as_world)  // built on the way, which tells what the new file does not hold
     save_world(L, *push_world_of(L, found, reading), to,
-               {.root = reading.root, .confine = reading.confine});
+               {.root = reading.root, .confine = reading.confine, .format = format});
   else
     convert_file(kind, found, to, reading,
                  {.root = reading.root, .confine = reading.confine, .warn = reading.warn}, grasps);
@@ -56,11 +60,11 @@ static int convert(lua_State* L) {
 static const Entry convert_functions[] = {
     {"convert", guarded<convert>, R"(
 Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
-.urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml,
+.urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml,
 lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
 @param from string
 @param to string
-@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
+@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too; of worlds `format`, as world:save takes it; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
 > path = os.tmpname()
 > clench.convert("models/objects/flask.iv", path .. ".ply")  --> body

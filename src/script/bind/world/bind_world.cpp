@@ -281,16 +281,18 @@ back, what was added since is gone.
 > world:restore(moment)
 > world:hash() == before  --> true)"},
     {"save", guarded<save_world>, R"(
-Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the
-new one has been read again; what the format cannot hold is told in a warning.
-@param path string  .wld, .xml or .lua
-@param options? {root?: string, confine?: string}  names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
+Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder beside it, and its state now as the reference posture
+and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that holds everything. The old file
+stays until the new one has been read again; what the format cannot hold is told in a warning.
+@param path string  .xml, .mjcf, .wld or .lua
+@param options? {format?: string, root?: string, confine?: string}  format: of an .xml "mjcf" or "graspit"; default: "mjcf", unless a robot carries another one, as a scene read again has one robot in place of the two; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 > path = os.tmpname()
 > world:save(path .. ".lua")
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true
 > os.remove(path)
 > os.remove(path .. ".lua")
-> world:save "world.txt"  --> error: expected a world to .wld, .xml or .lua, got '.txt')"},
+> world:save "world.txt"  --> error: expected a world to .xml, .mjcf, .wld or .lua, got '.txt'
+> world:save("world.xml", {format = "usd"})  --> error: unknown format 'usd')"},
     {"hash", method<[](const WorldHandle& x) { return fmt::format("{:016x}", x.world->hash()); }>,
      R"(
 Fingerprint of the state: equal bits, equal text.

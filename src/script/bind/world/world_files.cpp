@@ -1,7 +1,10 @@
 #include "clench/script/bind/world/world_files.h"
 
+#include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/io/mjcf/written_keys.h"
 #include "clench/io/text/confine.h"
+#include "clench/io/write_mjcf.h"
 #include "clench/io/write_world.h"
 #include "clench/model/build.h"
 #include "clench/model/compare_worlds.h"
@@ -147,8 +150,118 @@ static void warn_of_losses(lua_State* L, const World& world, const World& again,
   if (!lost.empty()) log_warning(L, fmt::format("{} does not hold {}", file, name_list(lost)));
 }
 
+bool is_mjcf_target(const World& world, const fs::path& path, const std::string& format) {
+  const std::string ending = lower_case(path.extension().string());
+  static const std::vector<std::string> formats = {"mjcf", "graspit", "lua"};
+  if (!format.empty() && std::ranges::find(formats, format) == formats.end())
+    fail("unknown format {}{}", in_quotes(format), instead_of(format, formats));
+  const bool is_lua = ending == ".lua", is_wld = ending == ".wld", is_xml = ending == ".xml";
+  const bool is_mjcf = ending == ".mjcf";
+  const bool fits = format == "mjcf"      ? is_xml || is_mjcf
+                    : format == "graspit" ? is_xml || is_wld
+                    : format == "lua"     ? is_lua
+                                          : true;
+  if (!fits && (is_lua || is_wld || is_xml || is_mjcf))
+    fail("{}: the format {} is not written to {}", path.filename().string(), in_quotes(format),
+         in_quotes(ending));
+  const auto is_carried = [&](Id<Robot> id) { return world.robot(id).mounting.has_value(); };
+  if (is_xml && format.empty()) return std::ranges::none_of(world.robots(), is_carried);
+  return is_mjcf || (is_xml && format == "mjcf");
+}
+
+// gains and limits that scripts give to motors of DOFs
+static void apply_motor_settings(const RobotDynamics& settings, RobotSpec& robot) {
+  for (size_t d = 0; d < robot.dofs.size(); ++d) {
+    DofSpec& dof = robot.dofs[d];
+    if (d < settings.gains.size() && settings.gains[d]) {
+      dof.kp = settings.gains[d]->kp;
+      dof.kd = settings.gains[d]->kd;
+      dof.damping_ratio = 0;
+    }
+    if (settings.max_effort && dof.max_effort <= 0) dof.max_effort = *settings.max_effort;
+  }
+}
+
+WorldSpec scene_spec(const World& world) {
+  WorldSpec out = describe_world(world);
+  for (size_t r = 0; r < out.robots.size(); ++r)
+    apply_motor_settings(world.dynamic_settings().robot(world.robots()[r]), out.robots[r].robot);
+  return out;
+}
+
+// settings of dynamics that no scene holds
+static void warn_of_settings(lua_State* L, const World& world) {
+  const DynamicSettings& set = world.dynamic_settings();
+  const DynamicSettings plain;
+  std::vector<std::string> lost;
+  if (set.engine != plain.engine) lost.emplace_back("engine");
+  if (set.cone != plain.cone) lost.emplace_back("friction cone");
+  if (!set.surface_velocities.empty()) lost.emplace_back("belts");
+  if (!set.welds.empty()) lost.emplace_back("welds");
+  for (const auto& [id, robot] : set.robots) {
+    if (!world.alive(id) || !world.robot(id).passive || world.robot(id).passive->actuators.empty())
+      continue;
+    if (!robot.gains.empty() || robot.max_effort)
+      lost.push_back(fmt::format("gains and max_effort of '{}', which has actuators of its own",
+                                 world.robot(id).name));
+  }
+  if (!lost.empty())
+    log_warning(L, fmt::format("{}: these settings of dynamics are not saved: {}", subject(L),
+                               name_list(lost)));
+}
+
+SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path& path) {
+  SceneRequest out{.world = spec, .friction = {}};
+  const MaterialTable& table = world.materials();
+  out.friction = [&table](const std::string& a, const std::string& b) {
+    const Friction both = table.friction(table.index(a), table.index(b));
+    return std::array{both.statics, both.kinetic};
+  };
+  out.name = path.stem().string();
+  out.time_step = world.dynamic_settings().step;
+  for (size_t r = 0; r < world.robots().size(); ++r)
+    if (!world.dynamic_settings().robot(world.robots()[r]).gravity_compensation)
+      out.unsupported.push_back(static_cast<int>(r));
+  return out;
+}
+
+void save_scene(lua_State* L, const World& world, const fs::path& path, const SavingOptions& saving,
+                SceneRequest& request) {
+  WriteOptions writing{.root = saving.root, .confine = saving.confine};
+  writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
+  // what would not load is not written
+  writing.check = [&](const fs::path& written) {
+    if (!world.bodies().empty() && lies_within(written, saving.confine))
+      build_world(read_world(written, {.confine = saving.confine}));
+  };
+  if (world.time() > 0)
+    log_warning(L, fmt::format("{}: the time and velocities of a world that has run are not saved",
+                               subject(L)));
+  warn_of_settings(L, world);
+  write_mjcf(request, path, writing);
+}
+
+static void save_as_scene(lua_State* L, const World& world, const fs::path& path,
+                          const SavingOptions& saving) {
+  const WorldSpec spec = scene_spec(world);
+  SceneRequest request = scene_of(world, spec, path);
+  request.keys.push_back(present_key(spec, "start"));
+  for (const KeyframeSpec& keyframe : spec.keyframes) {
+    WrittenKey key = key_of(spec, keyframe);
+    // the key of the state now takes the place of an older one
+    if (key.name != "start") request.keys.push_back(std::move(key));
+  }
+  save_scene(L, world, path, saving, request);
+}
+
 void save_world(lua_State* L, const World& world, const fs::path& path,
                 const SavingOptions& saving) {
+  if (is_mjcf_target(world, path, saving.format)) return save_as_scene(L, world, path, saving);
+  if (saving.format.empty() && lower_case(path.extension().string()) == ".xml")
+    log(L, LogLevel::info,
+        fmt::format("{}: a robot carries another one, so this is an XML world of GraspIt!; "
+                    "format = \"mjcf\" writes a scene of MuJoCo",
+                    path.filename().string()));
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
   const std::string file = path.filename().string();
@@ -185,7 +298,8 @@ int save_world(lua_State* L) {
   const fs::path path = check_output(L, 2);
   Table options(L, 3);
   const SavingOptions saving{.root = options.string("root", ""),
-                             .confine = read_confine(L, options)};
+                             .confine = read_confine(L, options),
+                             .format = options.string("format", "")};
   options.done();
   check_target(path, saving.confine);
   save_world(L, *world, path, saving);

@@ -1,0 +1,29 @@
+// Friction of geoms, as MuJoCo combines it, and the pairs that may not collide.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "clench/io/mjcf/written_scene.h"
+
+namespace clench {
+
+/// Two bodies of a scene whose geoms are listed as pairs, with a coefficient of their own.
+struct FrictionPair {
+  int a = 0, b = 0;
+  double mu = 0;
+};
+
+struct WrittenContacts {
+  std::map<std::string, double> friction;     ///< of geoms, by material
+  std::vector<FrictionPair> pairs;            ///< that geoms' friction cannot express
+  std::vector<std::array<int, 2>> excluded;   ///< bodies, by number
+  std::vector<std::array<unsigned, 2>> bits;  ///< contype, conaffinity of each body
+  std::vector<std::string> losses;
+};
+
+/// MuJoCo takes the larger friction of two geoms. Each material gets the smallest coefficient that
+/// it has with any material that it can touch; what differs then is listed as pairs.
+WrittenContacts plan_contacts(const SceneRequest& request, const WrittenScene& scene);
+
+}  // namespace clench

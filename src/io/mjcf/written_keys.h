@@ -1,0 +1,28 @@
+// States of a world as keys of a scene: positions of joints, and controls of motors.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "clench/io/mjcf/written_actuators.h"
+#include "clench/io/mjcf/written_carriage.h"
+
+namespace clench {
+
+/// The state of the world now, as a key.
+WrittenKey present_key(const WorldSpec& world, const std::string& name);
+/// A keyframe of the world, whose other bodies stand as they do now.
+WrittenKey key_of(const WorldSpec& world, const KeyframeSpec& keyframe);
+
+/// Positions that all joints have where they follow their DOFs [rad or m].
+std::vector<double> joints_at(const RobotSpec& robot, const std::vector<double>& dofs);
+
+/// Positions in the order of MuJoCo, body by body.
+std::vector<double> positions_of(const WrittenKey& key, const WrittenScene& scene,
+                                 const Carriage& carriage);
+/// Controls at which the motors hold the posture, and press.
+std::vector<double> controls_of(const WrittenKey& key, const SceneRequest& request,
+                                const WrittenDrives& drives, const Carriage& carriage);
+/// Names of bodies that the key moves although the scene has no joint for them.
+std::vector<std::string> unmoved_in(const WrittenKey& key, const WrittenScene& scene);
+
+}  // namespace clench

@@ -1,0 +1,105 @@
+// A world as a tree of MJCF bodies, as it is written: names, joints and poses as they stand now.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "clench/spec/chains.h"
+#include "clench/spec/world_spec.h"
+
+namespace clench {
+
+/// A joint of a body; anchor and axis in the body's frame as the body stands now.
+struct WrittenJoint {
+  std::string name;
+  const JointSpec* spec = nullptr;
+  int robot = 0, number = 0;  ///< of the robot's joints, link by link
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
+  double value = 0;  ///< q now [rad or m]
+
+  /// The joint's value in its own file, and in the scene.
+  double coordinate(double q) const { return q + spec->offset; }
+};
+
+struct WrittenBody {
+  std::string name;
+  const BodySpec* spec = nullptr;
+  int parent = -1;  ///< among the bodies; -1: the world
+  Pose X_WB;
+  bool free = false;          ///< moves freely, by a joint of its own
+  bool carried = false;       ///< stands on a carriage, see SceneRequest
+  int body = -1;              ///< of the world's bodies; -1: a part of a robot
+  int robot = -1, link = -1;  ///< of the world's robots, and its link; -1: the base
+  std::vector<WrittenJoint> joints = {};
+  std::vector<int> children = {};
+
+  bool is_movable() const { return free || carried || !joints.empty(); }
+};
+
+/// Static and kinetic coefficient of two materials.
+using FrictionOf = std::function<std::array<double, 2>(const std::string&, const std::string&)>;
+
+/// A state that a scene names.
+struct WrittenKey {
+  std::string name;
+  std::vector<Pose> bodies;                 ///< one per body of the world
+  std::vector<Pose> robots;                 ///< base of each
+  std::vector<std::vector<double>> joints;  ///< of each robot [rad or m]
+  /// of each robot and DOF, in addition to what holds the posture [N m or N]; empty: none
+  std::vector<std::vector<double>> efforts = {};
+  /// of each robot, the joints' positions to which servos drive [rad or m]; empty: `joints`
+  std::vector<std::vector<double>> targets = {};
+};
+
+struct SceneRequest {
+  const WorldSpec& world;
+  FrictionOf friction;
+  std::string name = "scene";
+  std::vector<WrittenKey> keys = {};
+  /// robot whose base three slides along the world's axes move, and three hinges if keys turn it;
+  /// -1: none
+  int carriage = -1;
+  double time_step = 0.001;           ///< [s]
+  std::vector<int> unsupported = {};  ///< robots whose motors do not carry their weight
+  /// radius of torsional friction between soft bodies [m]; 0: not known
+  double torsion_radius = 0;
+};
+
+/// Bodies depth first, as MuJoCo numbers them.
+struct WrittenScene {
+  std::vector<WrittenBody> bodies;
+  std::vector<int> roots;
+  std::vector<std::vector<int>> parts;  ///< of each robot, its base and links: numbers of bodies
+
+  const WrittenBody& part(int robot, int link) const {
+    return bodies[static_cast<size_t>(
+        parts[static_cast<size_t>(robot)][static_cast<size_t>(link + 1)])];
+  }
+  /// Is it this body, or does it move with it?
+  bool is_below(int body, int ancestor) const;
+  /// Is it fixed to the world?
+  bool stands(int body) const;
+};
+
+WrittenScene plan_scene(const SceneRequest& request);
+
+/// A joint that its robot's DOF moves, with the body that it moves.
+struct MovedBody {
+  int body = 0;
+  const WrittenJoint* joint = nullptr;
+};
+/// Joints of a DOF, link by link; the first one has the DOF's value, its opposite, or is the first.
+std::vector<MovedBody> joints_of_dof(const WrittenScene& scene, int robot, int dof);
+
+/// What a DOF feels at the present posture, of everything that it moves.
+struct DofLoad {
+  double inertia = 0;  ///< [kg m^2 or kg]
+  double weight = 0;   ///< effort of gravity on the DOF [N m or N]
+};
+DofLoad load_of_dof(const WrittenScene& scene, const std::vector<MovedBody>& joints,
+                    const Eigen::Vector3d& gravity);
+
+/// A name that no earlier one of its kind has: "name", "name_2".
+std::string unique_name(const std::string& name, std::vector<std::string>& taken);
+
+}  // namespace clench
