@@ -4,6 +4,7 @@ local closing = require "clench.plan.closing"
 local distinct = require "clench.plan.distinct"
 local is_stopped = require "clench.is_stopped"
 local neighbour = require "clench.plan.neighbour"
+local verification = require "clench.plan.verification"
 local batch = {}
 
 local chunk, chunks = 2, 32  -- states per call, few so that grasps are reported soon; calls per round
@@ -62,9 +63,8 @@ function batch.try(job, stats, next_state, options)
   stats.candidates, stats.rejected = 0, {}
   local shared = {hand = job.hand, object = job.object, approach = options.approach, back = options.back,
                   grasp = job.grasp_options, refine = options.refine or 0, verify = options.verify, touch = job.touch, seed = job.seed}
-  local shakes = options.verify and options.verify.shake
   stats.verify = options.verify
-  if shakes then stats.shaken, stats.survived = 0, 0 end
+  if options.verify and options.verify.shake then stats.shaken, stats.survived = 0, 0 end
   local found, founders, number, unlike = {}, {}, 0, 0
   local is_new = distinct(job.hand, job.object, options.distance or 0)
   local tally = {near = {tried = 0, found = 0}, elsewhere = {tried = 0, found = 0}}
@@ -86,6 +86,10 @@ function batch.try(job, stats, next_state, options)
   local journal = options.journal or nothing_recorded
   local out_of_time = false
 
+  local function note_shaken(count, survived)
+    stats.shaken, stats.survived = (stats.shaken or 0) + count, (stats.survived or 0) + survived
+  end
+
   ---@param piece {first: integer, count: integer, known?: table}
   local function take(result, piece)
     if result.error then
@@ -100,7 +104,7 @@ function batch.try(job, stats, next_state, options)
       result.counted = true
       for why, count in pairs(result.rejected) do
         stats.rejected[why] = (stats.rejected[why] or 0) + count
-        if why == "lost when shaken" then stats.shaken = stats.shaken + count end
+        if why == verification.lost_when_shaken then note_shaken(count, 0) end
       end
     end
     if result.rejected["no time left"] then out_of_time = true end
@@ -111,10 +115,7 @@ function batch.try(job, stats, next_state, options)
       -- `take` is called again with the same result if Ctrl-C interrupted it
       if not new.taken then
         new.taken = true
-        if shakes then
-          stats.shaken = stats.shaken + 1
-          if numbers.survived == 1 then stats.survived = stats.survived + 1 end
-        end
+        if numbers.survived then note_shaken(1, numbers.survived) end
         found[#found + 1] = closing.note(new.grasp, options.planner, numbers)
         founders[#founders + 1] = new
         if is_new(new.grasp) then unlike = unlike + 1 end

@@ -1,21 +1,35 @@
 --- What a thread does with a few starts: from each the hand closes; what is in force closure is made better and verified,
 --- as asked. For clench.parallel.map.
 local closing = require "clench.plan.closing"
-local touch = require "clench.plan.touch"
 local neighbour = require "clench.plan.neighbour"
+local opposition = require "clench.plan.opposition"
 local quiet = require "clench.plan.quiet"
+local touch = require "clench.plan.touch"
 local verification = require "clench.plan.verification"
+
+-- What refinement increases: epsilon or, of two fingers, the load in the worst direction. The epsilon of two fingers is that about the line
+-- between them, which hardly depends on the distance of that line from the centre of mass; the load decreases with it.
+local function merit_of(hand, object, shared)
+  local verify = shared.verify
+  if not (verify and verify.min_load > 0 and #opposition.fingers(hand) == 2) then return function(grasp) return grasp.epsilon end end
+  return function(grasp)
+    if grasp.epsilon < verify.min_epsilon then return 0 end
+    return verification.load(object, grasp, verify.force_ratio)
+  end
+end
 
 -- keeps what is better, from one try to the next nearer to what is kept
 local function improve(hand, object, state, grasp, random, shared)
   local centre = grasp.pose * (hand.pose:inverse() * hand.approach.point)
-  local size, kept = 1, state
+  local size, kept, merit = 1, state, merit_of(hand, object, shared)
+  local best = merit(grasp)
   local quick = {approach = shared.approach, back = shared.back, grasp = shared.grasp, turn = false}
   for _ = 1, shared.refine do
     local try = neighbour(kept, centre, random, size, hand, object)
     local better = closing.close(hand, object, try, quick)
-    if better and better.collision_free and better.epsilon > grasp.epsilon and not touch.fault(shared.touch, better) then
-      grasp, kept, size = better, try, math.min(1, size * 1.5)
+    local value = better and better.collision_free and not touch.fault(shared.touch, better) and merit(better)
+    if value and value > best then
+      grasp, kept, best, size = better, try, value, math.min(1, size * 1.5)
     else
       size = size * 0.8
     end

@@ -231,17 +231,24 @@ local function gets_there(hand, object, direction, pose, dofs)
   return free
 end
 
-local max_points = 6  -- from which that of two fingers is chosen
+local max_points = 12  -- from which that of two fingers is chosen
 
--- A point of the surface. Two fingers hold torques about the line between them by friction alone, so for them the point nearest to the centre of
--- mass is chosen from several.
+-- the lever of the weight about the normal line of a point of the surface [m]
+local function lever_at(at, com) return (com - at.point):cross(at.normal):norm() end
+
+-- A point of the surface. Two fingers hold torques about the line between them by friction alone, so for them the point whose normal passes
+-- nearest to the centre of mass is chosen from several.
 local function surface_point(hand, object, surface, random)
-  local nearest = any_of(surface, random)
-  for _ = 2, hand.is_two_fingered and random:integer(2, max_points) or 1 do
+  local best = any_of(surface, random)
+  if not hand.is_two_fingered then return best end
+  local com = object.com
+  local least = lever_at(best, com)
+  for _ = 2, random:integer(2, max_points) do
     local other = any_of(surface, random)
-    if (other.point - object.com):norm() < (nearest.point - object.com):norm() then nearest = other end
+    local lever = lever_at(other, com)
+    if lever < least then best, least = other, lever end
   end
-  return nearest
+  return best
 end
 
 local sides = 4                -- number of approach directions that are tried for two points

@@ -1,5 +1,6 @@
 --- Does a grasp hold when it is not met exactly, and against loads? What is asked of a grasp that is called verified.
 local give_way = require "clench.plan.give_way"
+local opposition = require "clench.plan.opposition"
 local share_friction = require "clench.study.motion.share_friction"
 local supports = require "clench.plan.supports"
 local verification = {}
@@ -7,6 +8,12 @@ local verification = {}
 verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
 
 verification.too_weak = "too weak against loads"
+verification.lost_when_shaken = "lost when shaken"
+
+--- The load that two fingers hold at least with half of the friction: the weight, as the torsion that keeps the object from pivoting is the
+--- least certain of all friction.
+verification.min_slippery_load_of_two_fingers = 1
+verification.too_slippery = "too weak with half of the friction"
 
 --- min_slippery_load of grasps that are shaken, too
 verification.min_slippery_load_of_shaken = 2
@@ -170,6 +177,7 @@ end
 
 --- Is the object held when its weight pulls it along each axis of the world in turn, by a hand that presses with force_ratio weights?
 --- See study.shake.
+---@param shake table  options of study.shake
 ---@return integer held  in how many of the six directions
 ---@return boolean survived
 function verification.shake(hand, object, shake, force_ratio)
@@ -180,16 +188,42 @@ function verification.shake(hand, object, shake, force_ratio)
   return verdict.held, verdict.survived
 end
 
+--- Can the object pivot about a line between two fingers? Where no more than two fingers press, only the torsion of their patches resists
+--- that; a palm stops it in one direction at most. A load margin counts on all points of a patch at once, but when the object moves by less
+--- than the contact threshold, few of them carry the load, and these are often too near to the line. So grasps of this kind are verified in
+--- motion.
+function verification.can_pivot(hand, grasp)
+  local touching, count = {}, 0
+  for _, name in ipairs(grasp.links) do touching[name] = true end
+  for _, finger in ipairs(opposition.fingers(hand)) do
+    for _, link in ipairs(finger.links) do
+      if touching[link.name] then
+        count = count + 1
+        break
+      end
+    end
+  end
+  return count <= 2
+end
+
+-- The options of the shaking that is asked of a grasp, nil: none; is it asked because the object can pivot?
+local function shaking_of(hand, grasp, options)
+  if options.shake == nil and verification.can_pivot(hand, grasp) then return {until_lost = not options.keep_lost}, true end
+  return options.shake or nil, false
+end
+
 ---@param hand robot  as it holds the object
----@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, min_slippery_load: number, lift: number, grasp?: table, shake?: table, keep_lost?: boolean}
+---@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, min_slippery_load: number, lift: number, grasp?: table, shake?: table|false, keep_lost?: boolean}  shake: nil: grasps that can pivot are shaken
 ---@return table? numbers, string? why, number? load  in weights, where that is too small; numbers: perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
 function verification.check(hand, object, grasp, options)
   if not grasp.collision_free then return nil, "in collision when closed" end
   if grasp.epsilon < options.min_epsilon then return nil, "epsilon too small" end
   local load = verification.load(object, grasp, options.force_ratio)
   if load < options.min_load then return nil, verification.too_weak, load end
-  if options.min_slippery_load > 0 and verification.slippery_load(hand, object, options.force_ratio, options.grasp) < options.min_slippery_load then
-    return nil, "too weak with half of the friction"
+  local shaking, may_pivot = shaking_of(hand, grasp, options)
+  local min_slippery_load = math.max(options.min_slippery_load, may_pivot and verification.min_slippery_load_of_two_fingers or 0)
+  if min_slippery_load > 0 and verification.slippery_load(hand, object, options.force_ratio, options.grasp) < min_slippery_load then
+    return nil, verification.too_slippery
   end
   if options.lift > 0 and not verification.can_be_lifted(hand, object, options.lift) then
     return nil, "in the way of the lift"
@@ -198,9 +232,9 @@ function verification.check(hand, object, grasp, options)
   if epsilon < options.min_epsilon then return nil, "lost when the object is displaced" end
   grasp.squeeze = verification.squeeze(hand, object, grasp, options.force_ratio)
   local numbers = {load_margin = load, perturbed_epsilon = epsilon}
-  if options.shake then
-    local held, survived = verification.shake(hand, object, options.shake, options.force_ratio)
-    if not survived and not options.keep_lost then return nil, "lost when shaken" end
+  if shaking then
+    local held, survived = verification.shake(hand, object, shaking, options.force_ratio)
+    if not survived and not options.keep_lost then return nil, verification.lost_when_shaken end
     numbers.directions_held, numbers.survived = held, survived and 1 or 0
   end
   return numbers

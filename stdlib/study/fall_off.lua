@@ -23,9 +23,9 @@ return function(options)
   local result = verdict.new(trial, job, ("a force along each axis that grows by %g N/s up to %g N"):format(rate, most))
   result.min_force, result.min_time = math.huge, math.huge
   local seconds = most / rate
-  return push_along_axes(trial, job, result, seconds, function(time) return rate * time end, function(row)
+  return push_along_axes(trial, job, result, seconds, function(time) return rate * time end, {note = function(row)
     row.time = row.time or seconds
     row.force = rate * row.time
     result.min_force, result.min_time = math.min(result.min_force, row.force), math.min(result.min_time, row.time)
-  end)
+  end})
 end

@@ -41,13 +41,33 @@ void update_gaps(const World& world, Manifold& manifold) {
   for (ManifoldPoint& point : manifold.points) point.gap = gap_of(point, X_AB);
 }
 
-void update_torsion(ManifoldPoint& point) {
+// The patch of a point is fitted when its torsion is first needed; until then it holds its site alone,
+// and its radius is 0. Points of one site share it.
+static std::shared_ptr<const SoftPatch> unfitted(const SoftSite& site) {
+  SoftPatch patch;
+  patch.site = site;
+  return std::make_shared<const SoftPatch>(std::move(patch));
+}
+
+static void fit_patch(std::vector<ManifoldPoint>& points, const ManifoldPoint& point) {
+  const auto before = point.patch;
+  if (before->radius > 0) return;
+  const auto fitted = std::make_shared<const SoftPatch>(soft_patch(before->site));
+  for (ManifoldPoint& other : points)
+    if (other.patch == before) other.patch = fitted;
+}
+
+void update_torsion(std::vector<ManifoldPoint>& points) {
   constexpr double noticed = 0.05;
-  if (!point.patch) return;
-  const double force = std::max(0.0, point.force.dot(point.normal));
-  if (force == 0 || std::abs(force - point.torsion_force) <= noticed * point.torsion_force) return;
-  point.torsion_radius = torsion_radius(*point.patch, force);
-  point.torsion_force = force;
+  for (ManifoldPoint& point : points) {
+    if (!point.patch) continue;
+    const double force = std::max(0.0, point.force.dot(point.normal));
+    if (force == 0 || std::abs(force - point.torsion_force) <= noticed * point.torsion_force)
+      continue;
+    fit_patch(points, point);
+    point.torsion_radius = torsion_radius(*point.patch, force);
+    point.torsion_force = force;
+  }
 }
 
 // Points on round pieces do not follow the bodies: what rolls leaves them behind.
@@ -160,8 +180,7 @@ static void find_patches(const World& world, const Manifold& m,
   for (size_t i = 0; i < points.size(); ++i) {
     size_t first = 0;
     while (sites[first] != sites[i]) ++first;
-    points[i].patch =
-        first < i ? points[first].patch : std::make_shared<const SoftPatch>(soft_patch(*sites[i]));
+    points[i].patch = first < i ? points[first].patch : unfitted(*sites[i]);
   }
 }
 
@@ -388,7 +407,7 @@ void update_manifolds(World& world) {
       measure(world, m);
     else
       update_gaps(world, m);
-    for (ManifoldPoint& point : m.points) update_torsion(point);
+    update_torsion(m.points);
   }
 }
 

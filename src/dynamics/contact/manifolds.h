@@ -39,9 +39,10 @@ void update_manifolds(World& world);
 /// Gaps of its points where the pair is now, in the order of the points.
 void update_gaps(const World& world, Manifold& manifold);
 
-/// The radius by which a soft point resists torsion under its last force; found anew when that has
-/// changed by a twentieth.
-void update_torsion(ManifoldPoint& point);
+/// The radii by which soft points resist torsion under their last forces; each is found anew when
+/// its force has changed by a twentieth. Patches are fitted where that is so and nowhere else.
+/// points  of one manifold
+void update_torsion(std::vector<ManifoldPoint>& points);
 
 /// Of a point that follows its bodies, where these stand at X_AB [m]; negative where they overlap.
 double gap_of(const ManifoldPoint& point, const Pose& X_AB);

@@ -10,8 +10,9 @@ local directions = {{"+x", clench.vec3(1, 0, 0)}, {"-x", clench.vec3(-1, 0, 0)},
 ---@param result table  of study.motion.verdict, gets `directions`
 ---@param seconds number  in each direction
 ---@param force fun(time: number): number  [N]
----@param note? fun(row: table)  completes a row
-return function(trial, job, result, seconds, force, note)
+---@param options? {note?: fun(row: table), until_lost?: boolean}  note: completes a row; until_lost: the directions after the first one that is not held are left out
+return function(trial, job, result, seconds, force, options)
+  local note, until_lost = options and options.note, options and options.until_lost
   for _, direction in ipairs(directions) do
     local row = verdict.attempt(trial, job, function()
       local push = trial:push(function(time) return direction[2] * force(time) end)
@@ -22,6 +23,7 @@ return function(trial, job, result, seconds, force, note)
     row.direction = direction[1]
     if note then note(row) end
     verdict.add(result, "directions", row, trial)
+    if until_lost and not row.held then break end
   end
   return verdict.close(result)
 end

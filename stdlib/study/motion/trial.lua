@@ -117,6 +117,35 @@ local function pull_tendons(hand)
   if pulls then hand:set_targets(targets) end
 end
 
+-- sum of the normal forces between hand and object in the last step [N]
+local function pressing_force(world, hand, object)
+  local sum = 0
+  for _, contact in ipairs(world:contacts(hand, object)) do sum = sum + math.abs(contact.force:dot(contact.normal)) end
+  return sum
+end
+
+local slack, pressed = 0.5, 0.9  -- parts of the requested normal force: below the first there is slack, which is taken up to the second
+local max_slack = 100   -- parts of a trial in which slack is taken up
+
+-- A hand that closed to within the contact threshold may still be clear of one side of the object by less than that, and a stiff servo that
+-- holds it there takes the torque that is to press: jaws then exert no force at all. So the targets of the motors that press follow their
+-- motion, as those of a gripper that is controlled by force, until the hand presses.
+local function take_up_slack(trial, job, torques)
+  local world, hand, object = trial.world, trial.hand, trial.object
+  local info = hand.dof_info
+  if pressing_force(world, hand, object) >= slack * job.grip_force then return end
+  for _ = 1, max_slack do
+    if pressing_force(world, hand, object) >= pressed * job.grip_force then return end
+    local targets, now = {}, hand.dofs
+    for i, torque in ipairs(torques) do
+      if torque ~= 0 and info[i].kind ~= "compliant" and info[i].driven then targets[info[i].name or "dof" .. i] = now[i] end
+    end
+    if not next(targets) then return end
+    hand:set_targets(targets)
+    world:run(every)
+  end
+end
+
 local function press(trial, job)
   local world, hand = trial.world, trial.hand
   -- torques for what friction is left, or, where nothing is held with that, for the whole of it
@@ -139,13 +168,7 @@ local function press(trial, job)
     hand:set_forces(now)
     world:run(job.grip_seconds / steps)
   end
-end
-
--- sum of the normal forces between hand and object in the last step [N]
-local function pressing_force(world, hand, object)
-  local sum = 0
-  for _, contact in ipairs(world:contacts(hand, object)) do sum = sum + math.abs(contact.force:dot(contact.normal)) end
-  return sum
+  take_up_slack(trial, job, torques)
 end
 
 --- Where the object is in the hand's base.

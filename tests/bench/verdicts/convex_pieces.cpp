@@ -160,4 +160,75 @@ std::vector<Points> convex_pieces(const Surface& surface, int max_count, double 
   return out;
 }
 
+namespace {
+
+constexpr double cell_size = 0.008;    // [m]
+constexpr double skin_depth = 0.0004;  // [m]
+
+// corners of triangles, and of the same triangles moved inwards
+Points skin_of(const std::vector<Triangle>& triangles) {
+  Points points;
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d area = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (area.norm() < 1e-12) continue;
+    const Eigen::Vector3d inwards = -skin_depth * area.normalized();
+    for (const auto& p : t) points.push_back(p), points.push_back(p + inwards);
+  }
+  return points;
+}
+
+void add_cells(const std::vector<Triangle>& triangles, std::vector<Points>& out) {
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : triangles)
+    for (const auto& p : t) box.extend(p);
+  int axis = 0;
+  if (triangles.empty()) return;
+  if (box.sizes().maxCoeff(&axis) > cell_size) {
+    for (const double side : {-1.0, 1.0}) {
+      std::vector<Triangle> part;
+      for (const Triangle& t : triangles) clip(t, axis, box.center()[axis], side, part);
+      add_cells(part, out);
+    }
+    return;
+  }
+  Eigen::MatrixXd points(3, 0);
+  const Points skin = skin_of(triangles);
+  points.resize(3, Eigen::Index(skin.size()));
+  for (size_t i = 0; i < skin.size(); ++i) points.col(Eigen::Index(i)) = skin[i];
+  if (points.cols() < 4) return;
+  const Hull hull = convex_hull(points);
+  std::set<int> used;
+  for (const auto& facet : hull.facets) used.insert(facet.begin(), facet.end());
+  Points corners;
+  for (const int i : used) corners.push_back(skin[size_t(i)]);
+  if (corners.size() >= 4) out.push_back(thinned(corners));
+}
+
+double volume_of(const Surface& surface) {
+  double volume = 0;
+  for (const auto& t : surface.triangles)
+    volume += surface.vertices[t[0]].dot(surface.vertices[t[1]].cross(surface.vertices[t[2]])) / 6;
+  return volume;
+}
+
+}  // namespace
+
+std::vector<Points> pieces_of_object(const Surface& surface) {
+  constexpr double filled = 1.1;
+  std::vector<Points> pieces = convex_pieces(surface);
+  double volume = 0;
+  for (const Points& piece : pieces) {
+    Eigen::MatrixXd points(3, Eigen::Index(piece.size()));
+    for (size_t i = 0; i < piece.size(); ++i) points.col(Eigen::Index(i)) = piece[i];
+    volume += convex_hull(points).volume;
+  }
+  if (volume <= filled * volume_of(surface)) return pieces;
+  std::vector<Triangle> triangles;
+  for (const auto& t : surface.triangles)
+    triangles.push_back({surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
+  std::vector<Points> cells;
+  add_cells(triangles, cells);
+  return cells;
+}
+
 }  // namespace clench::bench

@@ -22,4 +22,9 @@ std::vector<Points> hulls_of_parts(const Surface& surface);
 /// `gain` of the whole.
 std::vector<Points> convex_pieces(const Surface& surface, int max_count = 32, double gain = 0.002);
 
+/// Convex pieces of an object that is grasped: as convex_pieces, or, where these fill more than a
+/// tenth beyond the solid, as between the walls of a vessel, hulls of the parts of its surface in
+/// cells of 8 mm, with a skin of 0.4 mm.
+std::vector<Points> pieces_of_object(const Surface& surface);
+
 }  // namespace clench::bench

@@ -55,7 +55,7 @@ GripScene read_grip_scene(const std::string& path) {
                 .grasps = {}};
   if (all.contains("table"))
     out.table = {vector_of(all.at("table").at("point")), vector_of(all.at("table").at("up"))};
-  out.object.pieces = convex_pieces(surface_of(all.at("object").at("mesh")));
+  out.object.pieces = pieces_of_object(surface_of(all.at("object").at("mesh")));
   for (const json& v : all.at("hand").at("links")) {
     GripLink link{.body = body_of(v), .parent = v.at("parent"), .pose = pose_of(v.at("pose"))};
     link.point = link.pose.translation();
