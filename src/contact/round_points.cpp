@@ -3,67 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <optional>
+#include <limits>
 
 #include "clench/base/watched.h"
 #include "clench/contact/near_surface.h"
+#include "clench/contact/placed_flat.h"
 
 namespace clench {
 
 using Eigen::Vector3d;
 
 namespace {
-
-// The flat part of a placed solid along a direction, in the frame that the solid is placed in.
-struct PlacedFlat {
-  FlatPart part;
-
-  PlacedFlat(const PlacedRound& round, const Vector3d& direction, double slack)
-      : part(flat_part(round.solid, round.X.rotation.conjugate() * direction, slack)) {
-    part.middle = round.X * part.middle;
-    for (Vector3d* v : {&part.half, &part.x, &part.y}) *v = round.X.rotation * *v;
-  }
-
-  // The point of the flat part straight above or below p, along its normal.
-  Vector3d above(const Vector3d& p) const {
-    const Vector3d from = p - part.middle;
-    if (part.kind == FlatPart::segment)
-      return part.middle +
-             std::clamp(from.dot(part.half) / part.half.squaredNorm(), -1.0, 1.0) * part.half;
-    if (part.kind == FlatPart::disc)
-      return part.middle +
-             (from.dot(part.x) * part.x + from.dot(part.y) * part.y) / part.x.squaredNorm();
-    return part.middle;
-  }
-  // does p lie over the disc, along its normal?
-  bool over_disc(const Vector3d& p) const {
-    const Vector3d from = p - part.middle;
-    return std::hypot(from.dot(part.x), from.dot(part.y)) <= part.x.squaredNorm();
-  }
-  // The part of the line p + s way over the disc, or abreast of the flat segment: from s = low to
-  // high.
-  // returns  false where the line misses it
-  bool clip(const Vector3d& p, const Vector3d& way, double& low, double& high) const {
-    const Vector3d from = p - part.middle;
-    if (part.kind == FlatPart::disc) {
-      const double size = part.x.squaredNorm();
-      const double fx = from.dot(part.x) / size, fy = from.dot(part.y) / size,
-                   wx = way.dot(part.x) / size, wy = way.dot(part.y) / size;
-      const double a = wx * wx + wy * wy, b = fx * wx + fy * wy, c = fx * fx + fy * fy - 1;
-      const double under = b * b - a * c;
-      if (!(a > 0) || under < 0) return false;
-      low = (-b - std::sqrt(under)) / a, high = (-b + std::sqrt(under)) / a;
-      return true;
-    }
-    const double size = part.half.squaredNorm(), speed = way.dot(part.half) / size,
-                 at = from.dot(part.half) / size;
-    if (std::abs(speed) * std::sqrt(size) < 0.5 * way.norm()) return false;
-    low = (-1 - at) / speed, high = (1 - at) / speed;
-    if (low > high) std::swap(low, high);
-    return true;
-  }
-};
 
 // Near points of a mesh and a round solid.
 class MeshPoints {
@@ -104,7 +54,10 @@ class MeshPoints {
     Vector3d normal = facing_ * face_normal(c);
     if (normal.isZero()) return;
     if (!closed_ && normal.dot(round_.centre() - c[0]) < 0) normal = -normal;
-    const PlacedFlat flat(round_, -normal, threshold_);
+    const Vector3d farthest = round_.farthest(-normal);
+    const double least = normal.dot(farthest - c[0]);
+    if (!is_near(least)) return;
+    const PlacedFlat flat(round_, -normal, threshold_ - std::max(least, 0.0));
     const Feature feature{Feature::triangle, near_[i], -1};
     const auto add_place = [&](const Vector3d& place) {
       const double gap = normal.dot(place - c[0]);
@@ -125,7 +78,11 @@ class MeshPoints {
     if (flat.part.kind == FlatPart::point) {
       if (inside(flat.part.middle)) add_place(flat.part.middle);
     } else if (flat.part.kind == FlatPart::segment) {
-      double low = -1, high = 1;
+      // the ball at the end of a tilted capsule reaches a little farther than its side
+      if (round_.solid.kind == Round::capsule && normal.dot(flat.part.half) != 0 &&
+          inside(farthest))
+        add_place(farthest);
+      double low = flat.part.low, high = flat.part.high;
       for (int k = 0; k < 3; ++k) {
         const double at = inward[k].dot(flat.part.middle - c[k]) + on_border,
                      speed = inward[k].dot(flat.part.half);
@@ -138,12 +95,8 @@ class MeshPoints {
       add_place(flat.part.middle + high * flat.part.half);
     } else {
       constexpr int rim_points = 8;
-      for (int k = 0; k < rim_points; ++k) {
-        const double angle = 2 * std::numbers::pi * k / rim_points;
-        const Vector3d rim =
-            flat.part.middle + std::cos(angle) * flat.part.x + std::sin(angle) * flat.part.y;
+      for (const Vector3d& rim : flat.rim(rim_points))
         if (inside(rim)) add_place(rim);
-      }
       for (int k = 0; k < 3; ++k) {
         if (flat.over_disc(c[k])) add_place(flat.above(c[k]));
         const Vector3d way = c[(k + 1) % 3] - c[k];
@@ -180,13 +133,18 @@ class MeshPoints {
       add(place.point, normal, place.distance, feature);
     else if (std::abs(normal.dot(along)) > beside)
       return;
-    const PlacedFlat flat(round_, -normal, threshold_);
+    const PlacedFlat flat(round_, -normal, std::numeric_limits<double>::infinity());
     double low, high;
     if (flat.part.kind == FlatPart::point || !flat.clip(p, way, low, high)) return;
-    for (const double s : {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)}) {
+    const auto near =
+        near_part(std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0), at, flat.alignment(way),
+                  threshold_, [&](double s) { return round_.nearest_to(p + s * way).distance; });
+    if (!near) return;
+    for (const double s : {near->first, near->second}) {
       const NearPlace end = round_.nearest_to(p + s * way);
-      constexpr double one_normal = 1 - 1e-6;
-      if (end.normal.dot(place.normal) > one_normal) add(end.point, normal, end.distance, feature);
+      constexpr double one_normal = 1 - 1e-9;
+      const bool same = end.normal.dot(place.normal) > one_normal;
+      add(end.point, same ? normal : Vector3d(-end.normal), end.distance, feature);
     }
   }
 
@@ -214,82 +172,12 @@ class MeshPoints {
   std::vector<NearPoint> out_;
 };
 
-// Point of the first disc where the rims of two discs that lie on each other cross.
-// side  -1 or 1: which of the two crossings
-std::optional<Vector3d> rims_cross(const FlatPart& a, const FlatPart& b, double side) {
-  const double x = (b.middle - a.middle).dot(a.x), y = (b.middle - a.middle).dot(a.y);
-  const double r2 = a.x.squaredNorm(), r = std::sqrt(r2), d = std::hypot(x, y) / r;
-  if (!(d > 0)) return std::nullopt;
-  const double along = (d * d + r2 - b.x.squaredNorm()) / (2 * d), squared = r2 - along * along;
-  if (squared < 0) return std::nullopt;
-  const double across = side * std::sqrt(squared);
-  // in the disc's plane, of length 1 / r: towards the other's middle, and across
-  const Vector3d to = (x * a.x + y * a.y) / (r2 * d * r), left = (x * a.y - y * a.x) / (r2 * d * r);
-  return a.middle + r * (along * to + across * left);
-}
-
 }  // namespace
 
 std::vector<NearPoint> near_points_of_mesh(const PlacedRound& round, const Shape& mesh,
                                            const std::vector<int>& near, double threshold) {
   if (near.empty()) return {};
   return MeshPoints(round, mesh, near, threshold).find();
-}
-
-std::vector<NearPoint> near_points_of_rounds(const PlacedRound& a, const PlacedRound& b,
-                                             double threshold) {
-  const RoundGap nearest = gap_between(a, b);
-  if (!(nearest.gap < threshold) ||
-      nearest.gap <= -std::min(inner_radius(a.solid), inner_radius(b.solid)))
-    return {};
-  std::vector<NearPoint> out;
-  const Vector3d& n = nearest.normal;
-  out.push_back({.p_a = nearest.p_a,
-                 .p_b = nearest.p_b,
-                 .normal = n,
-                 .gap = nearest.gap,
-                 .feature_a = {},
-                 .feature_b = {}});
-  const PlacedFlat on_a(a, n, threshold), on_b(b, -n, threshold);
-  if (on_a.part.kind == FlatPart::point || on_b.part.kind == FlatPart::point) return out;
-  // Adds p, on one flat part, if the other solid is near in the same direction.
-  const auto add = [&](const Vector3d& p, const PlacedRound& other, bool of_a) {
-    const NearPlace place = other.nearest_to(p);
-    constexpr double one_normal = 1 - 1e-6;
-    const Vector3d normal = of_a ? Vector3d(-place.normal) : place.normal;
-    if (!(place.distance < threshold) || normal.dot(n) < one_normal) return;
-    const Vector3d q = p - place.distance * place.normal;
-    out.push_back({.p_a = of_a ? p : q,
-                   .p_b = of_a ? q : p,
-                   .normal = n,
-                   .gap = place.distance,
-                   .feature_a = {},
-                   .feature_b = {}});
-  };
-  const auto add_of = [&](const PlacedFlat& flat, const PlacedFlat& cut, const PlacedRound& other,
-                          bool of_a) {
-    if (flat.part.kind == FlatPart::segment) {
-      double low = -1, high = 1;
-      const Vector3d from = flat.part.middle - flat.part.half, way = 2 * flat.part.half;
-      if (!cut.clip(from, way, low, high)) return;
-      for (const double s : {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)})
-        add(from + s * way, other, of_a);
-      return;
-    }
-    // the rim, where it lies over the other part
-    constexpr int count = 16;
-    for (int k = 0; k < count; ++k) {
-      const double angle = 2 * std::numbers::pi * k / count;
-      add(flat.part.middle + std::cos(angle) * flat.part.x + std::sin(angle) * flat.part.y, other,
-          of_a);
-    }
-  };
-  add_of(on_a, on_b, b, true);
-  add_of(on_b, on_a, a, false);
-  if (on_a.part.kind == FlatPart::disc && on_b.part.kind == FlatPart::disc)
-    for (const double side : {-1.0, 1.0})
-      if (const auto p = rims_cross(on_a.part, on_b.part, side)) add(*p, b, true);
-  return out;
 }
 
 }  // namespace clench

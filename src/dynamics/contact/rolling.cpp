@@ -19,42 +19,71 @@ static Vector3d farthest_at(const Round& solid, const Vector3d& p, const Vector3
   return middle + solid.radii.x() * aside.stableNormalized();
 }
 
-// How much farther a body reaches along n after h than its material point at p does [m].
-// n, p  in the frame of the body; spin: angular velocity there
-static double farther_reach(const Round& solid, const Pose& X_BR, const Vector3d& com,
-                            const Vector3d& p, const Vector3d& n, const Vector3d& spin, double h) {
-  const Vector3d turn = h * spin;
-  const double angle = turn.norm();
-  if (angle == 0) return 0;
-  // the body turns by `turn`: the direction turns back in its frame
-  const Vector3d later = Eigen::AngleAxisd(-angle, turn / angle) * n;
-  const Pose into = X_BR.inverse();
-  const Vector3d p_R = into * p;
-  const auto reach = [&](const Vector3d& direction) {
-    const Vector3d d_R = into.rotation * direction;
-    return d_R.dot(farthest_at(solid, p_R, d_R)) + direction.dot(X_BR.position - com);
-  };
-  return reach(later) - reach(n) - h * n.dot(spin.cross(p - com));
+static Eigen::Quaterniond turned_in(const Vector3d& spin, double h) {
+  const double angle = h * spin.norm();
+  if (angle == 0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, spin.normalized()));
 }
+
+namespace {
+
+// One of the two bodies at a point where they touch, in world axes relative to its com.
+struct TouchingSide {
+  TouchingSide(const World& world, const Manifold& m, const ManifoldPoint& point, bool is_b,
+               const Vector3d& outward, double h)
+      : body(world.body(is_b ? m.b : m.a)),
+        turn(world.pose(is_b ? m.b : m.a).rotation),
+        twist(world.dynamics()->twists[(is_b ? m.b : m.a).index]),
+        later(turned_in(twist.angular, h) * turn),
+        p(is_b ? point.p_b : point.p_a) {
+    const Feature& feature = is_b ? point.feature_b : point.feature_a;
+    is_face = feature.kind == Feature::triangle;
+    if (feature.kind != Feature::round) return;
+    piece = &body.shape->rounds().pieces[feature.first];
+    const Vector3d n_R = piece->X_SR.rotation.conjugate() * (turn.conjugate() * outward);
+    // a cylinder on its cap stands on points of its rim
+    is_face = flat_part(piece->solid, n_R, world.contact_threshold()).kind == FlatPart::disc;
+    if (is_face) piece = nullptr;
+  }
+
+  // How far the body reaches along n from its com when it has been turned to R [m].
+  double reach(const Eigen::Quaterniond& R, const Vector3d& n) const {
+    const Vector3d n_B = R.conjugate() * n;
+    if (!piece) return n_B.dot(p - body.com);
+    const Vector3d n_R = piece->X_SR.rotation.conjugate() * n_B;
+    const Vector3d farthest = farthest_at(piece->solid, piece->X_SR.inverse() * p, n_R);
+    return n_R.dot(farthest) + n_B.dot(piece->X_SR.position - body.com);
+  }
+  Vector3d arm() const { return turn * (p - body.com); }
+
+  const Body& body;
+  Eigen::Quaterniond turn;  // of the body in the world
+  const Twist& twist;
+  Eigen::Quaterniond later;           // turn after h
+  Vector3d p;                         // the point, in the frame of the body
+  const RoundPiece* piece = nullptr;  // that rolls there; null: p stays where it is on the body
+  bool is_face = false;               // does the direction of the contact turn with the body?
+};
+
+}  // namespace
 
 double rolled_gap(const World& world, const Manifold& m, const ManifoldPoint& point, double h) {
   if (!world.dynamics()) return 0;
-  double change = 0;
-  for (const bool is_b : {false, true}) {
-    const Feature& feature = is_b ? point.feature_b : point.feature_a;
-    if (feature.kind != Feature::round) continue;
-    const Id<Body> id = is_b ? m.b : m.a;
-    const Body& body = world.body(id);
-    const RoundPiece& piece = body.shape->rounds().pieces[feature.first];
-    const Eigen::Quaterniond back = world.pose(id).rotation.conjugate();
-    const Vector3d n_W = world.pose(m.a).rotation * point.normal;
-    const Vector3d n = back * Vector3d(is_b ? -n_W : n_W);
-    const Vector3d n_R = piece.X_SR.rotation.conjugate() * n;
-    // a cylinder on its cap stands on points of its rim
-    if (flat_part(piece.solid, n_R, world.contact_threshold()).kind == FlatPart::disc) continue;
-    const Vector3d spin = back * world.dynamics()->twists[id.index].angular;
-    change -=
-        farther_reach(piece.solid, piece.X_SR, body.com, is_b ? point.p_b : point.p_a, n, spin, h);
+  const Vector3d n = world.pose(m.a).rotation * point.normal;
+  const TouchingSide a(world, m, point, false, n, h), b(world, m, point, true, -n, h);
+  if (!a.piece && !b.piece) return 0;
+  Vector3d later = n;
+  if (a.is_face)
+    later = a.later * (a.turn.conjugate() * n);
+  else if (b.is_face)
+    later = b.later * (b.turn.conjugate() * n);
+  // of b's com from a's, as far as the direction turns; the velocities along n are not rolling
+  const Vector3d apart = a.arm() + point.gap * n - b.arm();
+  double change = (later - n).dot(apart + h * (b.twist.linear - a.twist.linear));
+  for (const TouchingSide* side : {&a, &b}) {
+    const double sign = side == &a ? 1 : -1;
+    change -= side->reach(side->later, sign * later) - side->reach(side->turn, sign * n) -
+              h * sign * n.dot(side->twist.angular.cross(side->arm()));
   }
   return change;
 }

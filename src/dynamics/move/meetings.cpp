@@ -45,6 +45,14 @@ double thickness(const Shape& shape) {
                         : std::numeric_limits<double>::infinity();
 }
 
+// Round solids stop where half of the gap between them is left, or half of the rest gap: the point
+// that touches runs far along solids that are nearly parallel, and steps that end just before an
+// overlap would leave no gap to the next one [m].
+double gap_to_keep(const World& world, const Manifold& m) {
+  if (!are_round(*world.body(m.a).shape, *world.body(m.b).shape, RoundIn::motion)) return 0;
+  return 0.5 * std::min(m.clearance, rest_gap * world.contact_threshold());
+}
+
 // An upper bound of how far any point of a body moves in dt [m].
 double max_travel(const World& world, double dt) {
   double travel = 0;
@@ -72,7 +80,7 @@ class Meetings {
 
  private:
   double advance_round(double end);
-  double free_until(const Manifold& m, int looks);
+  double free_until(const Manifold& m, int looks, double margin);
 
   World& world_;
   Mover& mover_;
@@ -112,13 +120,13 @@ double Meetings::advance_round(double end) {
   return stop;
 }
 
-// The time until which a touching pair does not overlap, found by `looks` queries on its path and a
-// bisection; dt where it never overlaps.
-double Meetings::free_until(const Manifold& m, int looks) {
+// The time until which the gap of a touching pair stays above the margin, found by `looks` queries
+// on its path and a bisection; dt where it always does.
+double Meetings::free_until(const Manifold& m, int looks, double margin) {
   const auto is_free = [&](double s) {
     check_stop();
     mover_.place_pair(s, m.a, m.b);
-    return pair_gap(world_, m, world_.contact_threshold()) > 0;
+    return pair_gap(world_, m, world_.contact_threshold()) > margin;
   };
   double free = 0, met = dt_;
   int k = 1;
@@ -167,11 +175,14 @@ void Meetings::follow(int number) {
   bool arrived = path <= thin && follow_sliding(world_, there);
   if (turned > whirl) measure(world_, there), arrived = true;
   // conservative advancement of a touching pair would take a thousand queries
-  const bool looks = !arrived && touching && path > looked_at && path <= max_looks * looked_at;
-  const double free = looks ? free_until(m, static_cast<int>(path / looked_at)) : 0;
+  const double margin = gap_to_keep(world_, m);
+  bool looks = !arrived && touching && path > looked_at && path <= max_looks * looked_at;
+  double free = looks ? free_until(m, static_cast<int>(path / looked_at), margin) : 0;
   if (!arrived && (path <= looked_at || free == dt_)) {
     measure(world_, there);
-    arrived = there.clearance > 0 || free == dt_;
+    arrived = there.clearance > margin || free == dt_;
+    looks = looks || (!arrived && touching && margin > 0);
+    if (looks && !arrived) free = free_until(m, 1, margin);
   }
   if (arrived) {
     arrived_.emplace_back(number, std::move(there));

@@ -209,9 +209,10 @@ void RowBuilder::add_contact(int manifold, int point) {
     target =
         std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
   target = std::min(target, max_push) * std::min(1.0, moves / narrow_angle);
-  // what rolls moves on over its surface; above the rest gap it may come down as it does
-  const double rolled = rolled_gap(world_, m, p, step);
-  target -= std::min(rolled, std::max(p.gap - rest_gap * threshold, 0.0)) / step;
+  // what rolls moves on over its surface; above the rest gap it may come down as it does, and it is
+  // lifted by no more than the rest gap in a step, as more would give it energy
+  const double rolled = rolled_gap(world_, m, p, step), rest = rest_gap * threshold;
+  target -= std::clamp(rolled, -rest, std::max(p.gap - rest, 0.0)) / step;
   // Newton's law of impact, where the free motion would press. Bodies move with the velocity that
   // they had when a step began: what gravity or a motor draws together arrives by half a step's
   // gain too fast, and would bounce by as much too far

@@ -100,27 +100,56 @@ Vector3d support(const Round& round, const Vector3d& direction) {
   return length > 0 ? Vector3d(end + round.radii.x() / length * aside) : end;
 }
 
-FlatPart flat_part(const Round& round, const Vector3d& direction, double slack) {
-  const Vector3d farthest = support(round, direction);
-  FlatPart out{.middle = farthest};
-  if (round.kind == Round::ellipsoid || round.half == 0) return out;
+double near_height(double slack, double drop) {
+  constexpr double steepest = 4;  // drops, in slacks
+  if (slack >= drop) return slack;
+  return std::max(0.0, (steepest * slack - drop) / (steepest - 1));
+}
+
+// Largest sine of the angle between a flat part and a direction's tangent plane.
+static constexpr double most_tilted = 0.5;
+
+static FlatPart flat_disc(const Round& round, const Vector3d& direction, double slack) {
   const double radius = round.radii.x(), aside = std::hypot(direction.x(), direction.y());
-  if (round.kind == Round::cylinder && 2 * radius * aside <= slack) {
-    out.kind = FlatPart::disc;
-    out.middle = {0, 0, std::copysign(round.half, direction.z())};
-    constexpr double level = 1e-9;
-    const Vector3d low = aside > level ? Vector3d(direction.x() / aside, direction.y() / aside, 0)
-                                       : Vector3d(1, 0, 0);
-    out.x = radius * low;
-    out.y = radius * Vector3d(-low.y(), low.x(), 0);
-  } else if (2 * round.half * std::abs(direction.z()) <= slack) {
-    out.kind = FlatPart::segment;
-    out.middle = {farthest.x(), farthest.y(), 0};
-    if (round.kind == Round::capsule)  // along the line that touches both ends
-      out.middle = radius * direction;
-    out.half = {0, 0, round.half};
-  }
+  const double drop = 2 * radius * aside, height = near_height(slack, drop);
+  if (!(height > 0)) return {.middle = support(round, direction)};
+  constexpr double level = 1e-9;
+  const Vector3d low =
+      aside > level ? Vector3d(direction.x() / aside, direction.y() / aside, 0) : Vector3d(1, 0, 0);
+  FlatPart out{.kind = FlatPart::disc, .middle = {0, 0, std::copysign(round.half, direction.z())}};
+  out.x = radius * low;
+  out.y = radius * Vector3d(-low.y(), low.x(), 0);
+  if (height < drop) out.cut = 1 - 2 * height / drop;
   return out;
+}
+
+// The line of the side. The ball at the end of a capsule reaches a little farther than it.
+static FlatPart flat_side(const Round& round, const Vector3d& direction, double slack) {
+  const double radius = round.radii.x(), aside = std::hypot(direction.x(), direction.y()),
+               along = std::abs(direction.z());
+  const double above = round.kind == Round::capsule ? radius * along * along / (1 + aside) : 0;
+  const double drop = 2 * round.half * along, height = near_height(slack - above, drop);
+  if (!(height > 0)) return {.middle = support(round, direction)};
+  FlatPart out{
+      .kind = FlatPart::segment,
+      .middle = radius / aside * Vector3d(direction.x(), direction.y(), 0),
+      .half = {0, 0, round.half},
+  };
+  if (!(height < drop)) return out;
+  if (direction.z() > 0)
+    out.low = 1 - 2 * height / drop;
+  else
+    out.high = 2 * height / drop - 1;
+  return out;
+}
+
+FlatPart flat_part(const Round& round, const Vector3d& direction, double slack) {
+  if (round.kind != Round::ellipsoid && round.half > 0) {
+    if (round.kind == Round::cylinder && std::hypot(direction.x(), direction.y()) <= most_tilted)
+      return flat_disc(round, direction, slack);
+    if (std::abs(direction.z()) <= most_tilted) return flat_side(round, direction, slack);
+  }
+  return {.middle = support(round, direction)};
 }
 
 }  // namespace clench

@@ -68,18 +68,28 @@ NearSkin nearest(const Round& round, const Eigen::Vector3d& p);
 Eigen::Vector3d support(const Round& round, const Eigen::Vector3d& direction);
 
 /// The flat part of a solid's surface that is farthest along a direction: a point, a segment or a
-/// disc.
+/// disc, and how much of it is near its farthest point.
 struct FlatPart {
   enum Kind { point, segment, disc };
   Kind kind = point;
   Eigen::Vector3d middle;                              ///< [m]
   Eigen::Vector3d half = Eigen::Vector3d::Zero();      ///< of a segment, to one end [m]
   Eigen::Vector3d x = Eigen::Vector3d::Zero(), y = x;  ///< of a disc, to its rim [m]
+  double low = -1, high = 1;  ///< near are the points middle + s half with s from low to high
+  double cut = -1;            ///< near are the points middle + s x + t y with s >= cut
 };
 
-/// In the solid's frame. The x of a disc points to the farthest point of its rim.
+/// Height of the near part of a flat part whose points differ by `drop` in height, where `slack` is
+/// left below the contact threshold: all of it where the drop is no more than the slack, less of
+/// steeper parts, and none where a quarter or less of the drop is within the slack, so that what
+/// rocks or rolls that steeply touches at a point [m].
+double near_height(double slack, double drop);
+
+/// In the solid's frame. The x of a disc points to the farthest point of its rim. A point where no
+/// flat part lies within 30 degrees of the direction, or nothing of it is near.
 /// direction  unit
-/// slack      a segment or a disc whose points differ by no more along the direction is flat [m]
+/// slack      > 0, how much less far along the direction near points may lie, as in near_height();
+///            infinite: all of the flat part is near [m]
 FlatPart flat_part(const Round& round, const Eigen::Vector3d& direction, double slack);
 
 }  // namespace clench
