@@ -89,7 +89,7 @@ end
 local function load_scene(given, said, list)
   for _, part in ipairs {"hand", "object"} do
     local file = list[1][part .. "_file"]
-    if not given[part] and file == "" then fail("%s names no file of the %s: give it as --%s FILE", given.file, part, part) end
+    if not given[part] and not file then fail("%s names no file of the %s: give it as --%s FILE", given.file, part, part) end
     given[part] = given[part] or file
   end
   return scene.load(given, said)

@@ -41,6 +41,12 @@ test("a job works on copies, and gives the same bits as the script", function(t)
     return scene.hand.world == scene.mug.world, scene.hand.dofs
   end, {args = {{hand = hand, mug = mug}}})
   t.ok(job:wait(30) and together:wait(30))
+  local shared = clench.job(function(h)
+    local s = require("clench").this_job.shared
+    return s.mug.world == h.world, s.word
+  end, {args = {hand}, shared = {mug = mug, word = "both"}})
+  t.ok(shared:wait(30))
+  t.equal({shared:result()}, {true, "both"})
   local dofs = job:result()
   t.equal(world:hash(), before)
   local same, dofs_of_other = together:result()
@@ -67,7 +73,7 @@ test("errors of a job reach whoever asks for its result", function(t)
   t.fails(function() clench.job(function() return outside end) end, "clench.job: function: it uses 'outside' of the lines around it")
   t.fails(function() clench.job(3) end, "task: expected a function or a module's name, got 3")
   t.fails(function() clench.job(function() end, {arg = {1}}) end, "unknown key 'arg'", "did you mean 'args'?")
-  t.fails(function() clench.job(function() end, {args = {print}}) end, "args[1]: a function cannot be handed over")
+  t.fails(function() clench.job(function() end, {args = {print}}) end, ".args[1]: a function cannot be handed over")
   t.fails(function() clench.job(function() end, {args = 3}) end, "args: expected a list, got 3")
   job = clench.job "no.such.module"
   job:wait(10)

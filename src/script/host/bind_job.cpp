@@ -41,15 +41,23 @@ struct StartedJobs {
 
 constexpr size_t max_jobs = 1000;  // that are not over, of one state
 
-void read_arguments(lua_State* L, int list, Job::Start& start) {
+// The arguments, and what is shared by all functions of the job, as one value, so that worlds of
+// both are the same copies.
+void read_arguments(lua_State* L, int list, int shared, Job::Start& start) {
   constexpr lua_Integer most = 100;
   const std::string subject = clench::subject(L);
-  if (lua_isnil(L, list)) return;
-  if (!lua_istable(L, list)) fail("{}: args: expected a list, got {}", subject, described(L, list));
-  const auto count = static_cast<lua_Integer>(lua_rawlen(L, list));
+  if (!lua_isnil(L, list) && !lua_istable(L, list))
+    fail("{}: args: expected a list, got {}", subject, described(L, list));
+  const auto count = lua_istable(L, list) ? static_cast<lua_Integer>(lua_rawlen(L, list)) : 0;
   if (count > most) fail("{}: args: expected at most {} arguments, got {}", subject, most, count);
-  start.arguments = Parcel(L, list, subject + ": args");
+  lua_createtable(L, 0, 2);
+  lua_pushvalue(L, list);
+  lua_setfield(L, -2, "args");
+  lua_pushvalue(L, shared);
+  lua_setfield(L, -2, "shared");
+  start.arguments = Parcel(L, lua_gettop(L), subject);
   start.count = static_cast<int>(count);
+  lua_pop(L, 1);
 }
 
 int new_job(lua_State* L) {
@@ -62,7 +70,8 @@ int new_job(lua_State* L) {
   Table options(L, 2);
   start.name = options.string("name", start.task.module.empty() ? "job" : start.task.module);
   options.push("args");
-  read_arguments(L, lua_gettop(L), start);
+  options.push("shared");
+  read_arguments(L, lua_gettop(L) - 1, lua_gettop(L), start);
   options.done();
   auto& started = kept<StartedJobs>(L).jobs;
   std::erase_if(started, [](const JobPtr& job) { return job->is_over(); });
@@ -142,7 +151,7 @@ const Entry job_functions[] = {
     {"job", guarded<new_job>, R"(
 Runs a function beside the script: in a thread, in a state of Lua of its own, on copies of what it is given. As many jobs run at once as there are cores, at least two; others are queued. A job whose handle is not kept runs on; the end of the program stops it.
 @param task function|string  which uses nothing of the lines around it; or the name of a module that returns such a function
-@param options? {args?: any[], name?: string}  args: the function's arguments, of the kinds that clench.parallel.map hands over; name: for messages
+@param options? {args?: any[], shared?: any, name?: string}  args: the function's arguments, of the kinds that clench.parallel.map hands over; shared: the same, as `clench.this_job.shared`; name: for messages
 @return job
 > job = clench.job(function(n) return n * n end, {args = {7}})
 > job:wait()
@@ -224,6 +233,20 @@ All values that it has sent by `clench.this_job:event` since the last call, in o
 
 const Entry job_operators[] = {{"__tostring", method<job_text>, ""}};
 
+int get_shared(lua_State* L) {
+  push_shared_of_job(L);
+  return 1;
+}
+
+const Entry this_job_fields[] = {
+    {"shared", guarded<get_shared>, R"(
+A copy of the option `shared` of clench.job; worlds in it are those of the arguments.
+@type any
+> job = clench.job(function() return clench.this_job.shared.limit end, {shared = {limit = 3}})
+> job:wait()
+> job:result()  --> 3)"},
+};
+
 const Entry this_job_methods[] = {
     {"event", guarded<send_event>, R"(
 Sends a value to the script that has started the job. Events arrive in order, and none is lost.
@@ -259,6 +282,7 @@ const Class job_class{.name = "job",
 const Class this_job_class{.name = "this_job",
                            .variable = "this_job",
                            .doc = "What a job's function, in its own state, reports by.",
+                           .fields = this_job_fields,
                            .methods = this_job_methods};
 
 }  // namespace clench

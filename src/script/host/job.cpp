@@ -67,6 +67,10 @@ class SlotLent {
 
 }  // namespace
 
+static const char shared_key = 0;  // its address names the place of what is shared
+
+void push_shared_of_job(lua_State* L) { lua_rawgetp(L, LUA_REGISTRYINDEX, &shared_key); }
+
 Job* running_job(lua_State* L) { return kept<RunningJob>(L).job; }
 
 // --- the job ---
@@ -167,6 +171,10 @@ int Job::call_function(lua_State* L) {
   lua_remove(L, 1);
   luaL_checkstack(L, job.start_.count + 10, "too many arguments");
   job.start_.arguments.unpack(L);
+  lua_getfield(L, 2, "shared");
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &shared_key);
+  lua_getfield(L, 2, "args");
+  lua_remove(L, 2);
   for (int i = 1; i <= job.start_.count; ++i) lua_rawgeti(L, 2, i);
   lua_remove(L, 2);
   call_script(L, lua_gettop(L) - 1, LUA_MULTRET, fmt::format("job '{}'", job.name()));

@@ -27,7 +27,7 @@ class Job {
   struct Start {
     WorkerTask task;
     std::string name;            ///< for messages
-    Parcel arguments;            ///< a list, of copies that share worlds
+    Parcel arguments;            ///< {args =, shared =}, of copies that share worlds
     int count = 0;               ///< of the arguments
     size_t memory = 0;           ///< of its state, [bytes]
     std::shared_ptr<Bell> bell;  ///< rung for each event, and at the end
@@ -88,5 +88,7 @@ using JobPtr = std::shared_ptr<Job>;
 
 /// The job whose function runs in the state; null: none.
 Job* running_job(lua_State* L);
+/// Leaves what that job was given as shared on the stack.
+void push_shared_of_job(lua_State* L);
 
 }  // namespace clench
