@@ -105,3 +105,29 @@ test("what the standard library requires of the engine bears what a stranger giv
   t.fails(function() raise() end, "expected a string, got nothing")
   t.fails(function() raise("x", "odd") end, "expected a kind of errors, got 'odd'")
 end)
+
+test("what is logged is collected as values", function(t)
+  local path = test.path(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nfoo 1\nfoo 2\n")
+  local level, told = clench.log.level(), 0
+  clench.log.sink(function() told = told + 1 end)
+  clench.log.level "error"
+  local list, name, more = clench.log.collect(function(a, b)
+    clench.log.warning "twice"
+    clench.log.warning "twice"
+    return clench.world():add_object(a, {unit = "m"}).name, b
+  end, path, 5)
+  t.equal(more, 5)
+  t.ok(name)
+  t.equal(list[1], {severity = "warning", text = "twice", count = 2})
+  local unknown
+  for _, d in ipairs(list) do unknown = d.text:find "not known" and d or unknown end
+  t.equal({unknown.severity, unknown.line, unknown.about}, {"warning", 9, "ignored"})
+  t.ok(path:find(unknown.file, 1, true))
+  -- the sink and the level are as before, also after an error
+  t.fails(function() clench.log.collect(error, "broken") end, "broken")
+  t.equal(clench.log.level(), "error")
+  clench.log.error "heard"
+  t.equal(told, 1)
+  clench.log.sink(nil)
+  clench.log.level(level)
+end)

@@ -11,6 +11,7 @@
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
+#include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 
 namespace clench {
@@ -123,7 +124,54 @@ static int sink(lua_State* L) {
   return 0;
 }
 
+// the script's sink and level as long as it lives; then those that were there before, of which the
+// sink is at an index of the stack
+class OtherSink {
+ public:
+  OtherSink(lua_State* L, int before) : L_(L), before_(before), level_(log_level(L)) {
+    set_log_level(L, LogLevel::info);
+  }
+  ~OtherSink() {
+    lua_pushvalue(L_, before_);
+    lua_rawsetp(L_, LUA_REGISTRYINDEX, &sink_key);
+    set_log_level(L_, level_);
+  }
+  OtherSink(const OtherSink&) = delete;
+  OtherSink& operator=(const OtherSink&) = delete;
+
+ private:
+  lua_State* L_;
+  int before_;
+  LogLevel level_;
+};
+
+// (f, arguments...)
+static int collect(lua_State* L) {
+  if (lua_type(L, 1) != LUA_TFUNCTION) fail_expected({L, {}, "f"}, "a function", 1);
+  const int count = lua_gettop(L) - 1;
+  lua_rawgetp(L, LUA_REGISTRYINDEX, &sink_key);
+  lua_insert(L, 1);
+  push_packed(L, "collected_log");
+  protected_call(L, 0, 2);
+  lua_insert(L, 2);  // the list, below the function
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &sink_key);
+  const OtherSink sink(L, 1);
+  call_script(L, count, LUA_MULTRET, subject(L));
+  return lua_gettop(L) - 1;
+}
+
 static const Entry log_functions[] = {
+    {"collect", guarded<collect>, R"(
+Calls a function, and returns what was logged meanwhile as values. Notes, warnings and errors are collected whatever the level is; nothing is printed, and no sink is called.
+@param f function
+@param ... any  its arguments
+@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, about?: string, count: integer}[] diagnostics  file and line: the place in a file that is read; about: "inferred", "ignored", "repaired" or "suspicious"; equal messages are one, with their count
+@return any ...  what the function returns
+> list, body = clench.log.collect(function() return world:add_object(flask.source, {name = "again"}) end)
+> body.name, #list  --> again, 0
+> list = clench.log.collect(clench.log.warning, "too thin")
+> list[1].severity, list[1].text  --> warning, too thin
+> clench.log.collect(3)  --> error: f: expected a function, got 3)"},
     {"debug", guarded<log_at<LogLevel::debug>>, R"(
 Logs what only a developer wants to read.
 @param ... any
