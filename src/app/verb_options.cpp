@@ -212,7 +212,7 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
   add.flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");
   add.flag("--overwrite", "replace the list of -o, once there are grasps");
   add.flag("--verify",
-       "shake each grasp in simulation, too, by the object's weight along six directions");
+           "shake each grasp in simulation, too, by the object's weight along six directions");
   add.flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
   add.flag("--no-verify", "keep all in force closure, loads and errors unseen");
 }
