@@ -361,3 +361,26 @@ TEST_CASE("a picture knows its camera, and drawn with that it is the same to the
     CHECK(render(again, options) != chosen);
   }
 }
+
+TEST_CASE(
+    "a draft that is drawn larger and reduced has the size that was asked for, and finer edges") {
+  REQUIRE_PICTURES();
+  const auto drawn = [](int scale) {
+    return render(still_life(),
+                  {.width = 96, .height = 72, .draft_scale = scale, .quality = Quality::draft});
+  };
+  const auto difference = [](const Picture& a, const Picture& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+    return sum;
+  };
+  const Picture one = drawn(1), two = drawn(2), four = drawn(4);
+  CHECK(two.width == 96);
+  CHECK(two.height == 72);
+  CHECK(difference(two, four) < 0.7 * difference(one, four));
+  CHECK_THROWS_WITH_AS(render({}, {.draft_scale = 5, .quality = Quality::draft}),
+                       "picture: scale of a draft must be between 1 and 4, got 5", Error);
+  CHECK_THROWS_WITH_AS(
+      render({}, {.width = 8192, .height = 8192, .draft_scale = 2, .quality = Quality::draft}),
+      "picture: expected at most 134217728 pixels times samples of a draft, got 268435456", Error);
+}
