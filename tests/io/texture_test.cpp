@@ -76,6 +76,15 @@ TEST_CASE("what is no image, cut short or damaged, is refused by name") {
   CHECK_THROWS_AS(decode_image(huge, "a.png"), Error);
 }
 
+TEST_CASE("images of one file are refused when they have too many pixels in all") {
+  ImageBudget budget;
+  const Image large{1 << 13, 1 << 13, {}};
+  budget.add(large, "a");
+  budget.add(large, "b");
+  CHECK_THROWS_WITH_AS(budget.add({1, 1, {}}, "c.png"),
+                       "c.png: expected images of at most 134217728 pixels in all", Error);
+}
+
 TEST_CASE("the mean colour of a patch is that of its pixels, also beyond the image's edges") {
   const Image image = decode_image(bytes_of_base64(png_base64), "a.png");
   const auto mean = [&](double u, double v) {

@@ -50,6 +50,7 @@ class GltfReader {
   std::vector<std::pair<int, Affine3d>> waiting_;  // nodes and where their parents lie
   std::set<int> seen_;
   std::set<std::string> warnings_;
+  ImageBudget image_budget_;
   std::map<int, std::shared_ptr<const Image>> images_;  // null: not readable
   size_t primitives_ = 0;
   bool colors_given_ = false;
@@ -166,8 +167,11 @@ void GltfReader::read_texture(const GltfValue& metallic, Look& look) {
 std::shared_ptr<const Image> GltfReader::image(int number, const std::string& expected_by) {
   const auto [at, is_new] = images_.try_emplace(number);
   if (is_new) try {
-      at->second = std::make_shared<const Image>(decode_image(
-          document_.image_bytes(number, expected_by), fmt::format("images[{}]", number)));
+      const std::string shown = fmt::format("images[{}]", number);
+      auto image = std::make_shared<const Image>(
+          decode_image(document_.image_bytes(number, expected_by), shown));
+      image_budget_.add(*image, shown);
+      at->second = std::move(image);
     } catch (const Error& error) {
       warnings_.insert(fmt::format("{}; the colour of the material is used", error.what()));
     }

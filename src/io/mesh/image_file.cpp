@@ -108,6 +108,13 @@ Eigen::Vector3f color_at(const Image& image, const Eigen::Vector2d& uv) {
 
 }  // namespace
 
+void ImageBudget::add(const Image& image, const std::string& name) {
+  pixels_ += int64_t{image.width} * image.height;
+  if (pixels_ > 2 * max_image_pixels)
+    fail(ErrorKind::limit, "{}: expected images of at most {} pixels in all", name,
+         2 * max_image_pixels);
+}
+
 Image decode_image(const std::string& bytes, const std::string& name) {
   if (bytes.starts_with("\x89PNG")) return decode_png(bytes, name);
   if (bytes.starts_with("\xFF\xD8\xFF")) return decode_jpeg(bytes, name);

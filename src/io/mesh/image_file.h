@@ -17,6 +17,17 @@ struct Image {
 /// Beyond this an image is refused [pixels].
 inline constexpr int64_t max_image_pixels = int64_t{1} << 26;
 
+/// Bounds the memory that the images of one file take.
+class ImageBudget {
+ public:
+  /// Counts an image that is kept.
+  /// throws  Error when all images together have more than twice max_image_pixels
+  void add(const Image& image, const std::string& name);
+
+ private:
+  int64_t pixels_ = 0;
+};
+
 /// Decodes a PNG or JPEG file, by its first bytes. What is transparent lies on white.
 /// throws  Error "NAME: ..." when it is neither, is malformed, cut short or too large
 Image decode_image(const std::string& bytes, const std::string& name);

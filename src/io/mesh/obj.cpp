@@ -65,7 +65,8 @@ class ObjReader {
   WordReader words_;
   std::vector<Eigen::Vector3f> point_colors_;
   std::vector<Eigen::Vector2d> texture_points_;
-  std::vector<int> corners_, texture_corners_;                  // of the latter -1: none
+  std::vector<int> corners_, texture_corners_;  // of the latter -1: none
+  ImageBudget image_budget_;
   std::map<std::string, std::shared_ptr<const Image>> images_;  // by path; null: not readable
   std::vector<Face> faces_;
   int material_ = -1;
@@ -243,8 +244,10 @@ void ObjReader::read_image(const WordReader& words, const std::string& name,
   }
   if (is_new) try {
       const auto found = find_file(file, path, input_.options);
-      at->second =
-          std::make_shared<const Image>(decode_image(read_bytes(found), found.filename().string()));
+      const std::string shown = found.filename().string();
+      auto image = std::make_shared<const Image>(decode_image(read_bytes(found), shown));
+      image_budget_.add(*image, shown);
+      at->second = std::move(image);
     } catch (const Error& error) {
       warn_once("image" + file, words.place(),
                 fmt::format("{}; the colour of the material is used", error.what()));
