@@ -162,6 +162,7 @@ local snapshot = {}
 ---@field fingerprint string # Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses. 16 hexadecimal digits
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field visual_mesh mesh? # The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
+---@field triangle_colors number[][]? # Colours of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil where the body has one colour.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
 ---@field free_damping number # Viscous resistance of an object that moves freely, or of the base of a robot that floats: a force on the origin of its frame against that point's velocity, and a torque against its turning. [N s/m and N m s/rad]

@@ -238,9 +238,9 @@ static int run_scripts_of(const CLI::App& app, Said& said) {
 }
 
 static int run_verb(const CLI::App& app, Said& said) {
-  for (std::string* folder : {&said.run.confine, &said.check.reading.confine,
-                              &said.convert.reading.confine, &said.plan.reading.confine,
-                              &said.render.reading.confine})
+  for (std::string* folder :
+       {&said.run.confine, &said.check.reading.confine, &said.convert.reading.confine,
+        &said.plan.reading.confine, &said.render.reading.confine})
     *folder = said.confine;
   said.plan.quiet = said.run.quiet;
   if (app.got_subcommand("test")) return run_tests(said.test_path, said.confine, said.run.quiet);

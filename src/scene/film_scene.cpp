@@ -60,8 +60,8 @@ void hold_boxes(const World& world, const World& before, size_t state, const Wan
     if (bounds.empty()) continue;
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Array3d high(corner & 1, corner >> 1 & 1, corner >> 2);
-      scene.held.push_back(
-          X_WB * Eigen::Vector3d(bounds.low.array() + high * bounds.size().array()));
+      scene.held.push_back(X_WB *
+                           Eigen::Vector3d(bounds.low.array() + high * bounds.size().array()));
     }
   }
 }

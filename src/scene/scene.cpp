@@ -172,7 +172,8 @@ Scene make_scene(const World& world, const SceneOptions& options) {
   const std::vector<TouchPatch> patches = touch_patches(touches);
   scene.spots = patch_spots(world, patches);
   if (options.contacts) scene.cones = contact_cones(world, patches, options);
-  if (options.ground && !floor && !all.empty()) scene.ground = options.ground_height.value_or(all.low.z());
+  if (options.ground && !floor && !all.empty())
+    scene.ground = options.ground_height.value_or(all.low.z());
   scene.eye = options.eye;
   return scene;
 }

@@ -70,8 +70,7 @@ document.addEventListener("keydown", e => { if (e.key === " " && e.target.tagNam
 slider.addEventListener("input", () => { if (plays) toggle(); now = Number(slider.value); showAt(now); });
 document.getElementById("reset").addEventListener("click", () => { frame(); redraw(); });
 document.getElementById("through").addEventListener("change", e => {
-  looks.object.opacity = e.target.checked ? 0.34 : 1;
-  looks.object.depthWrite = !e.target.checked;
+  setObjectOpacity(e.target.checked, 1);
   redraw();
 });
 

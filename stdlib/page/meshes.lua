@@ -17,7 +17,16 @@ function meshes.packed(format, count, number)
   return table.concat(parts)
 end
 
-local function packed_mesh(mesh)
+-- one colour per triangle, as bytes; nil where the body has one colour
+local function packed_colors(body)
+  local colors = body.triangle_colors
+  if not colors or #colors ~= body.visual_mesh.triangle_count then return nil end
+  local function byte(i) return math.floor(255 * colors[(i - 1) // 3 + 1][(i - 1) % 3 + 1] + 0.5) end
+  return base64(meshes.packed("B", 3 * #colors, byte))
+end
+
+local function packed_mesh(body)
+  local mesh = body.visual_mesh
   local flat = {}
   for _, v in ipairs(mesh.vertices) do
     flat[#flat + 1], flat[#flat + 2], flat[#flat + 3] = v.x, v.y, v.z
@@ -28,7 +37,8 @@ local function packed_mesh(mesh)
   end
   local wide = #flat // 3 > 65536
   return {positions = base64(meshes.packed("f", #flat, function(i) return flat[i] end)),
-          indices = base64(meshes.packed(wide and "I4" or "I2", #indices, function(i) return indices[i] end)), wide = wide}
+          indices = base64(meshes.packed(wide and "I4" or "I2", #indices, function(i) return indices[i] end)), wide = wide,
+          colors = packed_colors(body)}
 end
 
 --- to a micrometre
@@ -48,8 +58,8 @@ Meshes.__index = Meshes
 
 --- The number, from 0, of a body's mesh in the list.
 function Meshes:add(body)
-  local mesh = packed_mesh(body.visual_mesh)
-  local key = mesh.positions .. mesh.indices
+  local mesh = packed_mesh(body)
+  local key = mesh.positions .. mesh.indices .. (mesh.colors or "")
   if not self.number_of[key] then
     self.list[#self.list + 1] = mesh
     self.number_of[key] = #self.list

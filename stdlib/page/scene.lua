@@ -41,6 +41,14 @@ function geometryOf(mesh) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
   geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  if (mesh.colors) {
+    const own = new Uint8Array(bytes(mesh.colors)), shown = new Float32Array(3 * index.length), linear = new THREE.Color();
+    for (let t = 0; t < count; ++t) {
+      linear.setRGB(own[3 * t] / 255, own[3 * t + 1] / 255, own[3 * t + 2] / 255).convertSRGBToLinear();
+      for (let k = 0; k < 3; ++k) shown.set([linear.r, linear.g, linear.b], 9 * t + 3 * k);
+    }
+    geometry.setAttribute("color", new THREE.BufferAttribute(shown, 3));
+  }
   geometry.computeBoundingSphere();
   return geometry;
 }
@@ -79,8 +87,25 @@ const looks = {
   cone: paint(0xf4511e, {side: THREE.DoubleSide}), point: paint(0x8e1b0a),
 };
 const geometries = data.meshes.map(geometryOf);
+// the look of a kind for meshes whose triangles have colours of their own
+const colored = {};
+function lookOf(part) {
+  if (!geometries[part.mesh].getAttribute("color")) return looks[part.kind];
+  if (!colored[part.kind]) {
+    colored[part.kind] = looks[part.kind].clone();
+    colored[part.kind].color.setRGB(1, 1, 1);
+    colored[part.kind].vertexColors = THREE.VertexColors;
+  }
+  return colored[part.kind];
+}
+function setObjectOpacity(seenThrough, otherwise) {
+  for (const look of [looks.object, colored.object]) if (look) {
+    look.opacity = seenThrough ? 0.34 : otherwise;
+    look.depthWrite = !seenThrough;
+  }
+}
 const solid = part => {
-  const mesh = new THREE.Mesh(geometries[part.mesh], looks[part.kind]);
+  const mesh = new THREE.Mesh(geometries[part.mesh], lookOf(part));
   if (part.kind === "object") mesh.renderOrder = 2;
   scene.add(mesh);
   return mesh;

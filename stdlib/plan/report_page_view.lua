@@ -83,9 +83,7 @@ document.getElementById("reset").addEventListener("click", () => { orbit.turned 
 document.getElementById("contacts").addEventListener("change", pose);
 document.getElementById("before").addEventListener("change", () => { pose(); if (data.grasps[shown]) frame(data.grasps[shown]); });
 document.getElementById("through").addEventListener("change", e => {
-  const look = looks.object;
-  look.opacity = e.target.checked ? 0.34 : 1;
-  look.depthWrite = !e.target.checked;
+  setObjectOpacity(e.target.checked, 1);
   redraw();
 });
 if (data.grasps.length === 0) view.querySelector(".note").textContent = "No grasp was found; what the search did is told below.";

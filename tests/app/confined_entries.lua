@@ -62,6 +62,7 @@ local writers = {
   ["clench.files.save_pregrasps"] = function(path) clench.files.save_pregrasps(path, {}) end,
   ["clench.files.save_gif"] = function(path) clench.files.save_gif(path, {picture}) end,
   ["clench.csv.write"] = function(path) clench.csv.write(path, {{a = 1}}) end,
+  ["clench.latex.write"] = function(path) clench.latex.write(path, {{a = 1}}) end,
   ["world:save"] = function(path) clench.world():save(path .. ".wld") end,
   ["mesh:save"] = function(path) box.mesh:save(path .. ".obj") end,
   ["hand:save_virtual_contacts"] = function(path) hand:save_virtual_contacts(path .. ".vgr") end,

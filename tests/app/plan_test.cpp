@@ -78,7 +78,8 @@ TEST_CASE("what plan is given badly is told in one sentence, before the search")
   said("--sheet a.jpg", "--sheet: expected a file .png, got 'a.jpg'");
   said("--table a.txt", "--table: expected a file .tex or .csv, got 'a.txt'");
   said("--quality paper", "--quality says how --sheet is drawn, and there is no --sheet");
-  said("--sheet a.png --size 10", "--size: expected WIDTHxHEIGHT, 16x16 to 8192x8192 pixels, got '10'");
+  said("--sheet a.png --size 10",
+       "--size: expected WIDTHxHEIGHT, 16x16 to 8192x8192 pixels, got '10'");
   said("--sheet a.png --frame hand", "--frame: hand not in {");
   said("--report a.htm", "--report: expected a file .html, got 'a.htm'");
   said("--sheet " + (folder / "no/a.png"), "--sheet: " + (folder / "no/a.png"), 1);

@@ -29,7 +29,8 @@ bool drawn(const std::string& options, const std::string& path) {
 // a list of grasps of a hand that is closed on a flask, each the same
 std::string list_of(const Folder& folder, int count) {
   const std::string path = folder / "list.jsonl";
-  run("-q -e 'local w = clench.load(\"worlds/dlr_flask.wld\", {root = \".\"}) w.robots[1]:autograsp() "
+  run("-q -e 'local w = clench.load(\"worlds/dlr_flask.wld\", {root = \".\"}) "
+      "w.robots[1]:autograsp() "
       "local g, l = clench.grasp(w.robots[1], w.objects[1]), clench.grasps() g:quality \"epsilon\" "
       "for i = 1, " +
       std::to_string(count) + " do l:add(g) end l:save(\"" + path + "\")'");
@@ -38,13 +39,15 @@ std::string list_of(const Folder& folder, int count) {
 
 }  // namespace
 
-TEST_CASE("render draws worlds, robots, bodies and grasps of lists, in the size that is asked for") {
+TEST_CASE(
+    "render draws worlds, robots, bodies and grasps of lists, in the size that is asked for") {
   const Folder folder;
   const std::string out = folder / "a.png";
   if (!drawn("worlds/dlr_flask.wld --root . --quality draft --size 64x48", out)) return;
   CHECK(size_of_png(out) == std::pair(64, 48));
   CHECK(drawn("models/hands/dlr/dlr.cfg --quality draft --size 32x24 --frame all", out));
-  CHECK(drawn("models/objects/mug.iv --quality draft --size 32x24 --camera 0.3,0,0.2,0,0,0.05", out));
+  CHECK(
+      drawn("models/objects/mug.iv --quality draft --size 32x24 --camera 0.3,0,0.2,0,0,0.05", out));
   CHECK(size_of_png(out) == std::pair(32, 24));
 
   const std::string list = list_of(folder, 5);
@@ -74,14 +77,18 @@ TEST_CASE("what render is given badly is told in one sentence") {
   said("worlds/dlr_flask.wld", "-o is required");
   said("worlds/dlr_flask.wld -o a.jpg", "-o: expected a file .png, got 'a.jpg'");
   said("worlds/dlr_flask.wld -o no/such/a.png", "-o: no/such/a.png", 1);
-  said(world + "--size 10x10", "--size: expected WIDTHxHEIGHT, 16x16 to 8192x8192 pixels, got '10x10'");
+  said(world + "--size 10x10",
+       "--size: expected WIDTHxHEIGHT, 16x16 to 8192x8192 pixels, got '10x10'");
   said(world + "--quality fine", "--quality: fine not in {");
   said(world + "--camera 1,2", "--camera: expected X,Y,Z in metres, with a point to look at");
-  said(world + "--pick 1", "--pick is about a list of grasps, and worlds/dlr_flask.wld is a file of kind 'world'");
+  said(world + "--pick 1",
+       "--pick is about a list of grasps, and worlds/dlr_flask.wld is a file of kind 'world'");
   said("no.wld -o " + out, "no such file: no.wld", 1);
-  said("models/hands/dlr/dlr.egr -o " + out, "expected a world, a robot, a body or a list of grasps");
+  said("models/hands/dlr/dlr.egr -o " + out,
+       "expected a world, a robot, a body or a list of grasps");
   said("models/objects/mug.iv --camera file -o " + out, "--camera file: the file gives no camera");
   said(list + " --pick 3 -o " + out, "--pick: expected numbers from 1 to 2, got 3");
-  said(list + " --pick one -o " + out, "--pick: expected numbers of grasps, as in 1,4,7, got 'one'");
+  said(list + " --pick one -o " + out,
+       "--pick: expected numbers of grasps, as in 1,4,7, got 'one'");
   said(list + " --hand no.cfg -o " + out, "no such file: no.cfg", 1);
 }

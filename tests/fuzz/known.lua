@@ -39,7 +39,7 @@ known.files = files
 --- of the files that an entry writes; `save` of a world has many
 known.endings = {
   ["hand:save_virtual_contacts"] = {".vgr", ".xml"}, ["eigengrasps:save"] = {".egr", ".xml"}, ["picture:save"] = {".png"},
-  ["plot:save"] = {".png", ".svg"}, ["clench.csv.write"] = {".csv"}, ["clench.files.save_text"] = {".txt"},
+  ["plot:save"] = {".png", ".svg"}, ["clench.csv.write"] = {".csv"}, ["clench.latex.write"] = {".tex"}, ["clench.files.save_text"] = {".txt"},
   ["mesh:save"] = {".obj", ".stl", ".ply", ".off"}, ["world:save"] = {".wld", ".lua", ".xml"},
   ["clench.convert"] = {".obj", ".stl", ".ply", ".off", ".iv", ".xml"},
 }

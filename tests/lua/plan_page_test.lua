@@ -163,3 +163,23 @@ test("Chromium draws a grasp, and takes hostile names for words", function(t)
   t.equal(text:match '<html[^>]- data%-bad', nil)
   t.equal(text:find("<img src=\"x\"", 1, true), nil)
 end)
+
+test("a page has the colours of triangles where a file gives several, and lists the assumptions", function(t)
+  if not three then t.skip(missing) end
+  local path = test.path()
+  clench.files.save_text(path .. ".mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n")
+  local name = path:match "[^/]*$"
+  clench.files.save_text(path .. ".obj", "mtllib " .. name .. ".mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n" ..
+    "usemtl a\nf 1 3 2\nf 1 2 4\nusemtl b\nf 1 4 3\nf 2 3 4\n")
+  local _, hand = stage(0)
+  local object = hand.world:add_object(path .. ".obj", {unit = "m"})
+  t.equal(object.triangle_colors, {{1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 1}})
+  t.equal(object.visual_mesh, object.mesh)
+  local html = page(hand, object, {}, {title = "", subtitle = "", report = "", assumptions = {"friction 0.3 <assumed>"}})
+  local data = clench.json.decode(html:match '<script type="application/json" id="data">(.-)</script>')
+  for _, part in ipairs(data.still) do
+    if part.kind == "object" then t.equal(data.meshes[part.mesh + 1].colors, base64("\xff\0\0\xff\0\0\0\0\xff\0\0\xff")) end
+  end
+  t.ok(html:find("<h2>Assumptions</h2><ul><li>friction 0.3 &lt;assumed&gt;</li></ul>", 1, true))
+  for _, ending in ipairs {".mtl", ".obj", ""} do os.remove(path .. ending) end
+end)

@@ -77,7 +77,8 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   CHECK((moved.eye - moved.target).normalized().dot(side) < 0.5);
 }
 
-TEST_CASE("a view is of the side where contacts are seen, also where what hides them is drawn clear") {
+TEST_CASE(
+    "a view is of the side where contacts are seen, also where what hides them is drawn clear") {
   // a glass ball in a cup that is open towards one side, in which the contacts lie
   for (const double angle : {0.3, 1.7, 2.9, 4.4}) {
     const Eigen::Vector3d open(std::cos(angle), std::sin(angle), 0);

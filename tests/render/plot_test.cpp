@@ -256,7 +256,8 @@ TEST_CASE("a sheet holds its pictures whole, each in its cell") {
   CHECK(two.width == told.width);
   CHECK(two.height == told.height + 18 * ((told.height - 12) / (10 + 22 + 12)));
   // notes stand under all pictures, in as many lines as they need
-  const Picture noted = contact_sheet(list, {.notes = {"a b", "c"}, .columns = 2, .gap = 4}, letters());
+  const Picture noted =
+      contact_sheet(list, {.notes = {"a b", "c"}, .columns = 2, .gap = 4}, letters());
   CHECK(noted.height == sheet.height + 2 * 18 + 4 + (noted.height > sheet.height + 40 ? 18 : 0));
   CHECK(std::equal(sheet.pixels.begin(), sheet.pixels.end(), noted.pixels.begin()));
   CHECK(std::any_of(noted.pixels.begin() + static_cast<std::ptrdiff_t>(sheet.pixels.size()),

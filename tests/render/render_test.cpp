@@ -312,14 +312,16 @@ TEST_CASE("numbers out of range are refused by name") {
                        "picture: field of view must be between 0.001 and 3 [rad], got 3.2", Error);
 }
 
-TEST_CASE("a glass box on the floor, and one on a table, show one and the same bottom from any side") {
+TEST_CASE(
+    "a glass box on the floor, and one on a table, show one and the same bottom from any side") {
   REQUIRE_PICTURES();
   // the table's top is as high as the floor of the first
   for (const bool table : {false, true})
     for (const Quality quality : {Quality::draft, Quality::paper})
       for (int view = 0; view < 6; ++view) {
         Scene scene;
-        scene.meshes.push_back(solid(box(0.1, 0.1, 0.1), {0, 0, 1}, Pose::translation({0, 0, 0.05})));
+        scene.meshes.push_back(
+            solid(box(0.1, 0.1, 0.1), {0, 0, 1}, Pose::translation({0, 0, 0.05})));
         scene.meshes[0].opacity = 0.3f;
         if (table)
           scene.meshes.push_back(
@@ -330,8 +332,8 @@ TEST_CASE("a glass box on the floor, and one on a table, show one and the same b
         eye.eye = {0.013 * view - 0.03, -0.3 + 0.004 * view, 0.31};
         eye.target = {0, 0, 0};
         scene.eye = eye;
-        const Picture picture = render(
-            scene, {.width = 96, .height = 96, .samples = 1, .quality = quality});
+        const Picture picture =
+            render(scene, {.width = 96, .height = 96, .samples = 1, .quality = quality});
         // within the bottom neighbours differ by less than one layer of glass
         int most = 0;
         for (int x = 42; x < 54; ++x)
@@ -358,4 +360,27 @@ TEST_CASE("a picture knows its camera, and drawn with that it is the same to the
     again.eye->eye *= 1.1;
     CHECK(render(again, options) != chosen);
   }
+}
+
+TEST_CASE(
+    "a draft that is drawn larger and reduced has the size that was asked for, and finer edges") {
+  REQUIRE_PICTURES();
+  const auto drawn = [](int scale) {
+    return render(still_life(),
+                  {.width = 96, .height = 72, .draft_scale = scale, .quality = Quality::draft});
+  };
+  const auto difference = [](const Picture& a, const Picture& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+    return sum;
+  };
+  const Picture one = drawn(1), two = drawn(2), four = drawn(4);
+  CHECK(two.width == 96);
+  CHECK(two.height == 72);
+  CHECK(difference(two, four) < 0.7 * difference(one, four));
+  CHECK_THROWS_WITH_AS(render({}, {.draft_scale = 5, .quality = Quality::draft}),
+                       "picture: scale of a draft must be between 1 and 4, got 5", Error);
+  CHECK_THROWS_WITH_AS(
+      render({}, {.width = 8192, .height = 8192, .draft_scale = 2, .quality = Quality::draft}),
+      "picture: expected at most 134217728 pixels times samples of a draft, got 268435456", Error);
 }

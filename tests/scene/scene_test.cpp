@@ -98,8 +98,8 @@ TEST_CASE("each face that a robot touches has a patch of its own") {
   World world;
   world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   const double off = 0.075 + 1e-5;
-  for (const Eigen::Vector3d& side : {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
-                                      Eigen::Vector3d(0, -1, 0)})
+  for (const Eigen::Vector3d& side :
+       {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0)})
     world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation(off * side));
   const auto patches = touch_patches(contacts_on_objects(world));
   REQUIRE(patches.size() == 3);
@@ -225,8 +225,7 @@ TEST_CASE("of a robot that touches, a view holds the links from its palm outward
   CHECK(framed() == std::set<std::string>{"knuckles", "left", "right", "tin"});
   // the forearm touches, and nothing but its base carries more than one branch
   world.set_pose(tin, Pose::translation({0.1, 0, 0.2}));
-  CHECK(framed() ==
-        std::set<std::string>{"palm", "forearm", "knuckles", "left", "right", "tin"});
+  CHECK(framed() == std::set<std::string>{"palm", "forearm", "knuckles", "left", "right", "tin"});
 }
 
 TEST_CASE("links of a robot that is seen through are clear, its base and other robots are not") {

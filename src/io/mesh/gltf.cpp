@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 
+#include <map>
+#include <memory>
 #include <set>
 
 #include "clench/io/mesh/gltf_document.h"
+#include "clench/io/mesh/image_file.h"
 
 namespace clench {
 
@@ -26,20 +29,29 @@ class GltfReader {
   struct Look {
     Eigen::Vector3f color = Appearance().color;
     float transparency = 0;
+    std::shared_ptr<const Image> image = {};  // null: one colour
+    int coordinates = 0;                      // number of the set that places the image
   };
+  using ImagePoints = std::vector<Eigen::Vector2d>;  // one per vertex; empty: no image
   std::vector<int> roots() const;
   void read_node(int i, const std::string& named_by, const Affine3d& X);
   Affine3d placement(const GltfValue& node) const;
   void read_mesh(const GltfValue& mesh, const Affine3d& X);
   void read_primitive(const GltfValue& primitive, const Affine3d& X);
-  void add(const std::vector<int>& corners, int mode, const Affine3d& X, const Look& look);
+  void add(const std::vector<int>& corners, int mode, const Affine3d& X, const Look& look,
+           const ImagePoints& points, int first);
   Look look(const GltfValue& primitive);
+  void read_texture(const GltfValue& metallic, Look& look);
+  std::shared_ptr<const Image> image(int number, const std::string& expected_by);
+  ImagePoints image_points(const GltfValue& primitive, const Look& look, int count);
 
   GltfDocument document_;
   GeometryBuilder& builder_;
   std::vector<std::pair<int, Affine3d>> waiting_;  // nodes and where their parents lie
   std::set<int> seen_;
   std::set<std::string> warnings_;
+  ImageBudget image_budget_;
+  std::map<int, std::shared_ptr<const Image>> images_;  // null: not readable
   size_t primitives_ = 0;
   bool colors_given_ = false;
 };
@@ -126,8 +138,9 @@ GltfReader::Look GltfReader::look(const GltfValue& primitive) {
   if (!document_.member(primitive, "material")) return out;
   const GltfValue material = document_.item(
       "materials", document_.expected_integer(primitive, "material"), primitive.name);
-  const GltfValue factor =
-      document_.member(document_.member(material, "pbrMetallicRoughness"), "baseColorFactor");
+  const GltfValue metallic = document_.member(material, "pbrMetallicRoughness");
+  read_texture(metallic, out);
+  const GltfValue factor = document_.member(metallic, "baseColorFactor");
   if (!factor) return out;
   const auto rgba = document_.numbers(factor, 4);
   out.color = Vector3d(rgba[0], rgba[1], rgba[2]).cwiseMax(0).cwiseMin(1).cast<float>();
@@ -135,6 +148,49 @@ GltfReader::Look GltfReader::look(const GltfValue& primitive) {
   if (mode && *mode.json == "BLEND")
     out.transparency = static_cast<float>(std::clamp(1 - rgba[3], 0.0, 1.0));
   colors_given_ = true;
+  return out;
+}
+
+void GltfReader::read_texture(const GltfValue& metallic, Look& look) {
+  const GltfValue used = document_.member(metallic, "baseColorTexture");
+  if (!used) return;
+  const GltfValue texture =
+      document_.item("textures", document_.expected_integer(used, "index"), used.name);
+  if (!document_.member(texture, "source")) return;
+  look.coordinates = document_.integer(used, "texCoord", 0);
+  look.image = image(document_.expected_integer(texture, "source"), texture.name);
+  if (!look.image) return;
+  look.color.setOnes();
+  colors_given_ = true;
+}
+
+std::shared_ptr<const Image> GltfReader::image(int number, const std::string& expected_by) {
+  const auto [at, is_new] = images_.try_emplace(number);
+  if (is_new) try {
+      const std::string shown = fmt::format("images[{}]", number);
+      auto image = std::make_shared<const Image>(
+          decode_image(document_.image_bytes(number, expected_by), shown));
+      image_budget_.add(*image, shown);
+      at->second = std::move(image);
+    } catch (const Error& error) {
+      warnings_.insert(fmt::format("{}; the colour of the material is used", error.what()));
+    }
+  return at->second;
+}
+
+GltfReader::ImagePoints GltfReader::image_points(const GltfValue& primitive, const Look& look,
+                                                 int count) {
+  const std::string key = fmt::format("TEXCOORD_{}", look.coordinates);
+  const GltfValue attributes = document_.member(primitive, "attributes");
+  if (!look.image || !document_.member(attributes, key.c_str())) return {};
+  const auto uv = document_.read_floats(document_.expected_integer(attributes, key.c_str()), 2,
+                                        attributes.name + "." + key);
+  if (uv.size() != 2 * static_cast<size_t>(count)) {
+    warnings_.insert("texture coordinates that are not as many as positions are not used");
+    return {};
+  }
+  ImagePoints out;
+  for (int i = 0; i < count; ++i) out.emplace_back(uv[2 * i], uv[2 * i + 1]);
   return out;
 }
 
@@ -174,12 +230,13 @@ void GltfReader::read_primitive(const GltfValue& primitive, const Affine3d& X) {
   } else {
     for (int i = 0; i < count; ++i) corners.push_back(first + i);
   }
-  add(corners, mode, X, look(primitive));
+  const Look looks = look(primitive);
+  add(corners, mode, X, looks, image_points(primitive, looks, count), first);
 }
 
 /// source  glTF 2.0, section 3.7.2.1: triangles, strips and fans
-void GltfReader::add(const std::vector<int>& corners, int mode, const Affine3d& X,
-                     const Look& look) {
+void GltfReader::add(const std::vector<int>& corners, int mode, const Affine3d& X, const Look& look,
+                     const ImagePoints& points, int first) {
   const bool mirrored = X.linear().determinant() < 0;
   const size_t count = corners.size(), step = mode == 4 ? 3 : 1;
   for (size_t i = 0; i + 2 < count; i += step) {
@@ -187,7 +244,13 @@ void GltfReader::add(const std::vector<int>& corners, int mode, const Affine3d& 
     if (mode == 5 && i % 2 == 1) std::swap(t[1], t[2]);
     if (mode == 6) t[0] = corners[0];
     if (mirrored) std::swap(t[1], t[2]);
-    builder_.add_face(t, look.color, look.transparency);
+    Eigen::Vector3f color = look.color;
+    if (!points.empty()) {
+      const std::array<Eigen::Vector2d, 3> at = {points[t[0] - first], points[t[1] - first],
+                                                 points[t[2] - first]};
+      color = color.cwiseProduct(mean_color(*look.image, at));
+    }
+    builder_.add_face(t, color, look.transparency);
   }
   if (mode == 4 && count % 3 != 0)
     warnings_.insert("what is left of its indices after the last whole triangle is not used");

@@ -194,6 +194,31 @@ std::vector<double> GltfDocument::numbers(const GltfValue& array, int count) con
   return out;
 }
 
+std::string GltfDocument::bytes_at(const GltfValue& uri) const {
+  if (!uri.json->is_string()) fail("{}: expected a name", uri.name);
+  const auto& name = uri.json->get_ref<const std::string&>();
+  if (!name.starts_with("data:"))
+    return read_bytes(find_file(decode_percent(name), input_.path, input_.options));
+  const size_t comma = name.find(";base64,");
+  auto decoded = comma == std::string::npos
+                     ? std::nullopt
+                     : decode_base64(std::string_view(name).substr(comma + 8));
+  if (!decoded) fail("{}: expected data in base64", uri.name);
+  return std::move(*decoded);
+}
+
+std::string GltfDocument::image_bytes(int image, const std::string& expected_by) {
+  const GltfValue value = item("images", image, expected_by);
+  if (const GltfValue uri = member(value, "uri")) return bytes_at(uri);
+  const GltfValue view = item("bufferViews", expected_integer(value, "bufferView"), value.name);
+  const std::string& data = buffer(expected_integer(view, "buffer"), view.name);
+  const int64_t start = integer(view, "byteOffset", 0),
+                length = expected_integer(view, "byteLength");
+  if (start + length > static_cast<int64_t>(data.size()))
+    fail("{}: expected {} bytes of its buffer, got {}", view.name, start + length, data.size());
+  return data.substr(static_cast<size_t>(start), static_cast<size_t>(length));
+}
+
 const std::string& GltfDocument::buffer(int i, const std::string& expected_by) {
   const GltfValue value = item("buffers", i, expected_by), uri = member(value, "uri");
   if (const auto found = buffers_.find(i); found != buffers_.end()) return found->second;
@@ -202,18 +227,7 @@ const std::string& GltfDocument::buffer(int i, const std::string& expected_by) {
     if (i != 0 || !binary_) fail("{}: expected a uri, got none", value.name);
     bytes = std::move(glb_buffer_);
   } else {
-    if (!uri.json->is_string()) fail("{}: expected a name", uri.name);
-    const auto& name = uri.json->get_ref<const std::string&>();
-    if (name.starts_with("data:")) {
-      const size_t comma = name.find(";base64,");
-      auto decoded = comma == std::string::npos
-                         ? std::nullopt
-                         : decode_base64(std::string_view(name).substr(comma + 8));
-      if (!decoded) fail("{}: expected data in base64", uri.name);
-      bytes = std::move(*decoded);
-    } else {
-      bytes = read_bytes(find_file(decode_percent(name), input_.path, input_.options));
-    }
+    bytes = bytes_at(uri);
   }
   const int length = expected_integer(value, "byteLength", 1);
   if (bytes.size() < static_cast<size_t>(length))

@@ -46,6 +46,8 @@ class GltfDocument {
   std::vector<double> read_floats(int accessor, int components, const std::string& expected_by);
   std::vector<int> read_indices(int accessor, const std::string& expected_by);
 
+  /// Bytes of an image: in a buffer, in the JSON, or of a file.
+  std::string image_bytes(int image, const std::string& expected_by);
   /// Size of the file and of the buffers read so far.
   size_t bytes() const { return bytes_; }
 
@@ -58,6 +60,7 @@ class GltfDocument {
     std::string name;
   };
   Span span(int accessor, const char* shape, int components, const std::string& expected_by);
+  std::string bytes_at(const GltfValue& uri) const;
   const std::string& buffer(int i, const std::string& expected_by);
   void split_glb(const std::string& bytes, std::string& text);
   void check_version() const;

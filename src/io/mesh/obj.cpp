@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 
+#include "clench/base/file.h"
+#include "clench/io/mesh/image_file.h"
 #include "clench/io/text/word_reader.h"
 
 namespace clench {
@@ -14,8 +18,11 @@ namespace {
 struct Material {
   Eigen::Vector3f color = Appearance().color;
   float transparency = 0;
+  std::shared_ptr<const Image> image = {};  // null: one colour
+  bool colored = false;                     // does the file give the colour?
 };
 
+constexpr size_t max_images = 100;           // read
 constexpr size_t max_material_files = 1000;  // looked for
 
 /// What a face needs when all points are known.
@@ -38,11 +45,15 @@ class ObjReader {
 
  private:
   void read_point();
+  void read_texture_point();
   void read_face();
   void read_other(std::string_view keyword);
   void use_material(const std::string& name);
   void read_materials(const std::string& names);
   void read_material_file(const std::filesystem::path& path);
+  void read_image(const WordReader& words, const std::string& name,
+                  const std::filesystem::path& path, Material& material);
+  Eigen::Vector3f color_of(const Face& face, size_t end, const Material& look) const;
   void add_faces();
   void note_objects();
   void warn_once(const std::string& about, const std::string& sentence) {
@@ -54,7 +65,10 @@ class ObjReader {
   GeometryBuilder& builder_;
   WordReader words_;
   std::vector<Eigen::Vector3f> point_colors_;
-  std::vector<int> corners_;
+  std::vector<Eigen::Vector2d> texture_points_;
+  std::vector<int> corners_, texture_corners_;  // of the latter -1: none
+  ImageBudget image_budget_;
+  std::map<std::string, std::shared_ptr<const Image>> images_;  // by path; null: not readable
   std::vector<Face> faces_;
   int material_ = -1;
   std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
@@ -96,6 +110,27 @@ void ObjReader::read_point() {
   point_colors_.push_back(Eigen::Vector3d(c[0], c[1], c[2]).cast<float>());
 }
 
+void ObjReader::read_texture_point() {
+  const auto u = parse_number(words_.word()), v = parse_number(words_.word());
+  words_.rest();
+  if (texture_points_.size() >= max_mesh_vertices)
+    words_.fail("expected at most {} texture coordinates", max_mesh_vertices);
+  const bool finite = u && std::isfinite(*u) && v && std::isfinite(*v);
+  if (!finite) warn_once("vt", "expected two numbers after vt; (0, 0) is used");
+  // v counts upwards
+  texture_points_.push_back(finite ? Eigen::Vector2d(*u, 1 - *v) : Eigen::Vector2d::Zero());
+}
+
+// number of a texture point of a corner "7/3/1", from 0; -1: none
+static int texture_corner(std::string_view word, size_t count) {
+  const size_t slash = word.find('/');
+  if (slash == word.npos) return -1;
+  const std::string_view rest = word.substr(slash + 1);
+  const auto number = parse_integer(rest.substr(0, rest.find('/')));
+  if (!number || *number == 0) return -1;
+  return static_cast<int>(*number > 0 ? *number - 1 : static_cast<int64_t>(count) + *number);
+}
+
 void ObjReader::read_face() {
   const int first = static_cast<int>(corners_.size()),
             points = static_cast<int>(builder_.vertex_count());
@@ -107,10 +142,11 @@ void ObjReader::read_face() {
     if (*number == 0 || *number < -points)
       words_.fail("expected one of {} points after f, got {}", points, *number);
     corners_.push_back(*number > 0 ? *number - 1 : points + *number);
+    texture_corners_.push_back(texture_corner(word, texture_points_.size()));
   }
   if (corners_.size() - first < 3) {
     warn_once("short face", "a face of fewer than three points is not used");
-    corners_.resize(first);
+    corners_.resize(first), texture_corners_.resize(first);
     return;
   }
   if (faces_.size() >= max_mesh_triangles)
@@ -134,8 +170,8 @@ void ObjReader::use_material(const std::string& name) {
 
 void ObjReader::read_other(std::string_view keyword) {
   static const std::set<std::string_view> silent = {
-      "vt",     "vn",         "vp",        "g",        "s",        "mg",  "usemap",
-      "maplib", "shadow_obj", "trace_obj", "d_interp", "c_interp", "lod", "bevel"};
+      "vn",         "vp",        "g",        "s",        "mg",  "usemap", "maplib",
+      "shadow_obj", "trace_obj", "d_interp", "c_interp", "lod", "bevel"};
   static const std::set<std::string_view> free_form = {
       "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",  "parm",
       "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech", "stech"};
@@ -189,18 +225,62 @@ void ObjReader::read_material_file(const std::filesystem::path& path) {
       *material = {};
       continue;
     }
+    if (material && keyword == "map_Kd") {
+      read_image(words, std::string(words.rest()), path, *material);
+      continue;
+    }
     const bool color = keyword == "Kd", opaque = keyword == "d", transparent = keyword == "Tr";
     if (!material || !(color || opaque || transparent)) continue;
     const auto a = parse_number(words.word());
     const auto b = parse_number(words.word()), c = parse_number(words.word());
     if (color && a && b && c)
-      material->color = Eigen::Vector3d(*a, *b, *c).cwiseMax(0).cwiseMin(1).cast<float>();
+      material->color = Eigen::Vector3d(*a, *b, *c).cwiseMax(0).cwiseMin(1).cast<float>(),
+      material->colored = true;
     else if (!color && a)
       material->transparency = static_cast<float>(std::clamp(opaque ? 1 - *a : *a, 0.0, 1.0));
     else
       input_.warn(fmt::format("{}: expected {} after {}; not used", words.place(),
                               color ? "three numbers" : "a number", keyword));
   }
+}
+
+// "-s 1 1 1 wood.png": options, whose values are not used, and a name
+void ObjReader::read_image(const WordReader& words, const std::string& name,
+                           const std::filesystem::path& path, Material& material) {
+  const size_t blank = name.starts_with('-') ? name.find_last_of(" \t") : name.npos;
+  const std::string file = blank == name.npos ? name : name.substr(blank + 1);
+  const std::string key = path.string() + '\n' + file;
+  const auto [at, is_new] = images_.try_emplace(key);
+  if (is_new && images_.size() > max_images) {
+    images_.erase(at);
+    return warn_once("images", words.place(),
+                     fmt::format("expected at most {} images; this one is not used", max_images));
+  }
+  if (is_new) try {
+      const auto found = find_file(file, path, input_.options);
+      const std::string shown = found.filename().string();
+      auto image = std::make_shared<const Image>(decode_image(read_bytes(found), shown));
+      image_budget_.add(*image, shown);
+      at->second = std::move(image);
+    } catch (const Error& error) {
+      warn_once("image" + file, words.place(),
+                fmt::format("{}; the colour of the material is used", error.what()));
+    }
+  material.image = at->second;
+  if (material.image && !material.colored) material.color.setOnes();
+}
+
+// of the image over the face, times the colour of the material unless that is black
+Eigen::Vector3f ObjReader::color_of(const Face& face, size_t end, const Material& look) const {
+  if (!look.image) return look.color;
+  std::vector<Eigen::Vector2d> corners;
+  for (size_t i = face.first; i < end; ++i) {
+    const int t = texture_corners_[i];
+    if (t < 0 || t >= static_cast<int>(texture_points_.size())) return look.color;
+    corners.push_back(texture_points_[t]);
+  }
+  const Eigen::Vector3f mean = mean_color(*look.image, corners);
+  return look.color.isZero(0) ? mean : Eigen::Vector3f(mean.cwiseProduct(look.color));
 }
 
 void ObjReader::add_faces() {
@@ -222,6 +302,7 @@ void ObjReader::add_faces() {
         fail("{}:{}: expected one of {} points after f, got {}", words_.file(), face.line, points,
              int64_t{v} + 1);
     Material look = face.material < 0 ? Material() : by_number[face.material];
+    look.color = color_of(face, end, look);
     if (colored) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (const int v : corners) sum += point_colors_[v];
@@ -240,6 +321,8 @@ bool ObjReader::read() {
     const auto keyword = words_.word();
     if (keyword == "v")
       read_point();
+    else if (keyword == "vt")
+      read_texture_point();
     else if (keyword == "f" || keyword == "fo")
       read_face();
     else

@@ -14,7 +14,7 @@ namespace clench {
 
 static constexpr int max_side = 16384;                          // [pixels]
 static constexpr float caption_height = 10, caption_room = 22;  // [pixels]
-static constexpr int note_step = 18;                             // [pixels]
+static constexpr int note_step = 18;                            // [pixels]
 static const Eigen::Vector3f ink(0.13f, 0.16f, 0.20f);
 
 static void check_sheet(const std::vector<const Picture*>& pictures, const SheetOptions& options) {

@@ -342,8 +342,7 @@ Picture reduced(const Picture& large, int scale) {
     }
     for (int c = 0; c < 3 && cover > 0; ++c)
       out.pixels[3 * i + c] = static_cast<uint8_t>((sums[c] + cover / 2) / cover);
-    if (!out.alpha.empty())
-      out.alpha[i] = static_cast<uint8_t>((cover + squares / 2) / squares);
+    if (!out.alpha.empty()) out.alpha[i] = static_cast<uint8_t>((cover + squares / 2) / squares);
   }
   return out;
 }

@@ -85,7 +85,7 @@ using Points = std::vector<Eigen::Vector3d>;
 struct Sight {
   Points framed;  // all that must be in the frame, to its last vertex
   Points solid, aside, clear,
-      marks;  // some of what hides; of what need not be seen; of what should
+      marks;    // some of what hides; of what need not be seen; of what should
   Points held;  // what must be in the frame besides meshes
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;

@@ -80,7 +80,8 @@ void place_caption(const Scene& scene, const Vector2f& picture, const Font& font
   const float room = picture.x() - 2 * height;
   std::vector<std::string> lines;
   for (const std::string& line : scene.caption)
-    for (std::string& part : broken_lines(line, height, room, font)) lines.push_back(std::move(part));
+    for (std::string& part : broken_lines(line, height, room, font))
+      lines.push_back(std::move(part));
   Vector2f at(height, picture.y() - height);
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     const std::string text = font.shortened(*line, height, room);

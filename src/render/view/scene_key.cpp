@@ -9,8 +9,8 @@ namespace {
 bool same(const DrawMesh& a, const DrawMesh& b) {
   return a.shape == b.shape && a.X_WM.position == b.X_WM.position &&
          a.X_WM.rotation.coeffs() == b.X_WM.rotation.coeffs() && a.color == b.color &&
-         a.opacity == b.opacity && a.background == b.background && a.framed == b.framed && a.hides == b.hides &&
-         a.triangle_colors == b.triangle_colors;
+         a.opacity == b.opacity && a.background == b.background && a.framed == b.framed &&
+         a.hides == b.hides && a.triangle_colors == b.triangle_colors;
 }
 
 bool same(const DrawCone& a, const DrawCone& b) {
@@ -30,11 +30,16 @@ bool all_same(const std::vector<T>& a, const std::vector<T>& b) {
 }  // namespace
 
 SceneKey::SceneKey(const Scene& scene)
-    : meshes(scene.meshes), cones(scene.cones), arrows(scene.arrows), ground(scene.ground),
-      spots(scene.spots), held(scene.held) {}
+    : meshes(scene.meshes),
+      cones(scene.cones),
+      arrows(scene.arrows),
+      ground(scene.ground),
+      spots(scene.spots),
+      held(scene.held) {}
 
 bool SceneKey::matches(const Scene& scene) const {
-  return ground == scene.ground && spots == scene.spots && held == scene.held && all_same(cones, scene.cones) && all_same(arrows, scene.arrows) &&
+  return ground == scene.ground && spots == scene.spots && held == scene.held &&
+         all_same(cones, scene.cones) && all_same(arrows, scene.arrows) &&
          all_same(meshes, scene.meshes);
 }
 

@@ -151,7 +151,8 @@ static int render_draw(lua_State* L) {
 
 // a world, or a list of states of one
 static std::vector<const World*> check_states(lua_State* L, int i) {
-  if (!lua_istable(L, i)) return {check_object<WorldHandle>(L, i, "world or list of worlds").world.get()};
+  if (!lua_istable(L, i))
+    return {check_object<WorldHandle>(L, i, "world or list of worlds").world.get()};
   std::vector<const World*> states;
   const auto count = static_cast<lua_Integer>(lua_rawlen(L, i));
   if (count == 0) fail("{}: worlds: expected at least one, got none", subject(L));

@@ -62,6 +62,23 @@ static std::array<double, 3> color_of(const Entity& body) {
   return {color.x(), color.y(), color.z()};
 }
 
+// one {red, green, blue} per triangle; nil where the body has one colour
+static int get_triangle_colors(lua_State* L) {
+  const auto body = self_body(L);
+  const auto& colors = body->appearance.triangle_colors;
+  if (colors.empty()) return push_nil(L);
+  lua_createtable(L, static_cast<int>(colors.size()), 0);
+  for (size_t i = 0; i < colors.size(); ++i) {
+    lua_createtable(L, 3, 0);
+    for (int k = 0; k < 3; ++k) {
+      lua_pushnumber(L, static_cast<double>(colors[i][k]));
+      lua_rawseti(L, -2, k + 1);
+    }
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
+  return 1;
+}
+
 static void set_color(const Entity& body, const Eigen::Vector3d& color) {
   Appearance appearance = body->appearance;
   appearance.color = color.cast<float>();
@@ -139,12 +156,17 @@ Identity by content: equal for bodies of the same surface, mass, inertia and mat
 Its surface; nil when it has none.
 @type mesh?
 > flask.mesh:is_watertight()  --> true)"},
-    {"visual_mesh", getter<[](const Entity& x) {
-       return x->appearance.visual ? x->appearance.visual : x->shape;
-     }>, R"(
+    {"visual_mesh",
+     getter<[](const Entity& x) { return x->appearance.visual ? x->appearance.visual : x->shape; }>,
+     R"(
 The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
 @type mesh?
 > flask.visual_mesh == flask.mesh  --> true)"},
+    {"triangle_colors", guarded<get_triangle_colors>, R"(
+Colours of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil
+where the body has one colour.
+@type number[][]?
+> flask.triangle_colors  --> nil)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
 How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m],
 `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,

@@ -1,0 +1,153 @@
+// Textures: images, and the colours that they give to the faces of OBJ and glTF files.
+#include <optional>
+
+#include "clench/base/error.h"
+#include "clench/io/mesh/image_file.h"
+#include "clench/io/mesh/mesh_readers.h"
+#include "temporary.h"
+
+using namespace clench;
+using clench::test::TemporaryFolder;
+using clench::test::Warnings;
+
+namespace {
+
+// 4 x 2 pixels: red, red, green, green above blue, blue, white, white
+const std::string png_base64 =
+    "iVBORw0KGgoAAAANSUhEUgAAAAQAAAACCAIAAADwyuo0AAAAE0lEQVR42mP4z8AARAxQCkxDAAB1pAv1o+b0"
+    "cwAAAABJRU5ErkJggg==";
+// 16 x 8 pixels: the left half (200, 20, 20), the right half (20, 60, 200)
+const std::string jpeg_base64 =
+    "/9j/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMUFRUVDA8X"
+    "GBYUGBIUFRT/2wBDAQMEBAUEBQkFBQkUDQsNFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQU"
+    "FBQUFBQUFBQUFBQUFBT/wAARCAAIABADAREAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAABQj/xAAUEAEA"
+    "AAAAAAAAAAAAAAAAAAAA/8QAFgEBAQEAAAAAAAAAAAAAAAAACQcI/8QAFBEBAAAAAAAAAAAAAAAAAAAAAP/a"
+    "AAwDAQACEQMRAD8Am9L28AhHReP/2Q==";
+
+std::string bytes_of_base64(const std::string& text) {
+  static const std::string digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  uint32_t bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<uint32_t>(digits.find(c));
+    held += 6;
+    if (held >= 8) out.push_back(static_cast<char>(bits >> (held -= 8) & 255));
+  }
+  return out;
+}
+
+// two triangles of one size; the first lies on the left half of the image, the second on the right
+const std::string textured_obj =
+    "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+    "vt 0.05 0.95\nvt 0.2 0.95\nvt 0.05 0.7\nvt 0.8 0.9\nvt 0.9 0.9\nvt 0.9 0.6\n"
+    "usemtl wood\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
+
+bool is_near(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float slack = 0.02f) {
+  return (a - b).cwiseAbs().maxCoeff() <= slack;
+}
+
+}  // namespace
+
+TEST_CASE("PNG and JPEG images are decoded, rows from the top") {
+  const Image png = decode_image(bytes_of_base64(png_base64), "a.png");
+  CHECK(png.width == 4);
+  CHECK(png.height == 2);
+  CHECK(png.pixels == std::vector<uint8_t>{255, 0, 0,   255, 0, 0,   0,   255, 0,   0,   255, 0,
+                                           0,   0, 255, 0,   0, 255, 255, 255, 255, 255, 255, 255});
+  const Image jpeg = decode_image(bytes_of_base64(jpeg_base64), "a.jpg");
+  CHECK(jpeg.width == 16);
+  CHECK(jpeg.height == 8);
+  CHECK(std::abs(jpeg.pixels[0] - 200) < 6);
+  CHECK(std::abs(jpeg.pixels[3 * 15 + 2] - 200) < 6);
+}
+
+TEST_CASE("what is no image, cut short or damaged, is refused by name") {
+  CHECK_THROWS_WITH_AS(decode_image("GIF89a", "a.gif"),
+                       "a.gif: expected an image in the format PNG or JPEG", Error);
+  for (const std::string& whole : {bytes_of_base64(png_base64), bytes_of_base64(jpeg_base64)})
+    for (size_t length = 4; length + 12 < whole.size(); ++length)
+      CHECK_THROWS_AS(decode_image(whole.substr(0, length), "a"), Error);
+  // an image whose head promises more than it may
+  std::string huge = bytes_of_base64(png_base64);
+  huge[16] = huge[20] = 0x10;
+  CHECK_THROWS_AS(decode_image(huge, "a.png"), Error);
+}
+
+TEST_CASE("images of one file are refused when they have too many pixels in all") {
+  ImageBudget budget;
+  const Image large{1 << 13, 1 << 13, {}};
+  budget.add(large, "a");
+  budget.add(large, "b");
+  CHECK_THROWS_WITH_AS(budget.add({1, 1, {}}, "c.png"),
+                       "c.png: expected images of at most 134217728 pixels in all", Error);
+}
+
+TEST_CASE("the mean colour of a patch is that of its pixels, also beyond the image's edges") {
+  const Image image = decode_image(bytes_of_base64(png_base64), "a.png");
+  const auto mean = [&](double u, double v) {
+    const Eigen::Vector2d corners[] = {{u, v}, {u + 0.1, v}, {u, v + 0.1}};
+    return mean_color(image, corners);
+  };
+  CHECK(mean(0.1, 0.1) == Eigen::Vector3f(1, 0, 0));
+  CHECK(mean(0.7, 0.1) == Eigen::Vector3f(0, 1, 0));
+  CHECK(mean(0.1, 0.7) == Eigen::Vector3f(0, 0, 1));
+  CHECK(mean(-0.9, 3.1) == Eigen::Vector3f(1, 0, 0));
+  const Eigen::Vector2d all[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  CHECK(is_near(mean_color(image, all), {0.5f, 0.5f, 0.5f}, 0.06f));
+}
+
+TEST_CASE("faces of an OBJ file have the colours of its texture, times that of the material") {
+  const TemporaryFolder folder;
+  folder.write("a.png", bytes_of_base64(png_base64));
+  folder.write("a.mtl", "newmtl wood\nmap_Kd a.png\n");
+  const auto file = folder.write("a.obj", textured_obj);
+  const Appearance plain = read_body(file).appearance;
+  CHECK(plain.given);
+  REQUIRE(plain.triangle_colors.size() == 2);
+  CHECK(plain.triangle_colors[0] == Eigen::Vector3f(1, 0, 0));
+  CHECK(plain.triangle_colors[1] == Eigen::Vector3f(0, 1, 0));
+  folder.write("a.mtl", "newmtl wood\nKd 0.5 0.25 1\nmap_Kd -s 1 1 1 a.png\n");
+  const Appearance dim = read_body(file).appearance;
+  REQUIRE(dim.triangle_colors.size() == 2);
+  CHECK(dim.triangle_colors[0] == Eigen::Vector3f(0.5f, 0, 0));
+  CHECK(dim.triangle_colors[1] == Eigen::Vector3f(0, 0.25f, 0));
+}
+
+TEST_CASE("a texture that cannot be read leaves the colour of the material, with a warning") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.obj", textured_obj);
+  for (const std::optional<std::string>& image :
+       {std::optional<std::string>(), std::optional<std::string>("no image")}) {
+    if (image) folder.write("a.png", *image);
+    folder.write("a.mtl", "newmtl wood\nKd 0.5 0.25 1\nmap_Kd a.png\n");
+    Warnings warnings;
+    const BodySpec body = read_body(file, warnings.options());
+    CHECK(body.appearance.color == Eigen::Vector3f(0.5f, 0.25f, 1));
+    REQUIRE(warnings.list.size() == 1);
+    CHECK(warnings.list[0].find("the colour of the material is used") != std::string::npos);
+  }
+}
+
+TEST_CASE("triangles of a glTF file have the colours of their base colour texture") {
+  const TemporaryFolder folder;
+  // positions of three corners and their texture coordinates, as 32-bit numbers
+  const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.6f, 0.1f, 0.9f, 0.1f, 0.6f, 0.4f};
+  folder.write("a.bin", std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
+  const auto file =
+      folder.write("a.gltf",
+                   R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+  "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
+    "material": 0}]}], "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+  "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
+                       png_base64 + R"("}],
+  "buffers": [{"uri": "a.bin", "byteLength": 60}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}]})");
+  const Appearance looks = read_body(file).appearance;
+  CHECK(looks.given);
+  CHECK(looks.color == Eigen::Vector3f(0, 1, 0));
+}
