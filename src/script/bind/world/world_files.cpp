@@ -217,7 +217,8 @@ SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path&
     const Friction both = table.friction(table.index(a), table.index(b));
     return std::array{both.statics, both.kinetic};
   };
-  out.name = path.stem().string();
+  // readers call a lone robot after the model
+  out.name = spec.robots.size() == 1 ? spec.robots[0].robot.name : path.stem().string();
   out.time_step = world.dynamic_settings().step;
   for (size_t r = 0; r < world.robots().size(); ++r)
     if (!world.dynamic_settings().robot(world.robots()[r]).gravity_compensation)
