@@ -259,10 +259,10 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
                 const SavingOptions& saving) {
   if (is_mjcf_target(world, path, saving.format)) return save_as_scene(L, world, path, saving);
   if (saving.format.empty() && lower_case(path.extension().string()) == ".xml")
-    log(L, LogLevel::info,
-        fmt::format("{}: a robot carries another one, so this is an XML world of GraspIt!; "
-                    "format = \"mjcf\" writes a scene of MuJoCo",
-                    path.filename().string()));
+    log_warning(L,
+                fmt::format("{}: a robot carries another one, so this is an XML world of GraspIt!; "
+                            "format = \"mjcf\" writes a scene of MuJoCo",
+                            path.filename().string()));
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
   const std::string file = path.filename().string();
