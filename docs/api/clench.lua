@@ -137,9 +137,9 @@ function world:snapshot() end
 ---@param snapshot snapshot
 function world:restore(snapshot) end
 
----Writes the world: as .wld or .xml for GraspIt!, as a .lua script that holds everything. The old file stays until the new one has been read again; what the format cannot hold is told in a warning.
----@param path string # .wld, .xml or .lua
----@param options? {root?: string, confine?: string} # names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
+---Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder beside it, and its state now as the reference posture and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that holds everything. The old file stays until the new one has been read again; what the format cannot hold is told in a warning.
+---@param path string # .xml, .mjcf, .wld or .lua
+---@param options? {format?: string, root?: string, confine?: string} # format: of an .xml "mjcf" or "graspit"; default: "mjcf", unless a robot carries another one, as a scene read again has one robot in place of the two; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 function world:save(path, options) end
 
 ---Fingerprint of the state: equal bits, equal text.
@@ -534,14 +534,19 @@ function patch:torsion_limit(options) end
 ---@field object_name string # Name of the body that is grasped.
 ---@field hand_file string # File of the robot that grasps, as it was named when it was read; empty where it is not known.
 ---@field object_file string # File of the body that is grasped; empty where it is not known.
+---@field hand_file string? # File that the hand was read from, as it was named; nil: not known.
+---@field object_file string? # File that the object was read from, as it was named; nil: not known.
 ---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
 ---@field dof_names string[] # Names of these DOFs; empty in a list from a file that does not name them.
 ---@field joint_positions number[] # Positions of the hand's joints when the grasp was measured. [rad or m]
+---@field joint_names string[] # Names of these joints, followers included: those of the hand's file; else that of the DOF, of the joint that has its value; else "chain0_joint1". Empty in a list from a file that does not name them.
+---@field joint_values number[] # The same positions as the hand's own file counts them, which other programs expect: they differ where the file's joint has another zero. [rad or m]
 ---@field measures table<string, number> # Measures that were asked for so far, by name; in a file they are kept with the grasp.
 ---@field info table<string, number> # Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
 ---@field labels table<string, string> # Words that a script notes, by name: its planner, its script. They are kept in files.
 ---@field pregrasp {pose: pose, dofs: number[]}? # How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not known. Planners set it; files keep it.
+---@field squeeze number[]? # Targets of the motors that press on the object, one per DOF, perhaps beyond its limits; nil: not known. Planners that verify set it; files keep it. [rad or m]
 ---@field collision_free boolean? # Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
 ---@field epsilon number? # The measure "epsilon", as it was measured or, else, from its points; nil of a grasp from a file that has neither.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
@@ -564,6 +569,11 @@ function grasp:apply(world, options) end
 ---@param options? {dof_order?: string|string[]} # as `apply` takes it
 ---@return number[] dofs, number[]? pregrasp # [rad or m]
 function grasp:dofs_for(hand, options) end
+
+---Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand stands on slides, named carriage_x, carriage_y and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and "lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
+---@param path string # .xml or .mjcf
+---@param options? {force?: number, height?: number, confine?: string} # force: sum of the normal forces, 10 times the object's weight by default, less where the motors cannot [N]; height: of the lift, 0.1 [m]
+function grasp:save(path, options) end
 
 ---Can it resist every wrench?
 ---@return boolean
@@ -1079,10 +1089,10 @@ function clench.file_kind(path, options) end
 ---@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
 function clench.catalog() end
 
----Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, worlds and scenes of MuJoCo as .wld .lua, worlds as .xml, too, eigengrasps as .egr .xml, virtual contacts as .vgr .xml, lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
+---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml, lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
 ---@param from string
 ---@param to string
----@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
+---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too; of worlds `format`, as world:save takes it; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
 function clench.convert(from, to, options) end
 

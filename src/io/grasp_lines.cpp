@@ -326,6 +326,11 @@ PregraspState read_pregrasp(const Parsed& json, const std::string& place) {
 }
 
 void read_joint_labels(Fields& fields, GraspSpec& out) {
+  // without joints their names say nothing
+  if (!fields.find("joints")) {
+    for (const char* key : {"joint_names", "joint_units", "joint_offsets"}) fields.find(key);
+    return;
+  }
   for (const auto& [key, list] :
        {std::pair{"joint_names", &out.joint_names}, {"joint_units", &out.joint_units}})
     if (fields.find(key)) *list = fields.texts(key, out.joints.size());

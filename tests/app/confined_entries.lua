@@ -64,6 +64,7 @@ local writers = {
   ["clench.csv.write"] = function(path) clench.csv.write(path, {{a = 1}}) end,
   ["clench.latex.write"] = function(path) clench.latex.write(path, {{a = 1}}) end,
   ["world:save"] = function(path) clench.world():save(path .. ".wld") end,
+  ["grasp:save"] = function(path) clench.grasp(hand, box):save(path .. ".xml") end,
   ["mesh:save"] = function(path) box.mesh:save(path .. ".obj") end,
   ["hand:save_virtual_contacts"] = function(path) hand:save_virtual_contacts(path .. ".vgr") end,
   ["eigengrasps:save"] = function(path) hand.eigengrasps:save(path .. ".egr") end,
@@ -76,6 +77,9 @@ local writers = {
   -- what is written beside a file, in a folder that is a link
   ["clench.convert{beside}"] = function(path)
     clench.convert(inside .. "/flask.iv", path:match "^(.*)/link/" .. "/linked.xml")
+  end,
+  ["grasp:save{beside}"] = function(path)
+    clench.grasp(hand, box):save(path:match "^(.*)/link/" .. "/linked.xml")
   end,
 }
 

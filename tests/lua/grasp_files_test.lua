@@ -99,3 +99,34 @@ test("DOFs that were edited and joints that were not contradict each other", fun
   local metres = with(function(s) return s:gsub('"dof_units":%["rad"', '"dof_units":["m"') end)
   t.fails(function() metres:apply(world) end, "expected a value in rad, got one in m")
 end)
+
+test("joints have the same names in a grasp, in its lists and in its scene, followers included", function(t)
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  local hand, mug = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local grasp = clench.grasp(hand, mug)
+  t.equal(grasp.joint_names, {"dof1", "dof2", "chain0_joint2", "chain1_joint0", "dof3", "chain1_joint2", "dof4", "chain2_joint1"})
+  t.equal(grasp.joint_values, grasp.joint_positions)
+  t.equal(grasp.hand_file, hand.source)
+  t.equal(grasp.object_file, mug.source)
+  local list, path = clench.grasps(), test.path()
+  list:add(grasp)
+  for _, ending in ipairs {".jsonl", ".csv", ".npz"} do
+    list:save(path .. ending)
+    local again = clench.grasps(path .. ending)[1]
+    t.equal(again.joint_names, grasp.joint_names)
+    t.equal(again.joint_positions, grasp.joint_positions)
+    t.equal(#again.points, #grasp.points)
+    t.equal(again.hand_file, grasp.hand_file)
+    t.equal(#again:apply(world).contacts, #grasp.contacts)
+  end
+  -- isaac_grasp lists followers behind the DOFs
+  list:save(path .. ".yaml")
+  local isaac = clench.grasps(path .. ".yaml")[1]
+  t.equal(isaac.dof_names, {"dof1", "dof2", "dof3", "dof4", "chain0_joint2", "chain1_joint0", "chain1_joint2", "chain2_joint1"})
+  t.equal(#isaac:apply(world).contacts, #grasp.contacts)
+  grasp:save(path .. ".xml")
+  local scene = assert(io.open(path .. ".xml")):read "a"
+  for _, name in ipairs(grasp.joint_names) do t.ok(scene:find(('<joint name="%s" type="hinge"'):format(name), 1, true), name) end
+  for _, name in ipairs(grasp.dof_names) do t.ok(scene:find(('<general name="%s" joint="%s"'):format(name, name), 1, true), name) end
+end)

@@ -167,8 +167,10 @@ std::string difference(const GraspSpec& a, const GraspSpec& back, GraspFormat fo
        {numbers_differ("measure", a.measures, back.measures),
         numbers_differ("note", a.info, back.info), labels_differ(labels, back.labels)})
     if (!what.empty()) return what;
-  // a table of hands with their joints in different orders holds none
-  const bool without = (format == csv || format == npz) && back.joints.empty();
+  // hands with different joints, or in another order, do not fit into one table: a warning says so
+  const auto is_finite = [](double q) { return std::isfinite(q); };
+  const bool without = (format == csv || format == npz) && back.joints.empty() &&
+                       std::ranges::all_of(a.joints, is_finite);
   if (!without && !same_joints(a, back)) return "a joint";
   return of_measured(a, back);
 }

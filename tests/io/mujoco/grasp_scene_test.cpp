@@ -71,7 +71,7 @@ class SceneLift {
   int grasp_ = 0, lift_ = 0, object_ = 0, base_ = 0;
 };
 
-// a planned grasp saved as it is, and with an object that nothing holds; returns our own verdicts
+// a planned grasp saved as it is, and without friction; returns our own verdicts
 constexpr const char* save_script = R"(
 local clench = require "clench"
 local folder, hand_file, object_file = ...
@@ -100,8 +100,10 @@ TEST_CASE("grasps that hold here hold in MuJoCo, and those that slip here slip t
                          {"barrett/barrett.cfg", "sphere.iv"},
                          {"parallel_jaw/parallel_jaw.cfg", "box.iv"},
                          {"parallel_jaw/parallel_jaw.cfg", "cube.iv"}};
+  int lost = 0;
   for (const auto& [hand, object] : lifted) {
-    INFO(hand << " on " << object);
+    CAPTURE(std::string(hand));
+    CAPTURE(std::string(object));
     const TemporaryFolder folder;
     State state;
     state.set_quiet();
@@ -114,7 +116,10 @@ TEST_CASE("grasps that hold here hold in MuJoCo, and those that slip here slip t
     const auto [moved, risen] = SceneLift(folder.path() / "held.xml").run();
     CHECK(moved < 0.002);
     CHECK(risen == doctest::Approx(0.1).epsilon(0.02));
-    CHECK(result.values[1] == "false");
-    CHECK(SceneLift(folder.path() / "slippery.xml").run().second < 0.05);
+    // a hand may hold by its shape alone
+    const bool rises = SceneLift(folder.path() / "slippery.xml").run().second > 0.05;
+    CHECK((result.values[1] == "true") == rises);
+    lost += !rises;
   }
+  CHECK(lost >= 2);
 }

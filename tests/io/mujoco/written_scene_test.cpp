@@ -6,7 +6,7 @@
 
 #include "clench/base/random.h"
 #include "clench/contact/materials.h"
-#include "clench/io/mjcf/write_scene.h"
+#include "clench/io/mjcf/written_keys.h"
 #include "clench/io/read.h"
 #include "clench/io/write_mjcf.h"
 #include "clench/spec/dof_drive.h"
@@ -240,4 +240,92 @@ TEST_CASE("URDF hands come out as MJCF hands") {
     ++count;
   }
   CHECK(count >= 3);
+}
+
+TEST_CASE("a hand with its servos at its posture stays there, under its weight") {
+  for (const char* path :
+       {"models/hands/barrett/barrett.cfg", "models/hands/shadow/shadow.cfg",
+        "models/hands/three_finger/three_finger.cfg", "models/hands/dlr/dlr.cfg"}) {
+    CAPTURE(std::string(path));
+    const RobotSpec robot = read_robot(path);
+    Written written;
+    PlacedRobot placed;
+    placed.robot = robot;
+    for (const DofSpec& dof : robot.dofs) placed.dofs.push_back(dof.default_value);
+    written.world.order.push_back({WorldEntry::Kind::robot, 0});
+    written.world.robots.push_back(placed);
+    CollisionSpec collision;
+    collision.on = false;
+    written.world.collision = collision;
+    written.write({present_key(written.world, "start")});
+    mj_resetDataKeyframe(written.model.get(), written.data.get(), 0);
+    const auto& m = *written.model;
+    const Eigen::VectorXd before = Eigen::Map<Eigen::VectorXd>(written.data->qpos, m.nq);
+    for (int i = 0; i < 1000; ++i) mj_step(written.model.get(), written.data.get());
+    const Eigen::VectorXd now = Eigen::Map<Eigen::VectorXd>(written.data->qpos, m.nq);
+    CHECK((now - before).cwiseAbs().maxCoeff() < 2e-3);
+  }
+}
+
+TEST_CASE("the keys of a scene put the hand on its carriage, and objects, where they say") {
+  Random random(13);
+  const RobotSpec robot = read_robot("models/hands/barrett/barrett.cfg");
+  for (int i = 0; i < 5; ++i) {
+    Written written;
+    add_random_robot(written.world, robot, random);
+    PlacedBody ball;
+    ball.body = read_body("models/objects/sphere.iv");
+    ball.X_WB = random_pose(random, 1);
+    written.world.order.push_back({WorldEntry::Kind::body, 0});
+    written.world.bodies.push_back(ball);
+    WrittenKey key = present_key(written.world, "moved");
+    WorldSpec other;
+    add_random_robot(other, robot, random);
+    key.robots[0] = other.robots[0].X_WB;
+    key.joints[0] = joints_at(robot, other.robots[0].dofs);
+    key.bodies[0] = random_pose(random, 1);
+    written.write({present_key(written.world, "start"), key}, 0);
+    check_poses(written, robot, written.world.robots[0].X_WB, written.world.robots[0].dofs);
+    mj_resetDataKeyframe(written.model.get(), written.data.get(), 1);
+    mj_kinematics(written.model.get(), written.data.get());
+    check_poses(written, robot, other.robots[0].X_WB, other.robots[0].dofs);
+    check_near(key.bodies[0], written.pose_of("sphere"));
+    // servos at their targets exert nothing but what carries the weight
+    mj_forward(written.model.get(), written.data.get());
+    for (int a = 0; a < written.model->nu; ++a) {
+      const int j = written.model->actuator_trnid[2 * a];
+      CHECK(written.data->ctrl[a] ==
+            doctest::Approx(written.data->qpos[written.model->jnt_qposadr[j]]).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("friction of every pair that can touch is that of the world") {
+  // materials whose pairs no coefficients of single geoms can express
+  Written written;
+  for (const char* material : {"rubber", "rubber", "glass", "metal", "stone"}) {
+    PlacedBody ball;
+    ball.body = read_body("models/objects/sphere.iv");
+    ball.body.name = fmt::format("ball {}", written.world.bodies.size());
+    ball.body.material = material;
+    // all overlap
+    ball.X_WB = Pose::translation({0.01 * static_cast<double>(written.world.bodies.size()), 0, 0});
+    written.world.order.push_back(
+        {WorldEntry::Kind::body, static_cast<int>(written.world.bodies.size())});
+    written.world.bodies.push_back(ball);
+  }
+  written.write();
+  int pairs = 0;
+  for (int c = 0; c < written.data->ncon; ++c) {
+    const mjContact& contact = written.data->contact[c];
+    const auto material = [&](int geom) {
+      const int body = written.model->geom_bodyid[geom];
+      return written.world.bodies[static_cast<size_t>(body - 1)].body.material;
+    };
+    const auto both =
+        table_friction(written.table, material(contact.geom1), material(contact.geom2));
+    CHECK(contact.friction[0] == doctest::Approx(both[0]));
+    ++pairs;
+  }
+  CHECK(pairs >= 10);
 }

@@ -217,7 +217,8 @@ SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path&
     const Friction both = table.friction(table.index(a), table.index(b));
     return std::array{both.statics, both.kinetic};
   };
-  out.name = path.stem().string();
+  // readers call a lone robot after the model
+  out.name = spec.robots.size() == 1 ? spec.robots[0].robot.name : path.stem().string();
   out.time_step = world.dynamic_settings().step;
   for (size_t r = 0; r < world.robots().size(); ++r)
     if (!world.dynamic_settings().robot(world.robots()[r]).gravity_compensation)
@@ -258,10 +259,10 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
                 const SavingOptions& saving) {
   if (is_mjcf_target(world, path, saving.format)) return save_as_scene(L, world, path, saving);
   if (saving.format.empty() && lower_case(path.extension().string()) == ".xml")
-    log(L, LogLevel::info,
-        fmt::format("{}: a robot carries another one, so this is an XML world of GraspIt!; "
-                    "format = \"mjcf\" writes a scene of MuJoCo",
-                    path.filename().string()));
+    log_warning(L,
+                fmt::format("{}: a robot carries another one, so this is an XML world of GraspIt!; "
+                            "format = \"mjcf\" writes a scene of MuJoCo",
+                            path.filename().string()));
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
   const std::string file = path.filename().string();
