@@ -20,20 +20,6 @@ local job = {found = {}}  -- what `search` leaves for `save` and `show`
 
 local function visible(text) return printable(in_utf8(text), "\n") end
 
--- words of the command line: name, value, name, value ...; some names come several times
-local function read_words(...)
-  local given = {obstacle = {}, ["obstacle-pose"] = {}, o = {}}
-  local words = {...}
-  for i = 1, #words, 2 do
-    local name, value = words[i], words[i + 1]
-    if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
-  end
-  if #given["obstacle-pose"] > #given.obstacle then
-    fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
-  end
-  return given
-end
-
 local function check_words(given)
   if given.verify and given["no-verify"] then fail "expected --verify or --no-verify, got both" end
   if given["force-ratio"] and given["no-verify"] then fail "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for none" end
@@ -78,7 +64,7 @@ end
 
 -- reads and checks all options and files before it writes anything
 local function search(root, folder, package, unit, strict, ...)
-  local given = read_words(...)
+  local given = scene.read_words({"obstacle", "obstacle-pose", "o"}, ...)
   check_words(given)
   job.given = given
   job.list, job.files = plan_list.check(given), plan_files.check(given)

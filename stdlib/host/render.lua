@@ -16,18 +16,6 @@ local on_sheet = 24  -- grasps, unless --pick chooses
 local alone = {size = {1280, 960}, quality = "paper", background = "studio"}
 local several = {size = {320, 240}, quality = "draft", background = "white"}
 
-local function read_words(...)
-  local given, words = {obstacle = {}, ["obstacle-pose"] = {}}, {...}
-  for i = 1, #words, 2 do
-    local name, value = words[i], words[i + 1]
-    if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
-  end
-  if #given["obstacle-pose"] > #given.obstacle then
-    fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
-  end
-  return given
-end
-
 local function check_output(path)
   if not path:lower():match "%.png$" then fail("-o: expected a file .png, got '%s'", path) end
   local ok, problem = pcall(clench.files.check_writable, path)
@@ -124,7 +112,7 @@ end
 
 local function draw(root, folder, package, unit, strict, ...)
   local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
-  local given = read_words(...)
+  local given = scene.read_words({"obstacle", "obstacle-pose"}, ...)
   check_output(given.o)
   picture_words(given, alone, {camera = {}})  -- wrong options are reported before files are read
   local kind = clench.file_kind(given.file)

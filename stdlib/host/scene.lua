@@ -73,4 +73,20 @@ function scene.load(given, said)
   return world, hand, object
 end
 
+--- Words of the command line, name, value, name, value ..., as a table.
+---@param several string[]  names that may come several times, and become lists
+---@return table
+function scene.read_words(several, ...)
+  local given, words = {}, {...}
+  for _, name in ipairs(several) do given[name] = {} end
+  for i = 1, #words, 2 do
+    local name, value = words[i], words[i + 1]
+    if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
+  end
+  if #given["obstacle-pose"] > #given.obstacle then
+    fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
+  end
+  return given
+end
+
 return scene
