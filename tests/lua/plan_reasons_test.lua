@@ -70,6 +70,11 @@ test("assumptions name values and sources", function(t)
   t.equal(of.lines[1], "friction 0.4 between hand and object (--friction)")
   t.equal(of.lines[2], "mass 0.1 kg (--mass)")
   t.ok(of.lines[3]:find("(--force-ratio)", 1, true))
+  hand.world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {name = "wooden board", material = "wood"})
+  t.equal(assumptions.of(hand, box, verify, {friction = "0.4"}).lines[1], "friction 0.4 between hand and object (--friction)")
+  hand.world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {name = "mat", material = hand.links[1].material})
+  t.equal(assumptions.of(hand, box, verify, {friction = "0.4"}).lines[1],
+          "friction 0.4 between hand and object (--friction), and of mat on the object: of a material of the hand")
   local path = test.path ".obj"
   box.mesh:save(path)
   local world = clench.world()

@@ -158,3 +158,35 @@ test("a shelf above the hand is in the way of the lift", function(t)
   for _, part in ipairs(hand.bodies) do top = math.max(top, part.bounds_in_world.high.z) end
   t.equal(why_with {clench.shapes.box {1, 1, 0.02}, {xyz = {0, 0, top + 0.05}}}, "in the way of the lift")
 end)
+
+test("a table is in the way of a hand that comes to a flat thing from the side, and only there", function(t)
+  local options = {mass = 0.1, material = "wood", name = "thing"}
+  local plate = clench.shapes.box {0.06, 0.12, 0.012}
+  local world = clench.world()
+  local hand = world:add_robot(path_of "parallel_jaw")
+  local body = world:add_object(plate, options)
+  body.pose = {xyz = {0, 0, free_height}}
+  local run = clench.plan.sample {hand = hand, object = body, candidates = 96, count = 100, refine = 0, verify = false, distance = 0}
+  local low, from_side = body.bounds_in_world.low.z, {}
+  for _, grasp in ipairs(run.grasps) do
+    grasp:apply(world)
+    local lowest = math.huge
+    for _, part in ipairs(hand.bodies) do
+      local bounds = part.bounds_in_world
+      if bounds then lowest = math.min(lowest, bounds.low.z) end
+    end
+    if #from_side < 4 and math.abs(hand.approach.direction.z) < 0.3 and lowest < low - 0.01 then from_side[#from_side + 1] = grasp end
+  end
+  t.ok(#from_side >= 3, #from_side)
+  local on_table_hand, on_table = stand("parallel_jaw", plate, 2e-5, options)
+  local in_air, there, held = check_all(hand, body, from_side), check_all(on_table_hand, on_table, from_side), 0
+  for i, row in ipairs(there) do
+    t.equal({i, row.why}, {i, "in collision when closed"})
+    if not in_air[i].why then held = held + 1 end
+    local grasp = from_side[i]
+    local state = {pose = grasp.pregrasp.pose, dofs = grasp.pregrasp.dofs}
+    local closed, why = closing.close(on_table_hand, on_table, state, {approach = 0.3})
+    t.ok(not (closed and closed.collision_free and (closed.pose.position - grasp.pose.position):norm() < 1e-4), why)
+  end
+  t.ok(held >= 1, held)
+end)
