@@ -121,7 +121,9 @@ test("jaws hold objects on a table, and searches do not warn of objects that sta
   for _, name in ipairs {"parallel_jaw", "adaptive_gripper"} do
     for gap_name, gap in pairs {exact = 0, resting = 2e-5} do
       local hand, box = stand(name, clench.shapes.box {0.03, 0.06, 0.12}, gap, {mass = 0.2, material = "wood"})
-      counts[name .. " " .. gap_name] = #clench.plan.sample({hand = hand, object = box, candidates = 64, refine = 1}).grasps
+      -- shaking leaves out the table and takes longest: once is enough
+      local verify = not (gap_name == "resting" and name == "parallel_jaw") and {shake = false} or nil
+      counts[name .. " " .. gap_name] = #clench.plan.sample({hand = hand, object = box, candidates = 64, refine = 1, verify = verify}).grasps
     end
   end
   clench.log.sink()
@@ -135,7 +137,7 @@ test("an object that stands exactly on a table is moved and lifted", function(t)
     local X_WO = box.pose
     t.equal(box:move_to(clench.pose {xyz = {0.2, 0, 0}} * X_WO).fraction, 1)
     box.pose = X_WO
-    local run = clench.plan.sample {hand = hand, object = box, candidates = 32, count = 1, refine = 0}
+    local run = clench.plan.sample {hand = hand, object = box, candidates = 32, count = 1, refine = 0, verify = {shake = false}}
     run.grasps[1]:apply(hand.world)
     t.ok(verification.can_be_lifted(hand, box, 0.1))
     t.ok(clench.study.lift({hand = hand, object = box, height = 0.05, hold = 0.1, settle = 0.2}).survived)
@@ -144,7 +146,7 @@ end)
 
 test("a shelf above the hand is in the way of the lift", function(t)
   local hand, box = stand("parallel_jaw", clench.shapes.box {0.03, 0.05, 0.12}, 2e-5, {mass = 0.1, material = "wood"})
-  local run = clench.plan.sample {hand = hand, object = box, candidates = 64, count = 3, refine = 0}
+  local run = clench.plan.sample {hand = hand, object = box, candidates = 64, count = 3, refine = 0, verify = {shake = false}}
   local grasp = run.grasps[1]
   local function why_with(obstacle)
     local world = hand.world:clone()
