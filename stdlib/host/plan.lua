@@ -50,7 +50,7 @@ local function run_search(given)
     seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
     contacts = given.contacts, max_effort = tonumber(given["max-effort"]), distance = tonumber(given.distance),
     keep_searching = seconds ~= nil, on_progress = given.lines and progress_lines() or nil,
-    verify = given["no-verify"] == nil and {shake = given.verify ~= nil, keep_lost = given["keep-lost"] ~= nil,
+    verify = given["no-verify"] == nil and {shake = given.verify and true or nil, keep_lost = given["keep-lost"] ~= nil,
                                                force_ratio = tonumber(given["force-ratio"])},
     on_grasp = function(grasp)
       job.found[#job.found + 1] = grasp
@@ -112,14 +112,20 @@ end
 
 local shown = 20  -- rows of the table that is printed
 
+local function shaken_text(held)
+  if not held then return "-" end
+  return held == 6 and "held" or ("lost %d"):format(6 - held)
+end
+
 local function print_table(rows)
-  local shaken = rows[1].held ~= nil
+  local shaken = false
+  for _, row in ipairs(rows) do shaken = shaken or row.held ~= nil end
   local list = {{"#", "epsilon", "load", "perturbed", "contacts", "azimuth", "elevation", shaken and "shaken" or nil}}
   for i = 1, math.min(#rows, shown) do
     local row = rows[i]
     list[#list + 1] = {tostring(row.number), ("%.4f"):format(row.epsilon), row.load and ("%.1f"):format(row.load) or "-",
                        row.perturbed and ("%.4f"):format(row.perturbed) or "-", tostring(row.contacts),
-                       tostring(row.azimuth), tostring(row.elevation), shaken and ("%d of 6"):format(row.held) or nil}
+                       tostring(row.azimuth), tostring(row.elevation), shaken and shaken_text(row.held) or nil}
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end

@@ -31,10 +31,27 @@ local function frictions(hand, object)
   return list
 end
 
+-- Names of other bodies of a material of the hand: a coefficient holds for pairs of materials, so it is theirs on the object, too.
+local function of_hand_material(hand, object)
+  local is_hand, materials, names = {}, {}, {}
+  for _, body in ipairs(hand.bodies) do
+    is_hand[body.name] = true
+    if body.mesh then materials[body.material] = true end
+  end
+  for _, body in ipairs(hand.world.bodies) do
+    if body ~= object and not is_hand[body.name] and materials[body.material] then names[#names + 1] = body.name end
+  end
+  return names
+end
+
 local function friction_line(hand, object, given)
   local list, parts = frictions(hand, object), {}
   if #list == 0 then return nil, "friction: none, as the hand has no surface" end
-  if given.friction then return list[1].mu, ("friction %.3g between hand and object (--friction)"):format(list[1].mu) end
+  if given.friction then
+    local text, others = ("friction %.3g between hand and object (--friction)"):format(list[1].mu), of_hand_material(hand, object)
+    if #others > 0 then text = ("%s, and of %s on the object: of a material of the hand"):format(text, name_list(others)) end
+    return list[1].mu, text
+  end
   for i, pair in ipairs(list) do parts[i] = ("%.3g of %s on %s"):format(pair.mu, pair.material, object.material) end
   local of_object = given.material and "--material" or source_of(object, "material_from", {object})
   return list[1].mu, ("friction %s (material of the hand: %s; of the object: %s)"):format(name_list(parts),

@@ -114,9 +114,10 @@ return function(hand, object, grasps, words)
     notes[#notes + 1] = "no pictures in the table: " .. no_pictures
   end
   if #grasps > largest then notes[#notes + 1] = ("the page shows the first %d of %d grasps"):format(largest, #grasps) end
-  local shown_columns = {}
+  local shown_columns, shaken = {}, false
+  for _, row in ipairs(rows) do shaken = shaken or row.held ~= nil end
   for _, column in ipairs(columns) do
-    if column[3] ~= "held" or rows[1] and rows[1].held then shown_columns[#shown_columns + 1] = column end
+    if column[3] ~= "held" or shaken then shown_columns[#shown_columns + 1] = column end
   end
   local parts = {head_of(words.title, words.subtitle), view, table_of(rows, pictures, shown_columns), words_of(words, notes, shown_columns),
                  '<script type="application/json" id="data">', json(data), "</script>\n<script>", code(three),

@@ -3,6 +3,7 @@ local test, clench = require "test", require "clench"
 local closing, facing, give_way = require "clench.plan.closing", require "clench.plan.facing", require "clench.plan.give_way"
 local opposition, pads, starts = require "clench.plan.opposition", require "clench.plan.pads", require "clench.plan.starts"
 local new_job = require "clench.plan.job"
+local verification = require "clench.plan.verification"
 
 local function scene(hand, object, options)
   local world = clench.world()
@@ -146,4 +147,82 @@ test("a report says that nothing fits between the pads, and how far the best gra
   t.ok(words:find("are too weak against loads: the best holds [%d.]+ times the object's weight in its weakest direction, with 10 weights of normal force"), words)
   t.ok(words:find("and 50 are asked; see min_load and force_ratio of verify", 1, true), words)
   t.ok(not words:find("wider", 1, true), words)
+end)
+
+test("jaws that are clear of one side by less than the contact threshold press when they are told to", function(t)
+  local hand, box = scene("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.06}, {mass = 0.1, material = "wood"})
+  local middle = hand.pose:inverse() * hand.approach.point + clench.vec3(0, 0, 0.05)
+  for _, aside in ipairs {0, 3e-5, -3e-5} do
+    box.pose = hand.pose * clench.pose {xyz = middle + clench.vec3(aside, 0, 0)}
+    hand:open()
+    hand:autograsp()
+    local verdict = clench.study.shake {hand = hand, object = box, seconds = 0.2, settle = 0.2}
+    t.ok(verdict.survived, tostring(verdict))
+    t.ok(verdict.grip_force > 0.45 * 10 and verdict.grip_force < 1.02 * 10, verdict.grip_force)
+  end
+end)
+
+test("a shaken object that is lost in the first direction is pulled in no other, if asked", function(t)
+  local hand, box = scene("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.06}, {mass = 0.1, material = "wood"})
+  box.pose = hand.pose * clench.pose {xyz = hand.pose:inverse() * hand.approach.point + clench.vec3(0, 0, 0.05)}
+  hand:autograsp()
+  local options = {hand = hand, object = box, seconds = 0.3, settle = 0.1, force = 50, grip_force = 10}
+  local all = clench.study.shake(options)
+  options.until_lost = true
+  local first = clench.study.shake(options)
+  t.equal({#all.directions, all.survived, first.survived}, {6, false, false})
+  local count = 1
+  while all.directions[count].held do count = count + 1 end
+  t.equal({#first.directions, first.held}, {count, count - 1})
+  options.force = 1
+  t.equal({#clench.study.shake(options).directions, clench.study.shake(options).survived}, {6, true})
+end)
+
+test("an object can pivot between two fingers, with or without a palm, and not between three", function(t)
+  local jaws, barrett = scene("parallel_jaw", clench.shapes.sphere {0.02}), scene("barrett", clench.shapes.sphere {0.02})
+  local function tips(hand, count)
+    local links = {hand.base.name}
+    for i = 1, count do
+      local chain = hand.chains[i]
+      links[#links + 1] = chain.links[#chain.links].name
+    end
+    return {links = links}
+  end
+  t.equal({verification.can_pivot(jaws, tips(jaws, 2)), verification.can_pivot(barrett, tips(barrett, 2)), verification.can_pivot(barrett, tips(barrett, 3))},
+          {true, true, false})
+end)
+
+test("the load of two soft fingers decreases with the distance from the centre of mass, epsilon about their line does not", function(t)
+  local hand, bar = scene("parallel_jaw", clench.shapes.box {0.03, 0.2, 0.03}, {mass = 0.1, material = "wood"})
+  local loads, epsilons = {}, {}
+  for i, lever in ipairs {0, 0.01, 0.02, 0.04} do
+    bar.pose = hand.pose * clench.pose {xyz = hand.pose:inverse() * hand.approach.point + clench.vec3(0, lever, 0.05)}
+    hand:open()
+    hand:autograsp()
+    local grasp = clench.grasp(hand, bar)
+    loads[i], epsilons[i] = verification.load(bar, grasp, 10), grasp:quality "epsilon"
+  end
+  for i = 2, #loads do t.ok(loads[i] < loads[i - 1], ("%g %g"):format(loads[i - 1], loads[i])) end
+  t.ok(loads[4] < 0.5 * loads[1], ("%g %g"):format(loads[1], loads[4]))
+  t.ok(epsilons[4] > 0)
+end)
+
+test("jaws are verified by shaking unless that is declined, and hold when shaken again", function(t)
+  local function search(verify)
+    local hand, bar = scene("parallel_jaw", clench.shapes.box {0.03, 0.16, 0.03}, {mass = 0.1, material = "wood"})
+    return clench.plan.sample {hand = hand, object = bar, candidates = 24, refine = 2, seed = 3, verify = verify}, hand, bar
+  end
+  local run, hand, bar = search()
+  t.ok(#run.grasps >= 2, tostring(run.report))
+  t.ok(run.report.shaken >= run.report.survived and run.report.survived >= #run.grasps)
+  for i, grasp in ipairs(run.grasps) do
+    t.equal({grasp.info.survived, grasp.info.directions_held}, {1, 6})
+    if i <= 2 then
+      grasp:apply(hand.world, {hand = hand, object = bar})
+      t.ok(clench.study.shake({hand = hand, object = bar, mass = bar.mass, force = 9.81 * bar.mass}).survived)
+    end
+  end
+  local plain = search {shake = false}
+  t.equal(plain.report.shaken, nil)
+  for _, grasp in ipairs(plain.grasps) do t.equal(grasp.info.survived, nil) end
 end)
