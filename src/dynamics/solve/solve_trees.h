@@ -35,8 +35,9 @@ class TreeFrictionSolver {
                  FrictionSolution& solution);
   bool refine(const TreeFriction& problem, double tolerance, double& residual,
               FrictionSolution& solution);
-  void approach(const TreeFriction& problem, double damping, double rho, double tolerance,
-                const Progress& progress, FrictionSolution& solution);
+  /// patience  rounds in which the residual may fail to fall to a tenth
+  void approach(const TreeFriction& problem, double damping, double rho, int patience,
+                double tolerance, const Progress& progress, FrictionSolution& solution);
 
   TreeNewton newton_;
   Eigen::VectorXd r_, next_, z_, u_;
