@@ -41,23 +41,21 @@ bool TreeFrictionSolver::refine(const TreeFriction& problem, double tolerance, d
 
 // Iterates proximal points from r_ until one solves the problem or the residual stops falling.
 void TreeFrictionSolver::approach(const TreeFriction& problem, double damping, double rho,
-                                  double tolerance, const Progress& progress,
+                                  const Effort& effort, double tolerance, const Progress& progress,
                                   FrictionSolution& solution) {
-  // iterations of Newton's method for one damped problem; if few are enough, the damping is too
-  // strong
-  constexpr int max_iterations = 15, few = 4, some = 8;
-  // patience: rounds in which the residual may fail to fall to a tenth
-  constexpr int max_rounds = 40, patience = 8;
-  // near: residual below which states hardly change [m/s]; roughly: share of the natural map that a
-  // damped problem may keep
-  constexpr double near = 1e-3, roughly = 0.3;
+  // if few iterations of Newton's method are enough for a damped problem, the damping is too strong
+  constexpr int few = 4, some = 8;
+  // residual below which states hardly change [m/s]
+  constexpr double near = 1e-3;
+  const int max_rounds = 5 * effort.patience;
   double residual = measure(problem, tolerance, r_, solution), mark = residual;
   bool found = true;
   for (int round = 0, since = 0; round < max_rounds && !solution.solved; ++round) {
     progress.check();
     if (found && residual < near && refine(problem, tolerance, residual, solution)) continue;
     next_ = r_;
-    const auto end = newton_.solve(problem, {damping, r_, rho}, roughly, max_iterations, next_);
+    const auto end =
+        newton_.solve(problem, {damping, r_, rho}, effort.roughly, effort.max_iterations, next_);
     solution.iterations += end.iterations;
     found = end.converged;
     if (found) {
@@ -71,7 +69,7 @@ void TreeFrictionSolver::approach(const TreeFriction& problem, double damping, d
     }
     if (residual < 0.1 * mark)
       mark = residual, since = 0;
-    else if (++since > patience)
+    else if (++since > effort.patience)
       return;
   }
 }
@@ -91,7 +89,10 @@ FrictionSolution TreeFrictionSolver::solve(const TreeFriction& problem, const Ve
   solution.solved = fault.excess <= 1;
   if (solution.solved) return solution;
   newton_.set(problem);
-  approach(problem, 1e-3, 1, options.tolerance, progress, solution);
+  // near a solution with many contacts about to slide, the residual stalls for some rounds before it
+  // falls: giving up early is cheaper on average, and is tried first
+  constexpr Effort efforts[] = {{8, 15, 0.3}, {24, 15, 0.3}, {24, 15, 0.9}, {24, 40, 0.3}};
+  approach(problem, 1e-3, 1, efforts[0], options.tolerance, progress, solution);
   struct Start {
     bool best;  // true: from the best impulses so far; false: from zero
     double damping, rho;
@@ -100,11 +101,13 @@ FrictionSolution TreeFrictionSolver::solve(const TreeFriction& problem, const Ve
                               {true, 0.1, 0.3}, {false, 1e-2, 10}, {true, 1e-2, 5},
                               {false, 1, 1},    {true, 1, 3},      {false, 1e-2, 0.3},
                               {true, 1e-4, 2},  {false, 1, 5},     {true, 0.1, 8}};
-  for (const Start& start : starts) {
-    if (solution.solved || !options.restarts) break;
-    solution.fell_back = true;
-    r_ = start.best ? solution.r : VectorXd::Zero(problem.rows());
-    approach(problem, start.damping, start.rho, options.tolerance, progress, solution);
+  for (const Effort& effort : efforts) {
+    for (const Start& start : starts) {
+      if (solution.solved || !options.restarts) return solution;
+      solution.fell_back = true;
+      r_ = start.best ? solution.r : VectorXd::Zero(problem.rows());
+      approach(problem, start.damping, start.rho, effort, options.tolerance, progress, solution);
+    }
   }
   return solution;
 }

@@ -35,8 +35,13 @@ class TreeFrictionSolver {
                  FrictionSolution& solution);
   bool refine(const TreeFriction& problem, double tolerance, double& residual,
               FrictionSolution& solution);
-  void approach(const TreeFriction& problem, double damping, double rho, double tolerance,
-                const Progress& progress, FrictionSolution& solution);
+  struct Effort {
+    int patience;        ///< rounds in which the residual may fail to fall to a tenth
+    int max_iterations;  ///< of Newton's method for one damped problem
+    double roughly;      ///< share of the natural map that a damped problem may keep
+  };
+  void approach(const TreeFriction& problem, double damping, double rho, const Effort& effort,
+                double tolerance, const Progress& progress, FrictionSolution& solution);
 
   TreeNewton newton_;
   Eigen::VectorXd r_, next_, z_, u_;

@@ -177,6 +177,13 @@ FrictionSolution IslandSolver::solve_heap(const System& system, const StepProble
     solution = tree_solver_.solve(trees_, solution.r, by_trees, progress);
     solution.iterations = iterations += solution.iterations;
     solution.fell_back = true;
+    if (!solution.solved) {
+      const FrictionSolution anew = tree_solver_.solve(trees_, warm_start_, by_trees, progress);
+      iterations += anew.iterations;
+      if (anew.solved || anew.residual < solution.residual) solution = anew;
+      solution.iterations = iterations;
+      solution.fell_back = true;
+    }
   }
   if (solution.solved || problem_.q.size() > max_dense_rows) return solution;
   assemble(problem, island);
