@@ -12,9 +12,9 @@ namespace clench {
 /// Contacts of two bodies that lie in one plane and share a normal: a face on a face touches at the
 /// corners of its outline.
 struct TouchPatch {
-  std::vector<Contact> contacts;  ///< at least one, in their order
-  Eigen::Vector3d p_W;            ///< mean of the contact points [m]
-  Eigen::Vector3d n_W;            ///< unit, into the object
+  std::vector<Contact> contacts;                  ///< at least one, in their order
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< mean of the contact points [m]
+  Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, into the object
 };
 
 /// Groups contacts into patches, in the order of their first contacts.

@@ -113,8 +113,7 @@ end
 local shown = 20  -- rows of the table that is printed
 
 local function shaken_text(held)
-  if not held then return "-" end
-  return held == 6 and "held" or ("lost %d"):format(6 - held)
+  return held and ("%d of 6"):format(held) or "-"
 end
 
 local function print_table(rows)

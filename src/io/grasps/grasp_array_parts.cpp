@@ -7,6 +7,7 @@
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
 #include "clench/io/grasps/grasp_writing.h"
+#include "clench/io/text/named_number.h"
 #include "clench/io/text/number_reader.h"
 
 namespace clench {

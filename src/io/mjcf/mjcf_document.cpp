@@ -206,13 +206,13 @@ Eigen::Quaterniond turn_z_to(const Eigen::Vector3d& direction) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(sine, direction.z()), axis));
 }
 
-static constexpr const char* turns[] = {"axisangle", "euler", "xyaxes", "zaxis"};
+static constexpr const char* turn_spellings[] = {"axisangle", "euler", "xyaxes", "zaxis"};
 
 Eigen::Quaterniond MjcfDocument::orientation(const XmlValues& all) const {
-  const XmlValues values = all.nearest(turns);
+  const XmlValues values = all.nearest(turn_spellings);
   const MjcfSettings& own = settings(all.element());
   if (const auto count =
-          std::ranges::count_if(turns, [&](const char* name) { return values.has(name); });
+          std::ranges::count_if(turn_spellings, [&](const char* name) { return values.has(name); });
       count > 1)
     values.element().fail("{}: expected one of axisangle, euler, xyaxes and zaxis, got {}",
                           excerpt(values.element().name()), count);

@@ -15,7 +15,7 @@ namespace clench {
 static constexpr int max_side = 16384;                          // [pixels]
 static constexpr float caption_height = 10, caption_room = 22;  // [pixels]
 static constexpr int note_step = 18;                            // [pixels]
-static const Eigen::Vector3f ink(0.13f, 0.16f, 0.20f);
+static const Eigen::Vector3f caption_ink(0.13f, 0.16f, 0.20f);
 
 static void check_sheet(const std::vector<const Picture*>& pictures, const SheetOptions& options) {
   if (pictures.empty()) fail("sheet: expected at least one picture, got none");
@@ -61,7 +61,7 @@ static void write_caption(const std::string& caption, float left, float top, flo
   for (const std::string& whole : lines_of(caption)) {
     const std::string line = font.shortened(whole, caption_height, width);
     const float x = left + (width - font.width(line, caption_height)) / 2;
-    canvas.text({line, {x, y}, caption_height}, ink);
+    canvas.text({line, {x, y}, caption_height}, caption_ink);
     y += note_step;
   }
 }
@@ -80,7 +80,7 @@ static void write_notes(const std::vector<std::string>& lines, double top, int l
                         Canvas& canvas) {
   auto y = static_cast<float>(top) + caption_height + 2;
   for (const std::string& line : lines) {
-    canvas.text({line, {static_cast<float>(left), y}, caption_height}, ink);
+    canvas.text({line, {static_cast<float>(left), y}, caption_height}, caption_ink);
     y += note_step;
   }
 }
