@@ -164,7 +164,7 @@ end
 --- > clench.loop.wait(clench.job(function() while true do end end), 0.01)  --> false
 --- > clench.loop.wait("job")  --> error: expected a job or a descriptor, got 'job'
 function loop.wait(what, timeout, event)
-  local is_job = described(what) == "a job"
+  local is_job = clench.type(what) == "job"
   if not is_job and math.type(what) ~= "integer" then
     raise(("loop.wait: expected a job or a descriptor, got %s"):format(described(what)))
   end

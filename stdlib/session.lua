@@ -120,7 +120,7 @@ function Session:script() return script.of(self) end
 function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
-  if world ~= nil and described(world) ~= "a world" then raise("clench.session: expected a world, got " .. described(world)) end
+  if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
   local session = setmetatable({commands = {}, subscribers = {}, selection = {}, stack = {}, history = history.new()}, Session)
   for _, group in ipairs {"world", "body", "grasp", "dynamics"} do
     for _, command in ipairs(require("clench.session.commands_" .. group)) do session:command(command) end

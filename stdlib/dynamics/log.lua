@@ -56,14 +56,14 @@ local function sources_of(read, world)
   for name in pairs(named) do names[#names + 1] = name end
   table.sort(names)
   for i, item in ipairs(given) do
-    local kind = described(item)
-    if kind == "a body" or kind == "a robot" then
+    local kind = clench.type(item)
+    if kind == "body" or kind == "robot" then
       if item.world ~= world then read:fail("quantities[%d]: '%s' belongs to another world", i, item.name) end
-      add(kind == "a body" and of_body(item) or of_robot(item))
+      add(kind == "body" and of_body(item) or of_robot(item))
     elseif named[item] then
       add(named[item])
     else
-      read:fail("quantities[%d]: expected a body, a robot or one of %s, got %s%s", i, table.concat(names, ", "), kind, suggest(tostring(item), names))
+      read:fail("quantities[%d]: expected a body, a robot or one of %s, got %s%s", i, table.concat(names, ", "), described(item), suggest(tostring(item), names))
     end
   end
   local own = {}
@@ -84,7 +84,7 @@ end
 local function parts_of(name, value)
   if type(value) == "number" then return {value}, {""} end
   if type(value) == "boolean" then return {value and 1 or 0}, {""} end
-  if described(value) == "a vec3" then return {value.x, value.y, value.z}, axes end
+  if clench.type(value) == "vec3" then return {value.x, value.y, value.z}, axes end
   local parts, names = {}, {}
   for i = 1, type(value) == "table" and #value or 0 do
     if type(value[i]) ~= "number" then raise(("world:log: %s[%d]: expected a number, got %s"):format(name, i, described(value[i]))) end

@@ -1,6 +1,5 @@
 --- The energy "dynamic": how long the closed hand holds the object in simulation. For clench.energy.dynamic.
 local read_options = require "clench.options"
-local described = require "clench.described"
 
 local defaults = {seconds = 0.5, grip_seconds = 0.3, settle = 0.3}
 
@@ -16,8 +15,8 @@ end
 return function(options)
   local read = read_options("clench.energy.dynamic", options)
   local hand, object = read:raw "hand", read:raw "object"
-  if described(hand) ~= "a robot" then read:expected("hand", "a robot", hand) end
-  if described(object) ~= "a body" then read:expected("object", "a body", object) end
+  if clench.type(hand) ~= "robot" then read:expected("hand", "a robot", hand) end
+  if clench.type(object) ~= "body" then read:expected("object", "a body", object) end
   if object.world ~= hand.world then read:fail("object: '%s' belongs to another world than the hand", object.name) end
   local given = read:raw "shake" or {}
   if type(given) ~= "table" then read:expected("shake", "a table of options", given) end

@@ -229,7 +229,7 @@ return function(subject, given, own)
   local job = setmetatable({subject = subject, space = {}}, Job)
   local hand, object = check(read, "hand", "a robot"), check(read, "object", "a body")
   local world = read:raw "world" or hand.world
-  if described(world) ~= "a world" then read:expected("world", "a world", world) end
+  if clench.type(world) ~= "world" then read:expected("world", "a world", world) end
   if hand.world ~= world or object.world ~= world then
     read:fail("hand and object must be in the same world")
   end
@@ -249,7 +249,7 @@ return function(subject, given, own)
   warn_of_overlaps(subject, world, hand, object)
 
   local energy = job.energy
-  local has_function = type(energy) == "function" or described(energy) == "a energy" and not energy.any_thread
+  local has_function = type(energy) == "function" or clench.type(energy) == "energy" and not energy.any_thread
   job.in_place = has_function
   if has_function then
     job.world, job.before = world, world:snapshot()

@@ -7,7 +7,7 @@ local closing = require "clench.plan.closing"
 
 -- a grasp's own state, or that before it closed, its DOFs found by their names; or a table of both
 local function state_of(item, hand)
-  if described(item) ~= "a grasp" then return item end
+  if clench.type(item) ~= "grasp" then return item end
   local dofs, dofs_before = item:dofs_for(hand)
   local before = item.pregrasp
   if not before then return {pose = item.pose, dofs = dofs} end
@@ -34,19 +34,19 @@ end
 
 local function read_states(read, hand)
   local states = read:raw "states"
-  local is_list = described(states) == "a grasps"
+  local is_list = clench.type(states) == "grasps"
   if type(states) ~= "table" and not is_list then read:expected("states", "a list of grasps or states", states) end
   if #states == 0 then read:fail "states: expected at least one grasp or state, got none" end
   local out = {}
   for i = 1, #states do
     local place, item = ("states[%d]"):format(i), states[i]
-    if described(item) ~= "a grasp" and type(item) ~= "table" then read:fail("%s: expected a grasp or {pose =, dofs =}, got %s", place, described(item)) end
+    if clench.type(item) ~= "grasp" and type(item) ~= "table" then read:fail("%s: expected a grasp or {pose =, dofs =}, got %s", place, described(item)) end
     local state = state_of(item, hand)
     if state.pose == nil then read:fail("%s: pose is missing: expected a grasp or {pose =, dofs =}", place) end
     if state.dofs == nil then read:fail("%s: dofs are missing: expected a grasp or {pose =, dofs =}", place) end
-    if described(state.pose) ~= "a pose" then read:expected(place .. ".pose", "a pose", state.pose) end
+    if clench.type(state.pose) ~= "pose" then read:expected(place .. ".pose", "a pose", state.pose) end
     check_dofs(read, place .. ".dofs", state.dofs, hand)
-    out[i] = {pose = state.pose, dofs = state.dofs, way = described(item) == "a grasp" and state.way or nil}
+    out[i] = {pose = state.pose, dofs = state.dofs, way = clench.type(item) == "grasp" and state.way or nil}
   end
   return out
 end

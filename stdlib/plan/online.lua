@@ -2,7 +2,6 @@ local class = require "clench.class"
 local on_behalf_of = require "clench.on_behalf_of"
 local new_job = require "clench.plan.job"
 local closing = require "clench.plan.closing"
-local described = require "clench.described"
 
 local best_states = {size = 20, distance = 0.4}
 local near_object = {behind = 0.03, before = 0.2}  -- how far the search looks along the approach [m]
@@ -100,7 +99,7 @@ end
 return function(options)
   local job = new_job("plan.online", options, function(read, job)
     job.energy = read:raw "energy" or "contact"
-    if type(job.energy) == "function" or described(job.energy) == "a energy" and not job.energy.any_thread then
+    if type(job.energy) == "function" or clench.type(job.energy) == "energy" and not job.energy.any_thread then
       read:fail("energy: expected one of the engine's, for the planner moves a copy of the world")
     end
   end)

@@ -4,7 +4,6 @@ local new_run = require "clench.plan.run"
 local batch = require "clench.plan.batch"
 local starts = require "clench.plan.starts"
 local opposition = require "clench.plan.opposition"
-local described = require "clench.described"
 local primitive_source = require "clench.plan.primitive_source"
 local primitive_starts = require "clench.plan.primitive_starts"
 
@@ -51,10 +50,10 @@ local sizes = {sphere = {"radius"}, cylinder = {"radius", "height"}, cone = {"ra
 
 local function check_primitive(read, place, p)
   local names = type(p) == "table" and sizes[p.kind]
-  local is_box = type(p) == "table" and p.kind == "box" and described(p.size) == "a vec3"
+  local is_box = type(p) == "table" and p.kind == "box" and clench.type(p.size) == "vec3"
   local sized = is_box
   for i, name in ipairs(names or {}) do sized = (i == 1 or sized) and p[name] ~= nil end
-  if not sized or described(p.pose) ~= "a pose" then
+  if not sized or clench.type(p.pose) ~= "pose" then
     read:expected(place, "{kind = 'box', pose =, size =}, a sphere with radius, or a cylinder or cone with radius and height", p)
   end
   for _, name in ipairs(names or {}) do check_size(read, ("%s: %s"):format(place, name), p[name]) end
@@ -94,7 +93,7 @@ return function(options)
     if own.rule ~= "corrected" and own.rule ~= "graspit" then read:expected("rule", "'corrected' or 'graspit'", own.rule) end
     own.preshapes = read_preshapes(read, options.hand)
     own.thumb = read:raw "thumb"
-    if own.thumb ~= nil and described(own.thumb) ~= "a vec3" then own.thumb = clench.vec3(table.unpack(read:point "thumb")) end
+    if own.thumb ~= nil and clench.type(own.thumb) ~= "vec3" then own.thumb = clench.vec3(table.unpack(read:point "thumb")) end
     own.count = read:count("count", 1000000, 1, 1000000)
     own.on_grasp = read:callback "on_grasp"
   end)

@@ -34,7 +34,7 @@ local function is_of(kind, value)
   if kind == "number" then return type(value) == "number" and value == value and value - value == 0 end
   if kind == "integer" then return math.type(value) == "integer" end
   if kind == "pose" or kind == "vec3" then return type(value) == "table" or described(value) == "a " .. kind end
-  if kind == "body" or kind == "robot" then return type(value) == "string" or described(value) == "a " .. kind or described(value) == "a body" end
+  if kind == "body" or kind == "robot" then return type(value) == "string" or described(value) == "a " .. kind or clench.type(value) == "body" end
   return type(value) == kind
 end
 
@@ -109,13 +109,13 @@ end
 --- The body of an address; of a robot its base.
 function arguments.find_body(session, address)
   local found = arguments.find(session, address)
-  return described(found) == "a robot" and found.base or found
+  return clench.type(found) == "robot" and found.base or found
 end
 
 --- The robot of an address, or the current hand.
 function arguments.find_robot(session, address)
   local found = address == nil and session.hand or arguments.find(session, address)
-  if described(found) ~= "a robot" then
+  if clench.type(found) ~= "robot" then
     raise(address == nil and "session: no hand is current" or ("session: expected a robot, got the body '%s'"):format(found.name))
   end
   return found

@@ -1,6 +1,5 @@
 --- Commands of the original's Element menu: bodies and robots by their addresses.
 local arguments = require "clench.session.arguments"
-local described = require "clench.described"
 local script = require "clench.session.script"
 
 local function has_world(session) return session.world ~= nil end
@@ -18,7 +17,7 @@ local function setter(field, parameter)
   }
 end
 
-local function pose_of(value) return described(value) == "a pose" and value or clench.pose(value) end
+local function pose_of(value) return clench.type(value) == "pose" and value or clench.pose(value) end
 
 return {
   {name = "body.move", label = "Move", menu = "Element", enabled = has_world,

@@ -15,8 +15,8 @@ function script.literal(value)
   if kind == "number" then return number(value) end
   if kind == "string" then return ("%q"):format(value) end
   if kind == "boolean" or kind == "nil" then return tostring(value) end
-  if described(value) == "a vec3" then return ("{%s, %s, %s}"):format(number(value.x), number(value.y), number(value.z)) end
-  if described(value) == "a pose" then
+  if clench.type(value) == "vec3" then return ("{%s, %s, %s}"):format(number(value.x), number(value.y), number(value.z)) end
+  if clench.type(value) == "pose" then
     local q = value.quat
     return ("clench.pose {xyz = %s, quat = {%s, %s, %s, %s}}"):format(script.literal(value.position), number(q[1]), number(q[2]), number(q[3]), number(q[4]))
   end
@@ -36,7 +36,7 @@ end
 
 --- The call that finds a body or robot: `world:body "flask"`.
 function script.name_of(thing)
-  if described(thing) == "a robot" then return ("world:robot(%q)"):format(thing.name) end
+  if clench.type(thing) == "robot" then return ("world:robot(%q)"):format(thing.name) end
   return ("world:body(%q)"):format(thing.name)
 end
 

@@ -26,10 +26,10 @@ end
 
 -- a copy with vertices as lists, of a mesh or of a table that has vectors among its vertices; else the shape itself
 local function with_lists(shape)
-  local vectors = described(shape) == "a mesh"
+  local vectors = clench.type(shape) == "mesh"
   if not vectors and (type(shape) ~= "table" or type(shape.vertices) ~= "table") then return shape end
   local points = shape.vertices
-  for i = 1, #points do vectors = vectors or described(points[i]) == "a vec3" end
+  for i = 1, #points do vectors = vectors or clench.type(points[i]) == "vec3" end
   if not vectors then return shape end
   local vertices = {}
   for i = 1, #points do vertices[i] = vector.list(points[i]) end

@@ -12,7 +12,7 @@ local function fail(format, ...) raise(("study.compare: " .. format):format(...)
 
 -- a table without holes
 local function listed(grasps)
-  if described(grasps) == "a grasps" then
+  if clench.type(grasps) == "grasps" then
     local list = {}
     for i = 1, #grasps do list[i] = grasps[i] end
     grasps = list
@@ -32,7 +32,7 @@ local function standing(grasps, world)
   local list = {}
   for i, grasp in ipairs(listed(grasps)) do
     local place = ("study.compare: grasps[%d]"):format(i)
-    if described(grasp) ~= "a grasp" then fail("grasps[%d]: expected a grasp, got %s", i, described(grasp)) end
+    if clench.type(grasp) ~= "grasp" then fail("grasps[%d]: expected a grasp, got %s", i, described(grasp)) end
     if world and not put_back.stands(grasp) then grasp = on_behalf_of(place, grasp.apply, grasp, world:clone()) end
     put_back.check_stands(place, grasp)
     list[i] = grasp
@@ -80,7 +80,7 @@ end
 return function(grasps, options)
   local read = read_options("study.compare", options or {})
   local world = read:raw "world"
-  if world ~= nil and described(world) ~= "a world" then read:expected("world", "a world", world) end
+  if world ~= nil and clench.type(world) ~= "world" then read:expected("world", "a world", world) end
   grasps = standing(grasps, world)
   local measures = read:raw "measures" or {"epsilon", "volume"}
   if type(measures) ~= "table" or #measures == 0 then read:expected("measures", "a list of names", measures) end

@@ -1,5 +1,4 @@
 local read_options = require "clench.options"
-local described = require "clench.described"
 
 local all = {"contact", "potential_quality", "guided_potential_quality", "autograsp_quality", "strict_autograsp"}
 
@@ -12,8 +11,8 @@ local all = {"contact", "potential_quality", "guided_potential_quality", "autogr
 return function(options)
   local read = read_options("study.planner_speed", options)
   local hand, object, energies = read:raw "hand", read:raw "object", read:raw "energies" or all
-  if described(hand) ~= "a robot" then read:expected("hand", "a robot", hand) end
-  if described(object) ~= "a body" then read:expected("object", "a body", object) end
+  if clench.type(hand) ~= "robot" then read:expected("hand", "a robot", hand) end
+  if clench.type(object) ~= "body" then read:expected("object", "a body", object) end
   if type(energies) ~= "table" then read:expected("energies", "a list of names", energies) end
   local steps = read:count("steps", 1000, 1, 1e9)
   local seed = read:count("seed", 1, math.mininteger, math.maxinteger)

@@ -51,12 +51,12 @@ end
 local function check_grasps(grasps)
   local list = {}
   local ok, count = pcall(function() return #grasps end)
-  if not ok or type(grasps) ~= "table" and described(grasps) ~= "a grasps" then
+  if not ok or type(grasps) ~= "table" and clench.type(grasps) ~= "grasps" then
     raise("study.predictors: expected a list of grasps, got " .. described(grasps))
   end
   for i = 1, count do
     list[i] = grasps[i]
-    if described(list[i]) ~= "a grasp" then raise(("study.predictors: grasps[%d]: expected a grasp, got %s"):format(i, described(list[i]))) end
+    if clench.type(list[i]) ~= "grasp" then raise(("study.predictors: grasps[%d]: expected a grasp, got %s"):format(i, described(list[i]))) end
   end
   if count == 0 then raise "study.predictors: expected at least one grasp, got none" end
   return list
@@ -89,8 +89,8 @@ return function(grasps, options)
   local list = check_grasps(grasps)
   local read = read_options("study.predictors", options)
   local hand, object = read:raw "hand", read:raw "object"
-  if described(hand) ~= "a robot" then read:expected("hand", "a robot", hand) end
-  if described(object) ~= "a body" then read:expected("object", "a body", object) end
+  if clench.type(hand) ~= "robot" then read:expected("hand", "a robot", hand) end
+  if clench.type(object) ~= "body" then read:expected("object", "a body", object) end
   local larger = higher_is_better()
   local measures = read_measures(read, larger)
   local shake = read:raw "shake" or {}

@@ -52,7 +52,7 @@ local function size_of(object)
 end
 
 local function check_grasp(grasp)
-  if described(grasp) ~= "a grasp" then raise("study.robustness: expected a grasp, got " .. described(grasp)) end
+  if clench.type(grasp) ~= "grasp" then raise("study.robustness: expected a grasp, got " .. described(grasp)) end
 end
 
 --- The quality of a grasp under errors of pose, friction and normals. Each sample draws errors of the

@@ -17,7 +17,7 @@ end
 return function(read, default)
   local job = {subject = read.subject, hand = check(read, "hand", "a robot"), object = check(read, "object", "a body")}
   job.world = read:raw "world" or job.hand.world
-  if described(job.world) ~= "a world" then read:expected("world", "a world", job.world) end
+  if clench.type(job.world) ~= "world" then read:expected("world", "a world", job.world) end
   if job.hand.world ~= job.world or job.object.world ~= job.world then read:fail("hand and object must be in the same world") end
   if job.object.kind ~= "object" then read:fail("object: '%s' is no object but of kind '%s'", job.object.name, job.object.kind) end
   if job.object.welded_to then
