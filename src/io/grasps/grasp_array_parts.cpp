@@ -157,11 +157,11 @@ void add_named(const std::vector<GraspSpec>& grasps, NamedArrays& out) {
   for (const auto& name : keys_of(grasps, &GraspSpec::measures, {"epsilon"}))
     add_numbers(
         grasps, "measure_" + name,
-        [&](const GraspSpec& g) { return number_of(g.measures, name.c_str(), NAN); }, out);
+        [&](const GraspSpec& g) { return clench::number_of(g.measures, name.c_str(), NAN); }, out);
   for (const auto& name : keys_of(grasps, &GraspSpec::info, {"energy", "seed"}))
     add_numbers(
         grasps, "info_" + name,
-        [&](const GraspSpec& g) { return number_of(g.info, name.c_str(), NAN); }, out);
+        [&](const GraspSpec& g) { return clench::number_of(g.info, name.c_str(), NAN); }, out);
   for (const auto& name : keys_of(grasps, &GraspSpec::labels, {"planner"}))
     add_texts(
         grasps, "label_" + name,

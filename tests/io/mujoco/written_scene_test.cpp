@@ -93,8 +93,8 @@ void add_random_robot(WorldSpec& world, const RobotSpec& robot, Random& random) 
   world.robots.push_back(std::move(placed));
 }
 
-void check_near(const Pose& ours, const Pose& theirs, double tolerance = 1e-9) {
-  CHECK((ours.position - theirs.position).norm() < tolerance);
+void check_near(const Pose& ours, const Pose& theirs, double within = 1e-9) {
+  CHECK((ours.position - theirs.position).norm() < within);
   CHECK(ours.rotation.angularDistance(theirs.rotation) < 1e-7);
 }
 

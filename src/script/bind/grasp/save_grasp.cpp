@@ -76,7 +76,7 @@ class GraspKeys {
       double total = options_.force;
       for (int halvings = 0; halvings < 6; ++halvings, total /= 2) {
         asked.total_force = total;
-        asked.joints = JointDemand{.limits = {}, .unlimited = !limited};
+        asked.joints.emplace().unlimited = !limited;
         const ForceResult found = contact_forces(world_, grasp_, asked);
         if (found.status != ForceStatus::optimal) continue;
         if (halvings > 0)
