@@ -129,6 +129,10 @@ function world:remove(entity) end
 ---@return world
 function world:clone() end
 
+---Makes the world what a clone of it is: state, bodies, robots and settings. Bodies and robots that were removed after the clone was made are back under their old handles.
+---@param clone world
+function world:become(clone) end
+
 ---The state of the world now, exact to the bit.
 ---@return snapshot
 function world:snapshot() end
@@ -532,8 +536,6 @@ function patch:torsion_limit(options) end
 ---@field object body # The body that is grasped.
 ---@field hand_name string # Name of the robot that grasps; a grasp that stands in no world has it, too.
 ---@field object_name string # Name of the body that is grasped.
----@field hand_file string # File of the robot that grasps, as it was named when it was read; empty where it is not known.
----@field object_file string # File of the body that is grasped; empty where it is not known.
 ---@field hand_file string? # File that the hand was read from, as it was named; nil: not known.
 ---@field object_file string? # File that the object was read from, as it was named; nil: not known.
 ---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
@@ -753,6 +755,7 @@ function job:events() end
 
 ---What a job's function, in its own state, reports by.
 ---@class this_job
+---@field shared any # A copy of the option `shared` of clench.job; worlds in it are those of the arguments.
 local this_job = {}
 
 ---Sends a value to the script that has started the job. Events arrive in order, and none is lost.
@@ -1185,7 +1188,7 @@ function clench.run_annealings(searches, steps, threads) end
 
 ---Runs a function beside the script: in a thread, in a state of Lua of its own, on copies of what it is given. As many jobs run at once as there are cores, at least two; others are queued. A job whose handle is not kept runs on; the end of the program stops it.
 ---@param task function|string # which uses nothing of the lines around it; or the name of a module that returns such a function
----@param options? {args?: any[], name?: string} # args: the function's arguments, of the kinds that clench.parallel.map hands over; name: for messages
+---@param options? {args?: any[], shared?: any, name?: string} # args: the function's arguments, of the kinds that clench.parallel.map hands over; shared: the same, as `clench.this_job.shared`; name: for messages
 ---@return job
 function clench.job(task, options) end
 
@@ -1208,6 +1211,13 @@ function clench.json.decode(text) end
 ---Messages of scripts and of the engine, to stderr, so that they never mix with a script's output.
 ---@class clench.log
 clench.log = {}
+
+---Calls a function, and returns what was logged meanwhile as values. Notes, warnings and errors are collected whatever the level is; nothing is printed, and no sink is called.
+---@param f function
+---@param ... any # its arguments
+---@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, about?: string, count: integer}[] diagnostics # file and line: the place in a file that is read; about: "inferred", "ignored", "repaired" or "suspicious"; equal messages are one, with their count
+---@return any ... # what the function returns
+function clench.log.collect(f, ...) end
 
 ---Logs what only a developer wants to read.
 ---@param ... any
