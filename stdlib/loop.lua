@@ -150,7 +150,24 @@ function loop.sleep(seconds)
   local over = false
   local timer = loop.after(seconds, function() over = true end)
   local _ <close> = setmetatable({}, {__close = function() timer:remove() end})
-  while not over do run(seconds, timer) end
+  while not over do run(seconds, function() return over end) end
+end
+
+-- loop.wait outside of the loop's coroutines: runs the loop until then
+local function wait_outside(what, is_job, last, event)
+  local is_ready = false
+  local watch = not is_job and add_watch(what, event, function() is_ready = true end)
+  local _ <close> = setmetatable({}, {__close = function() if watch then watch:remove() end end})
+  local function is_over()
+    is_ready = is_ready or is_job and what:wait(0)
+    return is_ready
+  end
+  while not is_over() do
+    local left = last and last - clock()
+    if left and left <= 0 then return false end
+    run(left, is_over)
+  end
+  return true
 end
 
 --- Waits for the end of a job, or until a descriptor is ready. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop
@@ -171,13 +188,7 @@ function loop.wait(what, timeout, event)
   if timeout ~= nil then check_time("wait", timeout) end
   event = check_event("wait", event)
   local task = calling()
-  if not task then
-    local result
-    local inner = loop.spawn(function() result = loop.wait(what, timeout, event) end)
-    local _ <close> = setmetatable({}, {__close = function() inner:remove() end})
-    while inner.status == "waiting" do run(nil, inner) end
-    return result
-  end
+  if not task then return wait_outside(what, is_job, timeout and clock() + timeout, event) end
   if is_job and what:wait(0) then return true end
   task.at = timeout and clock() + timeout
   if is_job then
@@ -331,8 +342,8 @@ local function round(patience)
   poller:set_timer(#ready > 0 and 0 or first and math.max(0, first - clock()) or -1)
 end
 
--- as loop.run, or until a task no longer waits
-function run(seconds, task)
+-- as loop.run, or until is_over() says so
+function run(seconds, is_over)
   if in_run then raise "loop.run: the loop runs already" end
   in_run, stop_asked = true, false
   local _ <close> = setmetatable({}, {__close = function() in_run = false end})
@@ -340,7 +351,7 @@ function run(seconds, task)
   repeat
     local left = last and last - clock() or math.huge
     round(left > 0 and math.min(left, 3600) or 0)
-  until stop_asked or last and clock() >= last or task and task.status ~= "waiting" or not has_work()
+  until stop_asked or last and clock() >= last or is_over and is_over() or not has_work()
 end
 
 --- Runs the loop: until nothing is left to wait for, or for so long, or until `stop`. An error of a coroutine ends it, and the others run on at

@@ -81,7 +81,7 @@ test("an assignment to a name of a library is an error that says how the name is
   -- libraries list themselves as before
   local names = {}
   for name, value in pairs(clench.log) do names[name] = type(value) end
-  t.equal(names, {debug = "function", info = "function", warning = "function", error = "function", level = "function", sink = "function"})
+  t.equal(names, {collect = "function", debug = "function", info = "function", warning = "function", error = "function", level = "function", sink = "function"})
   local seen = false
   for name in pairs(clench) do seen = seen or name == "load" end
   t.ok(seen)

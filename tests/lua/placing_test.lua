@@ -30,11 +30,27 @@ test("a pose from two axes has the first exactly, and the other in the plane of 
   end
 end)
 
+test("one axis alone is turned to by the smallest rotation", function(t)
+  local random = clench.random(3)
+  for k, name in ipairs {"x_axis", "y_axis", "z_axis"} do
+    local own = {0, 0, 0}
+    own[k] = 1
+    for i = 1, 50 do
+      local d = i == 1 and -1 * clench.vec3(table.unpack(own)) or i == 2 and clench.vec3(table.unpack(own)) or clench.vec3(random:uniform() - 0.5, random:uniform() - 0.5, random:uniform() - 0.5)
+      local pose, unit = clench.pose {[name] = d}, d / d:norm()
+      t.close((pose:rotate(own) - unit):norm(), 0, 1e-12)
+      -- no rotation that brings the axis there is smaller than the angle between the two
+      t.close(pose:angle(), math.acos(math.max(-1, math.min(1, unit:dot(own)))), 1e-7)
+    end
+  end
+end)
+
 test("what is no axis is refused", function(t)
   t.fails(function() clench.pose {axis = {0, 0, 1}} end, "angle: expected a number, got nil")
   t.fails(function() clench.pose {angle = 1} end, "axis: expected a vec3")
   t.fails(function() clench.pose {axis = {0, 0, 0}, angle = 1} end, "axis: expected a direction, got zero")
-  t.fails(function() clench.pose {x_axis = {0, 0, 1}} end, "expected two of x_axis, y_axis and z_axis, got 1")
+  t.fails(function() clench.pose {x_axis = {1, 0, 0}, y_axis = {0, 1, 0}, z_axis = {0, 0, 1}} end, "expected one or two of x_axis, y_axis and z_axis, got all three")
+  t.fails(function() clench.pose {x_axis = {0, 0, 0}} end, "x_axis: expected a direction, got zero")
   t.fails(function() clench.pose {x_axis = {0, 0, 1}, y_axis = {0, 0, 2}} end, "expected two directions that are not parallel")
   t.fails(function() clench.pose {axis = {1, 0, 0}, angle = 0, rpy = {0, 0, 0}} end, "expected one of rpy")
 end)
