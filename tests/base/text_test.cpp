@@ -40,7 +40,7 @@ TEST_CASE("a word in a message is short and printable") {
   CHECK(in_quotes("abc") == "'abc'");
   CHECK(in_quotes("") == "nothing");
   CHECK(in_quotes("a\tb\x01") == "'a?b?'");
-  CHECK(in_quotes(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
+  CHECK(in_quotes(std::string(1000, 'x')) == "'" + std::string(max_excerpt, 'x') + "...'");
 }
 
 TEST_CASE("a reader walks over blank lines and comments and knows where it stands") {

@@ -1,4 +1,4 @@
-// Messages quote at most 40 characters of any one place of a file, whatever is wrong with it.
+// Messages quote only the beginning of any one place of a file, whatever is wrong with it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ std::vector<std::pair<size_t, size_t>> words_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("no message quotes more than 40 characters of a word, wherever it stands in a file") {
+TEST_CASE("no message quotes more of a word than its beginning, wherever it stands in a file") {
   const TemporaryFolder folder;
   const std::string words[] = {long_word("abcdefghijklmnopqrstuvwxyz"), long_word("1234567890")};
   std::vector<fs::path> files;

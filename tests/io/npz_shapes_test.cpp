@@ -153,7 +153,7 @@ TEST_CASE("shapes that are none, or whose rows take too much memory, are refused
                          doctest::Contains(" rows without numbers, got "), Error);
   std::string many = "(";
   for (int i = 0; i < 33; ++i) many += "1,";
-  refuse(many + ")", "expected a shape of at most 32 numbers, got '" + many.substr(0, 40) + "...'");
+  refuse(many + ")", "expected a shape of at most 32 numbers, got '" + many + ")'");
 }
 
 TEST_CASE("a list of grasps without DOFs is written as arrays and read again") {
