@@ -178,7 +178,9 @@ end
 ---@return boolean ready  false: the time is over
 --- > job = clench.job(function() return 3 end)
 --- > clench.loop.wait(job, 10), job:result()  --> true, 3
---- > clench.loop.wait(clench.job(function() while true do end end), 0.01)  --> false
+--- > job = clench.job(function() while true do end end)
+--- > clench.loop.wait(job, 0.01)  --> false
+--- > job:stop()
 --- > clench.loop.wait("job")  --> error: expected a job or a descriptor, got 'job'
 function loop.wait(what, timeout, event)
   local is_job = clench.type(what) == "job"
