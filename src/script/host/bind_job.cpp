@@ -206,7 +206,7 @@ What its function returned. Raises the function's error, and an error if the job
 @return any ...
 > job = clench.job(function() error "no luck" end, {name = "lottery"})
 > job:wait()
-> job:result()  --> error: job 'lottery': lua:1: no luck)"},
+> job:result()  --> error: no luck)"},
     {"stop", method<[](const JobPtr& x) { x->stop(); }>, R"(
 Stops it within some 100 ms, whatever it does. What is over stays as it is.
 > job = clench.job(function() while true do end end)
@@ -216,7 +216,8 @@ Stops it within some 100 ms, whatever it does. What is over stays as it is.
 Holds it at its next instruction in Lua; a call of the engine ends first.
 > job = clench.job(function() while true do end end)
 > job:pause()
-> job:stop())"},
+> job:stop()
+> job:wait(5), job.state  --> true, stopped)"},
     {"resume", method<[](const JobPtr& x) { x->resume(); }>, R"(
 Lets it run on after `pause`.
 > job = clench.job(function() end)
