@@ -156,6 +156,21 @@ test("more jobs than cores are queued, jobs of jobs do not block them, and dropp
     sum = sum + jobs[i]:result()
   end
   t.equal(sum, 650)
+  -- a job that waits for its own job is stopped while others hold all cores
+  local waits = clench.job(function()
+    local clench = require "clench"
+    clench.job(function() while true do end end):wait()
+  end)
+  while waits.state == "queued" do clench.loop.sleep(0.005) end
+  clench.loop.sleep(0.05)
+  local busy = {}
+  for i = 1, 20 do busy[i] = clench.job(function() while true do end end) end
+  clench.loop.sleep(0.1)
+  waits:stop()
+  t.ok(waits:wait(20))
+  t.equal(waits.state, "stopped")
+  for i = 1, 20 do busy[i]:stop() end
+  for i = 1, 20 do t.ok(busy[i]:wait(20)) end
   local path = test.path()
   clench.job(function(name)
     local file <close> = io.open(name, "w")

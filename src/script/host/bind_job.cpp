@@ -37,6 +37,11 @@ namespace {
 // all of them are stopped.
 struct StartedJobs {
   std::vector<JobPtr> jobs;
+
+  // all at once: one may wait for what another holds
+  ~StartedJobs() {
+    for (const JobPtr& job : jobs) job->stop();
+  }
 };
 
 constexpr size_t max_jobs = 1000;  // that are not over, of one state

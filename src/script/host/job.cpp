@@ -46,6 +46,7 @@ Slots& slots() {
 }
 
 thread_local bool holds_slot = false;
+thread_local const Job* job_of_thread = nullptr;
 
 // Of a job that waits for another: others run meanwhile.
 class SlotLent {
@@ -55,7 +56,8 @@ class SlotLent {
   }
   ~SlotLent() {
     if (!lent_) return;
-    slots().take([] { return false; });
+    // one that is stopped ends without waiting for others to give theirs
+    slots().take([] { return job_of_thread && job_of_thread->is_stop_asked(); });
     holds_slot = true;
   }
   SlotLent(const SlotLent&) = delete;
@@ -101,6 +103,11 @@ bool Job::wait(std::chrono::milliseconds time) const {
   const SlotLent lent;
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, time, [this] { return is_end(phase_); });
+}
+
+bool Job::is_stop_asked() const {
+  const std::lock_guard lock(mutex_);
+  return stop_asked_;
 }
 
 void Job::stop() {
@@ -200,6 +207,7 @@ bool Job::run_function(State& state) {
 }
 
 void Job::run() {
+  job_of_thread = this;
   slots().take([this] {
     const std::lock_guard lock(mutex_);
     return stop_asked_;

@@ -48,6 +48,7 @@ class Job {
   bool wait(std::chrono::milliseconds time) const;
 
   void stop();
+  bool is_stop_asked() const;
   void pause();
   void resume();
 
