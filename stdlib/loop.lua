@@ -30,7 +30,8 @@ end
 
 --- Ends it where it waits.
 function Task:remove()
-  if self.status ~= "waiting" or self == running then return end
+  if self == running then self.is_removed = true end  -- at its next wait
+  if self.status ~= "waiting" then return end
   drop(self)
   self.status = "removed"
   if self.thread then coroutine.close(self.thread) end
@@ -306,6 +307,7 @@ local function resume(task)
     return
   end
   task.status = "waiting"
+  if task.is_removed then return task:remove() end
   -- a yield of nothing waits for the next round
   if problem ~= task then wake(task) end
 end
@@ -340,7 +342,11 @@ local function round(patience)
   local events = poller:wait(patience)
   for i = 1, #events, 2 do call_watches(events[i], events[i + 1]) end
   wake_due()
-  first = first_time()
+end
+
+-- The descriptor becomes readable when the next task is due.
+local function arm()
+  local first = first_time()
   poller:set_timer(#ready > 0 and 0 or first and math.max(0, first - clock()) or -1)
 end
 
@@ -348,7 +354,10 @@ end
 function run(seconds, is_over)
   if in_run then raise "loop.run: the loop runs already" end
   in_run, stop_asked = true, false
-  local _ <close> = setmetatable({}, {__close = function() in_run = false end})
+  local _ <close> = setmetatable({}, {__close = function()
+    in_run = false
+    arm()
+  end})
   local last = seconds and clock() + seconds
   repeat
     local left = last and last - clock() or math.huge

@@ -69,15 +69,25 @@ function Session:run(name, args)
     self:emit("result", {command = name, result = result})
     return result
   end
+  -- a command that another one runs is part of that one
+  if self.is_running then return command.run(self, args) end
   local before = history.state_of(self)
-  -- what a command does is said before it is done, as names may change
-  local lines = command.script and command.script(self, args)
-  local ok, result = xpcall(command.run, function(problem) return problem end, self, args)
+  self.is_running = true
+  local lines
+  local ok, result = pcall(function()
+    -- what a command does is said before it is done, as names may change
+    lines = command.script and command.script(self, args)
+    local result = command.run(self, args)
+    lines = lines or script.of_change(self, before)
+    return result
+  end)
+  self.is_running = false
   if not ok then
     history.set_state(self, before)
     error(result, 0)
   end
-  history.add(self, {label = command.label or name, name = name, args = args, before = before, lines = lines or script.of_change(self, before)})
+  history.add(self, {label = command.label or name, name = name, args = args, before = before, lines = lines})
+  if name == "world.open" or name == "world.new" then self.saved_at = self.history.done[#self.history.done] end
   self:emit("changed", {command = name})
   self:emit("result", {command = name, result = result})
   return result

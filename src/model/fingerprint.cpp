@@ -93,7 +93,25 @@ static void add(Hasher& h, const DofSpec& dof) {
 static void add(Hasher& h, const DofDrive& drive) {
   const EffortRange range = drive.limits();
   for (const double x : {range.low, range.high, drive.max_effort}) add_number(h, x);
-  h.add(static_cast<uint64_t>(drive.terms.size()));
+  for (const DriveTerm& term : drive.terms) {
+    for (const auto& numbers : {term.gain, term.bias}) add_numbers(h, numbers);
+    for (const auto& range : {term.control, term.force}) add_numbers(h, range);
+  }
+  for (const BoundedSum& sum : drive.sums) {
+    add_number(h, sum.factor);
+    add_numbers(h, sum.bounds);
+  }
+}
+
+static void add(Hasher& h, const JointTendonSpec& tendon) {
+  for (const auto& [dof, arm] : tendon.arms) {
+    h.add(static_cast<uint64_t>(dof));
+    add_number(h, arm);
+  }
+  add_flag(h, tendon.range.has_value());
+  if (tendon.range) add_numbers(h, *tendon.range);
+  add_numbers(h, tendon.slack);
+  for (const double x : {tendon.stiffness, tendon.damping, tendon.friction}) add_number(h, x);
 }
 
 uint64_t fingerprint(const World& world, Id<Robot> id) {
@@ -111,7 +129,7 @@ uint64_t fingerprint(const World& world, Id<Robot> id) {
   for (const DofDrive& drive : robot.drives) add(h, drive);
   for (const auto& limits : robot.limits) add_numbers(h, limits);
   for (const bool endless : robot.endless) add_flag(h, endless);
-  h.add(static_cast<uint64_t>(robot.joint_tendons.size()));
+  for (const JointTendonSpec& tendon : robot.joint_tendons) add(h, tendon);
   add_pose(h, robot.X_BA);
   return h.value();
 }

@@ -5,6 +5,7 @@ local suggest = require "clench.suggest"
 local arguments = {}
 
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
+local command_fields = {name = true, label = true, shortcut = true, menu = true, enabled = true, run = true, parameters = true, reads = true, script = true}
 local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true}
 
 --- Throws one sentence if a command is not as it should be.
@@ -15,6 +16,9 @@ function arguments.check_command(command)
     raise("session:command: name: expected 'group.verb', got " .. described(name))
   end
   if type(command.run) ~= "function" then raise(("session:command: %s: run: expected a function, got %s"):format(name, described(command.run))) end
+  for field in pairs(command) do
+    if not command_fields[field] then raise(("session:command: %s: unknown key '%s'"):format(name, tostring(field))) end
+  end
   for i, parameter in ipairs(command.parameters or {}) do
     if type(parameter) ~= "table" or type(parameter.name) ~= "string" then
       raise(("session:command: %s: parameters[%d]: expected a table with a name, got %s"):format(name, i, described(parameter)))
@@ -33,8 +37,8 @@ local function is_of(kind, value)
   if kind == "any" then return true end
   if kind == "number" then return type(value) == "number" and value == value and value - value == 0 end
   if kind == "integer" then return math.type(value) == "integer" end
-  if kind == "pose" or kind == "vec3" then return type(value) == "table" or described(value) == "a " .. kind end
-  if kind == "body" or kind == "robot" then return type(value) == "string" or described(value) == "a " .. kind or clench.type(value) == "body" end
+  if kind == "pose" or kind == "vec3" then return type(value) == "table" or clench.type(value) == kind end
+  if kind == "body" or kind == "robot" then return type(value) == "string" or clench.type(value) == kind or clench.type(value) == "body" end
   return type(value) == kind
 end
 
@@ -53,9 +57,14 @@ function arguments.read(command, given)
   local subject = "session:run: " .. command.name
   if given ~= nil and type(given) ~= "table" then raise(("%s: expected a table of arguments, got %s"):format(subject, described(given))) end
   local out, names, known = {}, {}, {}
+  for _, parameter in ipairs(command.parameters or {}) do names[#names + 1], known[parameter.name] = parameter.name, true end
+  for name in pairs(given or {}) do
+    if not known[name] then
+      raise(("%s: unknown argument '%s'%s%s"):format(subject, tostring(name), #names > 0 and ", expected " .. table.concat(names, ", ") or "", suggest(tostring(name), names)))
+    end
+  end
   for _, parameter in ipairs(command.parameters or {}) do
     local name, value = parameter.name, given and given[parameter.name]
-    names[#names + 1], known[name] = name, true
     if value == nil then value = parameter.default end
     if value == nil and not parameter.optional then
       raise(("%s: %s: expected a %s, got nothing"):format(subject, name, parameter.type))
@@ -65,11 +74,6 @@ function arguments.read(command, given)
       if type(value) == "number" then check_range(subject, parameter, value) end
     end
     out[name] = value
-  end
-  for name in pairs(given or {}) do
-    if not known[name] then
-      raise(("%s: unknown argument '%s'%s%s"):format(subject, tostring(name), #names > 0 and ", expected " .. table.concat(names, ", ") or "", suggest(tostring(name), names)))
-    end
   end
   return out
 end

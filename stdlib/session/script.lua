@@ -24,12 +24,14 @@ function script.literal(value)
   local parts, keys = {}, {}
   for i, item in ipairs(value) do parts[i] = script.literal(item) end
   for key in pairs(value) do
-    if type(key) == "string" then keys[#keys + 1] = key end
+    local is_in_list = math.type(key) == "integer" and key >= 1 and key <= #parts
+    if not is_in_list then keys[#keys + 1] = key end
   end
-  table.sort(keys)
+  table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
   for _, key in ipairs(keys) do
-    local name = key:match "^[%a_][%w_]*$" and key or ("[%q]"):format(key)
-    parts[#parts + 1] = name .. " = " .. script.literal(value[key])
+    -- a name that is no word of Lua stands without brackets
+    local is_name = type(key) == "string" and key:match "^[%a_][%w_]*$" and load("local " .. key .. " = 1")
+    parts[#parts + 1] = (is_name and key or "[" .. script.literal(key) .. "]") .. " = " .. script.literal(value[key])
   end
   return "{" .. table.concat(parts, ", ") .. "}"
 end
@@ -63,7 +65,14 @@ function script.of_change(session, before)
     if body.mass ~= old.mass then lines[#lines + 1] = ("%s.mass = %s"):format(name, script.literal(body.mass)) end
     if body.material ~= old.material then lines[#lines + 1] = ("%s.material = %s"):format(name, script.literal(body.material)) end
   end
-  return table.concat(lines, "\n")
+  local text = table.concat(lines, "\n")
+  -- the lines are tried, so that nothing that they leave out goes unnoticed
+  local copy = before.clone:clone()
+  local try = load("local clench, world = ... " .. text, "=script", "t")
+  if not pcall(try, clench, copy) or copy:hash() ~= world:hash() then
+    raise "session: a command that changes more than poses, DOFs, masses and materials must say what it does, by its field script"
+  end
+  return text
 end
 
 --- All that was done, as a script. Its local `world` is the world that is open.

@@ -38,13 +38,36 @@ namespace {
 struct StartedJobs {
   std::vector<JobPtr> jobs;
 
-  // all at once: one may wait for what another holds
+  // All at once, as one may wait for what another holds. One that is in a call of C that cannot be
+  // stopped is left behind, and ends with the program.
   ~StartedJobs() {
     for (const JobPtr& job : jobs) job->stop();
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    for (const JobPtr& job : jobs) {
+      const auto left = last - std::chrono::steady_clock::now();
+      job->wait(std::max(std::chrono::milliseconds(0),
+                         std::chrono::duration_cast<std::chrono::milliseconds>(left)));
+    }
   }
 };
 
 constexpr size_t max_jobs = 1000;  // that are not over, of one state
+
+// of a list, or of a table that table.pack has made
+lua_Integer count_arguments(lua_State* L, int list, const std::string& subject) {
+  auto count = static_cast<lua_Integer>(lua_rawlen(L, list));
+  lua_getfield(L, list, "n");
+  if (lua_isinteger(L, -1)) count = std::max(count, lua_tointeger(L, -1));
+  lua_pop(L, 1);
+  for (lua_pushnil(L); lua_next(L, list); lua_pop(L, 1)) {
+    const bool is_n = lua_type(L, -2) == LUA_TSTRING && string_at(L, -2) == "n";
+    const bool is_place = lua_isinteger(L, -2) && lua_tointeger(L, -2) >= 1;
+    if (!is_n && !is_place)
+      fail("{}: args: expected a list of arguments in their order, got the key {}", subject,
+           described(L, -2));
+  }
+  return count;
+}
 
 // The arguments, and what is shared by all functions of the job, as one value, so that worlds of
 // both are the same copies.
@@ -53,7 +76,7 @@ void read_arguments(lua_State* L, int list, int shared, Job::Start& start) {
   const std::string subject = clench::subject(L);
   if (!lua_isnil(L, list) && !lua_istable(L, list))
     fail("{}: args: expected a list, got {}", subject, described(L, list));
-  const auto count = lua_istable(L, list) ? static_cast<lua_Integer>(lua_rawlen(L, list)) : 0;
+  const auto count = lua_istable(L, list) ? count_arguments(L, list, subject) : 0;
   if (count > most) fail("{}: args: expected at most {} arguments, got {}", subject, most, count);
   lua_createtable(L, 0, 2);
   lua_pushvalue(L, list);
@@ -82,7 +105,7 @@ int new_job(lua_State* L) {
   std::erase_if(started, [](const JobPtr& job) { return job->is_over(); });
   if (started.size() >= max_jobs)
     fail(ErrorKind::limit, "{}: expected at most {} jobs at once", subject(L), max_jobs);
-  started.push_back(std::make_shared<Job>(std::move(start)));
+  started.push_back(Job::begin(std::move(start)));
   return push_object(L, JobPtr(started.back()));
 }
 
@@ -213,7 +236,7 @@ What its function returned. Raises the function's error, and an error if the job
 > job:wait()
 > job:result()  --> error: no luck)"},
     {"stop", method<[](const JobPtr& x) { x->stop(); }>, R"(
-Stops it within some 100 ms, whatever it does. What is over stays as it is.
+Stops it within some 100 ms, in Lua and in calls of the engine; in a call of another program or of string.find with a hostile pattern it ends after that call. What is over stays as it is.
 > job = clench.job(function() while true do end end)
 > job:stop()
 > job:wait(5), job.state  --> true, stopped)"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <thread>
 #include <utility>
 
 #include "clench/base/error.h"
@@ -41,7 +42,7 @@ class Slots {
 };
 
 Slots& slots() {
-  static Slots all;
+  static Slots& all = *new Slots;  // never destroyed: jobs may outlive the statics of the program
   return all;
 }
 
@@ -77,11 +78,11 @@ Job* running_job(lua_State* L) { return kept<RunningJob>(L).job; }
 
 // --- the job ---
 
-Job::Job(Start start) : start_(std::move(start)) {
-  thread_ = std::jthread([this] { run(); });
+std::shared_ptr<Job> Job::begin(Start start) {
+  const std::shared_ptr<Job> job(new Job(std::move(start)));
+  std::thread([job] { job->run(); }).detach();
+  return job;
 }
-
-Job::~Job() { stop(); }
 
 Job::Phase Job::phase() const {
   const std::lock_guard lock(mutex_);
@@ -186,8 +187,7 @@ int Job::call_function(lua_State* L) {
   lua_remove(L, 2);
   call_script(L, lua_gettop(L) - 1, LUA_MULTRET, fmt::format("job '{}'", job.name()));
   std::vector<Parcel> results;
-  for (int i = 1; i <= lua_gettop(L); ++i)
-    results.emplace_back(L, i, fmt::format("job '{}': result {}", job.name(), i));
+  for (int i = 1; i <= lua_gettop(L); ++i) results.emplace_back(L, i, fmt::format("result {}", i));
   job.results_ = std::move(results);
   return 0;
 }

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "clench/base/progress.h"
@@ -33,10 +32,8 @@ class Job {
     std::shared_ptr<Bell> bell;  ///< rung for each event, and at the end
   };
 
-  /// Starts it.
-  explicit Job(Start start);
-  /// Stops it and waits for its end.
-  ~Job();
+  /// Starts a job. Its thread keeps it alive until its function has ended.
+  static std::shared_ptr<Job> begin(Start start);
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
@@ -67,6 +64,7 @@ class Job {
   void show(Parcel value);
 
  private:
+  explicit Job(Start start) : start_(std::move(start)) {}
   void run();
   bool run_function(State& state);
   static int call_function(lua_State* L);
@@ -82,7 +80,6 @@ class Job {
   std::shared_ptr<const Parcel> snapshot_;
   std::vector<Parcel> results_;
   WorkerError failure_;
-  std::jthread thread_;  // the last member: joined before all else goes
 };
 
 using JobPtr = std::shared_ptr<Job>;

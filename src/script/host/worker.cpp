@@ -79,6 +79,11 @@ static int prepare(lua_State* L) {
   const auto& task = *static_cast<const WorkerTask*>(lua_touserdata(L, 1));
   set_path(L, "path", task.path);
   set_path(L, "cpath", task.cpath);
+  // a hook of the function's own would replace the one that stops it
+  lua_getglobal(L, LUA_DBLIBNAME);
+  lua_pushnil(L);
+  lua_setfield(L, -2, "sethook");
+  lua_pop(L, 1);
   if (task.module.empty()) {
     const int status =
         luaL_loadbufferx(L, task.compiled.data(), task.compiled.size(), task.name.c_str(), "b");

@@ -22,8 +22,7 @@ static int clock_now(lua_State* L) {
 }
 
 static int type_of(lua_State* L) {
-  const bool has_class = lua_isuserdata(L, 1) || lua_istable(L, 1);
-  if (has_class && luaL_getmetafield(L, 1, "__name") == LUA_TSTRING) return 1;
+  if (lua_isuserdata(L, 1) && luaL_getmetafield(L, 1, "__name") == LUA_TSTRING) return 1;
   lua_pushstring(L, lua_isnoneornil(L, 1) ? "nil" : luaL_typename(L, 1));
   return 1;
 }
