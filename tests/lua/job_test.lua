@@ -82,7 +82,7 @@ test("errors of a job reach whoever asks for its result", function(t)
   t.equal(clench.this_job, nil)
 end)
 
-test("whatever a job does, it is stopped at once", function(t)
+test("a job is stopped at once in any kind of work", function(t)
   local _, hand, mug = scene()
   local busy = {
     function() while true do end end,

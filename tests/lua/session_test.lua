@@ -46,7 +46,7 @@ test("handles of a script live on over undo, those of removed bodies too", funct
   t.ok(session.world == world and session.object == mug and session.hand == hand)
 end)
 
-test("what was done is a script of plain calls that makes the same world", function(t)
+test("the history is a script of plain calls that makes the same world", function(t)
   local session = opened()
   session:run("world.import_obstacle", {path = "models/objects/plate.iv"})
   session:run("body.move", {body = "plate", pose = {xyz = {0.3, 0, 0}, rpy = {0.1, 0.2, 0.3}}})
@@ -67,7 +67,7 @@ test("what was done is a script of plain calls that makes the same world", funct
   t.equal(replayed(session):hash(), session.world:hash())
 end)
 
-test("a command of one's own is checked by its parameters and logged as the state that results", function(t)
+test("a custom command is checked by its parameters and logged as the resulting state", function(t)
   local session = opened()
   session:command {name = "mine.lift", label = "Lift", parameters = {{name = "height", type = "number", unit = "m", min = 0, max = 1, default = 0.1, text = "how far"}},
     run = function(s, args) s.object.pose = clench.pose {xyz = {0, 0, args.height}} * s.object.pose return args.height end}
