@@ -1,3 +1,3 @@
---- Classes of the standard library by name, as `clench.class` makes them: objects of theirs that are plain data keep their class when they
---- are handed over to another state.
+--- Classes of the standard library by name, as `clench.class` makes them: their objects, if plain data, keep their class when they
+--- are passed to another state.
 return {}

@@ -7,7 +7,7 @@ local is_stopped = require "clench.is_stopped"
 ---@param problem any  what the function raised
 ---@param name string  of the function: "task of world:spawn"
 ---@param trace string  its traceback
----@param place? string  "a.lua:3: ", instead of the line where the error is handled
+---@param place? string  "a.lua:3: ", which replaces the line where the error is handled
 ---@return any
 return function(problem, name, trace, place)
   if is_stopped(problem) then return problem end

@@ -83,7 +83,7 @@ local function columns_of(read, rows)
   for i, name in ipairs(columns) do
     if type(name) ~= "string" then read:expected(("columns[%d]"):format(i), "a name", name) end
   end
-  all_columns(rows)  -- refuses rows that are none
+  all_columns(rows)  -- rejects rows that are not tables
   if #columns == 0 then read:fail "expected rows with columns, or `columns`, got neither" end
   return columns
 end

@@ -14,9 +14,9 @@ local loop = {}
 local ready = {}      -- tasks to resume, in order
 local waiting = {}    -- tasks that wait, by task: true
 local watches = {}    -- by descriptor: {readable = handles, writable = handles}
-local count = 0       -- of tasks so far, for an order among equal times
+local count = 0       -- number of tasks created; orders tasks of equal times
 local running, in_run, stop_asked = nil, false, false
-local run             -- below
+local run             -- defined below
 
 local Task = class "task of clench.loop"
 
@@ -28,7 +28,7 @@ local function drop(task)
   task.at, task.job, task.watch = nil, nil, nil
 end
 
---- Ends it where it waits.
+--- Ends a task that waits.
 function Task:remove()
   if self == running then self.is_removed = true end  -- at its next wait
   if self.status ~= "waiting" then return end
@@ -47,7 +47,7 @@ local function update(descriptor)
   if #of.readable + #of.writable == 0 then watches[descriptor] = nil end
 end
 
---- Ends it.
+--- Ends the watch.
 function Watch:remove()
   local of = watches[self.descriptor]
   local list = of and of[self.event] or {}
@@ -96,7 +96,7 @@ local function new_task(f, name)
   return setmetatable({status = "waiting", name = name, number = count, thread = coroutine.create(f)}, Task)
 end
 
--- A host that polls the descriptor hears of it.
+-- Makes the loop's descriptor readable, for hosts that poll it.
 local function add_ready(task)
   ready[#ready + 1] = task
   if not in_run then poller:set_timer(0) end
@@ -128,13 +128,13 @@ function loop.spawn(f)
   return task
 end
 
--- Of the coroutine that calls: yields until `task` is woken, with the values of `wake`.
+-- Yields from the calling coroutine until `task` is woken; returns the values of `wake`.
 local function pause(task)
   waiting[task] = true
   return coroutine.yield(task)
 end
 
--- the task whose own coroutine calls; nil: something else does
+-- the task whose coroutine is running; nil in other coroutines and outside of the loop
 local function calling() return running and coroutine.running() == running.thread and running or nil end
 
 --- Waits for so long. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop runs.
@@ -154,7 +154,7 @@ function loop.sleep(seconds)
   while not over do run(seconds, function() return over end) end
 end
 
--- loop.wait outside of the loop's coroutines: runs the loop until then
+-- loop.wait outside of the loop's coroutines: runs the loop until job or descriptor is ready
 local function wait_outside(what, is_job, last, event)
   local is_ready = false
   local watch = not is_job and add_watch(what, event, function() is_ready = true end)
@@ -267,7 +267,7 @@ function loop.descriptor() return poller:descriptor() end
 --- > clench.loop.run()
 function loop.stop() stop_asked = true end
 
--- the first time at which a task is to be woken; nil: none
+-- the earliest time at which a task is due; nil if no task waits for a time
 local function first_time()
   local first
   for task in pairs(waiting) do
@@ -276,7 +276,7 @@ local function first_time()
   return first
 end
 
--- wakes, in order, what has waited long enough and what waits for jobs that are over
+-- wakes, in order of time and number, tasks whose time has come or whose job is over
 local function wake_due()
   local now, due = clock(), {}
   for task in pairs(waiting) do
@@ -319,7 +319,7 @@ end
 
 local function has_work() return #ready > 0 or next(waiting) ~= nil or next(watches) ~= nil or has_jobs() end
 
--- One round: what is ready runs, then at most `patience` seconds are waited for what comes.
+-- One round: resumes ready tasks, then waits at most `patience` seconds for events.
 local function round(patience)
   wake_due()
   local now_ready = ready

@@ -1,2 +1,2 @@
---- The coroutine of `clench.loop` that runs, as the field `thread`; nil outside of them.
+--- A table whose field `thread` is the running coroutine of `clench.loop`; nil outside of its coroutines.
 return {}

@@ -27,8 +27,8 @@ end
 --- Registers a command, in place of one of the same name.
 ---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function}
 ---  name: "group.verb"; run(session, args); enabled(session): can it run now?; parameters: a list of {name =, type =, unit =, min =, max =, default =,
----  optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): the lines that do the same, where they are not
----  the state that results
+---  optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of Lua that do the same,
+---  logged instead of the resulting state
 function Session:command(command)
   arguments.check_command(command)
   self.commands[command.name] = command
@@ -51,7 +51,7 @@ function Session:subscribe(event, f)
   end
 end
 
---- Tells the subscribers of an event.
+--- Calls the subscribers of an event.
 function Session:emit(event, value)
   for _, f in ipairs {table.unpack(self.subscribers[event] or {})} do f(value) end
 end
@@ -75,7 +75,7 @@ function Session:run(name, args)
   self.is_running = true
   local lines
   local ok, result = pcall(function()
-    -- what a command does is said before it is done, as names may change
+    -- the lines are made before the command runs, as it may change names
     lines = command.script and command.script(self, args)
     local result = command.run(self, args)
     lines = lines or script.of_change(self, before)
@@ -101,7 +101,7 @@ function Session:undo()
   return label
 end
 
---- Does again what was undone last.
+--- Repeats the command that was undone last.
 ---@return string? label  nil: there was none
 function Session:redo()
   local label = history.redo(self)
@@ -121,7 +121,7 @@ function Session:save(path) return self:run("world.save", {path = path}) end
 --- Has the session changed since it was opened or saved?
 function Session:is_modified() return self.saved_at ~= self.history.done[#self.history.done] end
 
---- What was done and not undone, as a script of plain calls that makes the same world.
+--- The commands done and not undone, as a script of plain calls that makes the same world.
 ---@return string
 function Session:script() return script.of(self) end
 

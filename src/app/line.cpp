@@ -109,7 +109,7 @@ static int read_byte(Terminal& terminal, char& byte) {
   for (;;) {
     terminal.interrupted = take_interrupt();
     if (terminal.interrupted) break;
-    // a negative descriptor is passed over
+    // poll ignores a negative descriptor
     pollfd inputs[] = {{STDIN_FILENO, POLLIN, 0}, {terminal.background.descriptor, POLLIN, 0}};
     const int ready = ppoll(inputs, 2, nullptr, &before);
     if (ready < 0 && errno == EINTR) continue;

@@ -13,10 +13,10 @@ class LineEditor {
   /// What the cursor's word may become: first the word as far as it is typed, then whole words.
   using Complete = std::function<std::vector<std::string>(const std::string& before_cursor)>;
   enum class Key { line, interrupted, end };
-  /// What runs while a line is typed: `run` is called whenever the descriptor is readable. It may
-  /// print; the typed line is shown again below.
+  /// Background work while a line is typed: `run` is called whenever the descriptor is readable. It
+  /// may print; the typed line is then shown again below the output.
   struct Background {
-    int descriptor = -1;  ///< -1: nothing
+    int descriptor = -1;  ///< -1: no background work
     std::function<void()> run;
   };
 

@@ -110,7 +110,7 @@ static auto noted_as(const char* option, std::vector<std::string>& words) {
 
 namespace {
 
-// adds options whose names and values become words; numbers are checked here, and passed on as typed
+// adds options whose names and values become words; numbers are checked here and passed as typed
 struct Adder {
   CLI::App& verb;
   std::vector<std::string>& words;

@@ -1,4 +1,4 @@
-// The flat part of a round solid that is placed beside another body, and how much of it is near.
+// The flat part of a placed round solid, and the part of it that is near another body.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace clench {
 
-/// flat_part() in the frame that the solid is placed in.
+/// The result of flat_part(), transformed to the frame in which the solid is placed.
 struct PlacedFlat {
   FlatPart part;
 
@@ -38,7 +38,7 @@ struct PlacedFlat {
 /// is convex and has its minimum at `at`, is below the threshold. It shrinks to a point as
 /// near_height() says.
 /// share   of the near part that is kept, 0 to 1
-/// returns  none where no part is near
+/// returns  the range of s; empty if no part is near
 template <class GapAt>
 std::optional<std::pair<double, double>> near_part(double low, double high, double at, double share,
                                                    double threshold, GapAt&& gap_at) {

@@ -29,7 +29,7 @@ std::optional<Vector3d> rims_cross(const FlatPart& a, const FlatPart& b, double 
   return a.middle + r * (along * to + across * left);
 }
 
-// Near points of two solids beside the nearest ones.
+// Computes the near points of two solids in addition to the nearest ones.
 class PairPoints {
  public:
   PairPoints(const PlacedRound& a, const PlacedRound& b, const RoundGap& nearest, double threshold)

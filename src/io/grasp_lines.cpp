@@ -326,7 +326,7 @@ PregraspState read_pregrasp(const Parsed& json, const std::string& place) {
 }
 
 void read_joint_labels(Fields& fields, GraspSpec& out) {
-  // without joints their names say nothing
+  // labels without positions of joints are ignored
   if (!fields.find("joints")) {
     for (const char* key : {"joint_names", "joint_units", "joint_offsets"}) fields.find(key);
     return;

@@ -10,7 +10,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// a folder that all systems take, and that MuJoCo's file names can hold
+// folder of the meshes, in characters that all file systems and MuJoCo accept
 static std::string mesh_folder(const fs::path& path) {
   std::string out = path.stem().string();
   for (char& c : out)

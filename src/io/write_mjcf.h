@@ -1,13 +1,13 @@
-// Worlds to MJCF scenes on the disk: the scene, and its meshes beside it.
+// Writes worlds as MJCF scenes: the scene file, and its meshes beside it.
 #pragma once
 #include "clench/io/mjcf/written_scene.h"
 #include "clench/io/write_world.h"
 
 namespace clench {
 
-/// Writes SCENE.xml and the meshes SCENE_files/BODY.obj: all or none. Warns of what the scene does
-/// not hold.
-/// throws Error when a file cannot be written; older files stay then
+/// Writes SCENE.xml and the meshes SCENE_files/BODY.obj: all or none. Warns of properties that the
+/// scene does not hold.
+/// throws  Error when a file cannot be written; older files stay then
 void write_mjcf(const SceneRequest& request, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 

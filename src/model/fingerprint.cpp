@@ -8,7 +8,7 @@
 
 namespace clench {
 
-// one zero, whatever its sign
+// 0 and -0 count as equal
 static void add_number(Hasher& h, double x) { h.add(x + 0.0); }
 
 template <class Numbers>
@@ -18,7 +18,7 @@ static void add_numbers(Hasher& h, const Numbers& numbers) {
 
 static void add_flag(Hasher& h, bool on) { h.add(static_cast<uint64_t>(on)); }
 
-// a rotation by a quaternion and by its negative is the same
+// a quaternion and its negative are one rotation, so its matrix is hashed
 static void add_pose(Hasher& h, const Pose& pose) {
   add_numbers(h, pose.position);
   add_numbers(h, pose.rotation.toRotationMatrix().reshaped());
@@ -30,7 +30,7 @@ uint64_t fingerprint(const Shape& shape) {
     const Eigen::Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b];
     return std::tuple(p.x(), p.y(), p.z()) < std::tuple(q.x(), q.y(), q.z());
   };
-  uint64_t sum = 0;  // does not depend on the order
+  uint64_t sum = 0;  // independent of the order
   for (const Triangle& t : mesh.triangles) {
     int first = 0;
     for (const int k : {1, 2})

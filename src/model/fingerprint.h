@@ -1,5 +1,5 @@
-// Identity of shapes, bodies and robots by their content: what grasps depend on, and nothing of names,
-// files and poses.
+// Hashes that identify shapes, bodies and robots by the content on which grasps depend, regardless
+// of names, files and poses.
 #pragma once
 #include <cstdint>
 
@@ -7,15 +7,15 @@
 
 namespace clench {
 
-/// Of a surface: equal for surfaces of the same triangles and round solids, whatever the order of
-/// triangles and the numbering of vertices.
+/// Fingerprint of a surface; it does not depend on the order of triangles and vertices.
 uint64_t fingerprint(const Shape& shape);
 
-/// Of surface, mass, center of mass, inertia, material and elasticity.
+/// Fingerprint of surface, mass, center of mass, inertia, material, elasticity, restitution,
+/// damping of free motion and gravity compensation.
 uint64_t fingerprint(const World& world, Id<Body> id);
 
-/// Of its links' bodies, its joints, DOFs, limits, motors and tendons, and where it approaches. The
-/// posture does not count.
+/// Fingerprint of the bodies of base and links, of joints, DOFs, limits and motors, of the number
+/// of joint tendons and of the approach frame. The posture does not count.
 uint64_t fingerprint(const World& world, Id<Robot> id);
 
 }  // namespace clench

@@ -43,7 +43,7 @@ void lower_crowded(std::vector<DrawCone>& cones) {
   }
 }
 
-// the measure that heights are in proportion to
+// the friction coefficient or force to which the height of a cone is proportional
 double cone_measure(const TouchPatch& patch, const SceneOptions& options) {
   if (options.cone_sizes == ConeSizes::friction) return patch.contacts[0].friction.statics;
   if (options.cone_sizes != ConeSizes::force) return 1;

@@ -1,4 +1,4 @@
-// What to draw, as a plain list: no state of a world, no graphics library.
+// Plain lists of drawn things; they need neither a world nor a graphics library.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -41,8 +41,8 @@ struct DrawArrow {
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
 };
 
-/// Words written at a place or beside it, over everything else, none over another: the first ones
-/// move least, and some may find no room.
+/// Text at a place or beside it, in front of everything else. Labels do not overlap: earlier ones
+/// move least, and one that does not fit is left out.
 struct DrawLabel {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
   std::string text = {};                          ///< UTF-8

@@ -1,4 +1,4 @@
-// A camera.
+// The camera of a scene.
 #pragma once
 #include <Eigen/Core>
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t max_keys = 12;  // states whose bodies are drawn
 
-// states that are looked at in detail: evenly spaced, with the first and the last
+// states whose bodies are drawn: evenly spaced, with the first and the last
 std::vector<size_t> key_states(size_t count) {
   const size_t keys = std::min(count, max_keys);
   std::vector<size_t> out;
@@ -76,7 +76,7 @@ std::vector<std::string> drawn_names(const World& world) {
   return out;
 }
 
-// a mesh that a key state before it has there already counts once
+// adds a mesh, unless an earlier key state has it at the same pose
 void add_mesh(const DrawMesh& mesh, Scene& scene) {
   for (DrawMesh& other : scene.meshes)
     if (other.shape == mesh.shape && same_pose(other.X_WM, mesh.X_WM)) {

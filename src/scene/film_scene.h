@@ -1,4 +1,4 @@
-// What a film has to show.
+// One scene for all states of a film, from which its camera is chosen.
 #pragma once
 #include <span>
 

@@ -1,4 +1,4 @@
-// A world as a list of what to draw.
+// A world as a list of drawn things.
 #pragma once
 #include "clench/model/world.h"
 #include "clench/scene/drawn.h"

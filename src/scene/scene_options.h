@@ -1,4 +1,4 @@
-// How a world becomes a list of what to draw.
+// Options of make_scene.
 #pragma once
 #include <optional>
 #include <vector>
@@ -19,8 +19,8 @@ struct ContactLoad {
   double force = 0;                               ///< [N]
 };
 
-/// What a view that is chosen must hold: all, or, where robots touch objects, those objects and the
-/// parts of those robots from the palm outward.
+/// Content that a chosen view must hold: everything, or, where robots touch objects, those objects
+/// and the parts of those robots from the palm outward.
 enum class Framing { contacts, all };
 
 struct SceneOptions {

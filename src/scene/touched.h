@@ -1,4 +1,4 @@
-// What a picture of a grasp has to show.
+// Contacts, objects and parts of robots that a picture of a grasp shows.
 #pragma once
 #include <set>
 #include <span>

@@ -15,12 +15,12 @@ struct WrenchPicture {
   double ball = 0;                              ///< radius of a ball about the origin; 0: none
   std::optional<Eigen::Vector3d> weakest = {};  ///< direction that is reached least; any length
   std::string title = {};                       ///< first line of the caption
-  double epsilon = 0;                           ///< told in its second line [N]
+  double epsilon = 0;                           ///< shown in its second line [N]
 };
 
 /// The solid, seen through, with axes that reach beyond it, numbers at round steps along them [N],
 /// the ball and its radius, and an arrow along the weakest direction. Labels: the axes, the weakest
-/// direction, the ball, then the numbers. The caption tells epsilon and the unit.
+/// direction, the ball, then the numbers. The caption states epsilon and the unit.
 Scene make_wrench_scene(const WrenchPicture& picture);
 
 }  // namespace clench

@@ -5,7 +5,7 @@ local read_options = require "clench.options"
 -- a word for the shell
 local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
 
-local max_states = 500  -- frames that the camera is chosen for; of more, evenly spaced ones
+local max_states = 500  -- frames from which the camera is chosen; longer films are sampled evenly
 
 -- height of the lowest point of all states [m]
 local function lowest(states)
@@ -18,7 +18,7 @@ local function lowest(states)
   return low < math.huge and low or nil
 end
 
--- the camera that render would choose and the floor, standing still for all frames, unless others are given
+-- camera and floor, the same for all frames: those of the options, else as clench.render chooses them
 local function set_scene(recording, given)
   local count, states = #recording.times, {}
   local step = math.max(1, (count - 1) / (max_states - 1))

@@ -1,4 +1,4 @@
---- How functions that take part in a world's steps are called: when they are due, and with errors that name them.
+--- Calls functions that take part in a world's steps: when they are due, with errors that name them.
 local explained = require "clench.explained"
 local calls = {tiny = 1e-9}  -- parts of a period, and seconds, that are rounding
 
@@ -9,7 +9,7 @@ function calls.call(handle, ...)
   if not ok then error(problem, 0) end
 end
 
--- Is it time? Periods are multiples of 1 / rate of the world's time, also after that went back.
+-- Is a function due? Periods are multiples of 1 / rate of the world's time, even after the world was restored to an earlier time.
 function calls.is_due(handle, time)
   local rate = handle.rate
   if not rate then return true end
@@ -20,7 +20,7 @@ function calls.is_due(handle, time)
   return true
 end
 
--- Those that wait, in their order; those that are added meanwhile begin with the next step.
+-- Calls waiting functions in their order; functions that are added meanwhile begin with the next step.
 function calls.each(list, visit)
   for i = 1, list and #list or 0 do
     if list[i].status == "waiting" then visit(list[i]) end

@@ -1,4 +1,4 @@
---- Options of the command line that say how pictures are drawn, as options of clench.render.
+--- Converts picture options of the command line to options of clench.render.
 local scene = require "clench.host.scene"
 local fail = require "clench.host.usage"
 
@@ -11,7 +11,7 @@ local function size_of(text)
   return {width, height}
 end
 
--- "X,Y,Z[,X,Y,Z[,X,Y,Z]]": where the camera stands, where it looks, which way is up
+-- "X,Y,Z[,X,Y,Z[,X,Y,Z]]": position and target of the camera [m], and the direction that is up
 local function set_camera(options, text, world)
   if text == "file" then
     if not world or not world.camera then fail "--camera file: the file gives no camera" end
@@ -29,8 +29,8 @@ end
 
 ---@param given table<string, string>  options by name
 ---@param defaults {size: integer[], quality: string, background: string}
----@param world? world  whose camera --camera file means
----@return table options  of clench.render; drafts are smoothed
+---@param world? world  its camera is used by --camera file
+---@return table options  of clench.render; drafts have 4 samples per pixel
 return function(given, defaults, world)
   local options = {size = given.size and size_of(given.size) or defaults.size, quality = given.quality or defaults.quality,
                    background = given.background or defaults.background, frame = given.frame,

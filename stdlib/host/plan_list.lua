@@ -16,13 +16,13 @@ local function folder_of(path)
   return folder == "" and "/" or folder or "."
 end
 
--- does the ending of a name tell the format?
+-- does the extension of a name determine the format?
 local function has_known_ending(path)
   local ending = path:match "[^/](%.[^./]*)$"
   return ending ~= nil and pcall(function() return clench.grasps():check_save("list" .. ending) end)
 end
 
--- The format of a list, and what --format says of it: with several lists, only what the ending does not tell.
+-- The format of a list. With several lists, --format applies only to names whose extension does not determine it.
 local function format_of(path, given)
   local said = given.format
   if said and #given.o > 1 and has_known_ending(path) then said = nil end

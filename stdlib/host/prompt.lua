@@ -1,8 +1,8 @@
---- What runs while the console's prompt waits for a key: the event loop.
+--- The event loop, which runs while the console's prompt waits for a key.
 local loop = require "clench.loop"
 local prompt = {}
 
---- The descriptor that is readable when there is something to run.
+--- The descriptor of the loop, readable when something is ready to run.
 function prompt.descriptor() return loop.descriptor() end
 
 --- Runs what is ready.

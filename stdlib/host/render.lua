@@ -73,7 +73,7 @@ local function draw_file(given, said, kind)
   return clench.render(world, options)
 end
 
--- hand and object of all grasps of the list; the names in the list count where no option gives a file
+-- hand and object of all grasps of the list: files of the options, else those that the list names
 local function load_scene(given, said, list)
   for _, part in ipairs {"hand", "object"} do
     local file = list[1][part .. "_file"]
@@ -123,7 +123,7 @@ local function draw(root, folder, package, unit, strict, ...)
 end
 
 --- Draws the picture.
----@param root string  this and the next four: what is said of reading, "" when nothing is
+---@param root string  this and the next four: options of readers, "" if not given
 ---@return string  the exit code
 function render.main(...)
   local ok, problem = pcall(draw, ...)

@@ -48,7 +48,7 @@ end
 
 --- A new world with the hand, the object and the obstacles that the options of the command line give.
 ---@param given table<string, string|string[]>  options by name
----@param said table  what is said of reading
+---@param said table  options of readers: root, folder, package, unit, strict
 ---@return world, robot, body
 function scene.load(given, said)
   local world = clench.world()

@@ -31,7 +31,7 @@ local function frictions(hand, object)
   return list
 end
 
--- Names of other bodies of a material of the hand: a coefficient holds for pairs of materials, so it is theirs on the object, too.
+-- Names of other bodies that have a material of the hand: coefficients belong to pairs of materials, so these bodies share them.
 local function of_hand_material(hand, object)
   local is_hand, materials, names = {}, {}, {}
   for _, body in ipairs(hand.bodies) do

@@ -1,6 +1,6 @@
 --- The function of the jobs of `clench.plan.start`: a planner whose grasps are sent as events as soon as they are found, and whose progress is
 --- shown.
-local early = {sample = true, random = true, antipodal = true, primitive = true} -- planners that tell of each grasp they find
+local early = {sample = true, random = true, antipodal = true, primitive = true} -- planners that report each grasp as it is found
 
 return function(planner, options)
   local job = clench.this_job

@@ -146,7 +146,7 @@ function verification.slippery_load(hand, object, force_ratio, options)
 end
 
 --- Targets of the DOFs at which motors with the gains of the hand press with contact forces in equilibrium, whose normal forces sum to
---- `force_ratio` weights; perhaps beyond the limits of DOFs. nil: the motors cannot.
+--- `force_ratio` weights; they may exceed the limits of DOFs. nil if the motors are too weak.
 ---@return number[]?  [rad or m]
 function verification.squeeze(hand, object, grasp, force_ratio)
   local found = grasp:contact_forces {objective = "max_margin", total_force = force_ratio * 9.81 * object.mass, torque_limits = true}
@@ -206,7 +206,7 @@ function verification.can_pivot(hand, grasp)
   return count <= 2
 end
 
--- The options of the shaking that is asked of a grasp, nil: none; is it asked because the object can pivot?
+-- Options of the shaking that a grasp has to pass, or nil; and true if it is required because the object can pivot.
 local function shaking_of(hand, grasp, options)
   if options.shake == nil and verification.can_pivot(hand, grasp) then return {until_lost = not options.keep_lost}, true end
   return options.shake or nil, false

@@ -8,7 +8,7 @@ local types = {number = true, integer = true, string = true, boolean = true, tab
 local command_fields = {name = true, label = true, shortcut = true, menu = true, enabled = true, run = true, parameters = true, reads = true, script = true}
 local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true}
 
---- Throws one sentence if a command is not as it should be.
+--- Raises an error of one sentence if a field of a command is missing, unknown or of a wrong type.
 function arguments.check_command(command)
   if type(command) ~= "table" then raise("session:command: expected a table, got " .. described(command)) end
   local name = command.name
@@ -78,7 +78,7 @@ function arguments.read(command, given)
   return out
 end
 
--- "dlr/chain0_link2" as its parts
+-- the parts of an address: {"dlr", "chain0_link2"} of "dlr/chain0_link2"
 local function parts_of(address)
   local parts = {}
   for part in (address:gsub("\\/", "\0") .. "/"):gmatch "(.-)/" do parts[#parts + 1] = (part:gsub("%z", "/")) end
@@ -91,7 +91,7 @@ local function names_in(list)
   return names
 end
 
---- The body, robot or link of an address; a value that is no text as it is.
+--- The body, robot or link of an address; other values are returned unchanged.
 function arguments.find(session, address)
   if type(address) ~= "string" then return address end
   local world = session.world or raise "session: no world is open"
@@ -110,7 +110,7 @@ function arguments.find(session, address)
   raise(("session: there is no body or robot '%s'%s"):format(address, suggest(address, names)))
 end
 
---- The body of an address; of a robot its base.
+--- The body of an address; for a robot, its base.
 function arguments.find_body(session, address)
   local found = arguments.find(session, address)
   return clench.type(found) == "robot" and found.base or found

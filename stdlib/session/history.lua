@@ -1,12 +1,12 @@
---- Undo: the states of a session between its commands. A state holds the world's handle and a clone of the world, so that handles of a script stay
---- those of the session's world, removed bodies too.
+--- Undo: the states of a session between its commands. A state holds the world's handle and a clone of the world, so that handles of a script
+--- stay valid after undo, those of removed bodies too.
 local history = {}
 
 local max_states = 1000  -- that can be undone; clones share meshes and what has not changed
 
 function history.new() return {done = {}, undone = {}} end
 
--- the thing in its world now; nil where it is gone
+-- the item, if the list still contains it; else nil
 local function alive(list, thing)
   for _, item in ipairs(list) do
     if item == thing then return thing end
@@ -25,7 +25,7 @@ function history.set_state(session, state)
   session.selection, session.stack = {table.unpack(state.selection)}, {table.unpack(state.stack)}
 end
 
---- Makes a world the one that is open; its first robot and object are the current ones.
+--- Opens a world; its first robot and object become the current ones.
 function history.take(session, world)
   session.world, session.selection, session.stack = world, {}, {}
   session.hand, session.object = world.robots[1], world.objects[1]

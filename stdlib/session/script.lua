@@ -9,7 +9,7 @@ local function number(x)
   return math.type(x) == "integer" and ("%d"):format(x) or ("%.17g"):format(x)
 end
 
---- A value as Lua text that makes it again.
+--- A value as a Lua expression.
 function script.literal(value)
   local kind = type(value)
   if kind == "number" then return number(value) end
@@ -75,7 +75,7 @@ function script.of_change(session, before)
   return text
 end
 
---- All that was done, as a script. Its local `world` is the world that is open.
+--- The commands done and not undone, as a script; its local `world` is the open world.
 function script.of(session)
   local lines = {'local clench = require "clench"', "local world"}
   for _, entry in ipairs(session.history.done) do

@@ -36,7 +36,7 @@ local function with_lists(shape)
   return {vertices = vertices, triangles = shape.triangles, round = type(shape) == "table" and shape.round or nil}
 end
 
---- A shape as a table of lists; meshes of bodies and vertices that are vectors are converted. Throws one sentence if it is no shape.
+--- A shape as a table of lists; meshes of bodies and vertices that are vectors are converted. Raises an error of one sentence for other values.
 function mesh.check(shape, subject)
   shape = with_lists(shape)
   if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then

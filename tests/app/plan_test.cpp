@@ -42,7 +42,7 @@ TEST_CASE("plan asks for fingertip grasps") {
   CHECK(text_of(out).find("barrett_base\"") == std::string::npos);
 }
 
-TEST_CASE("what plan is given badly is told in one sentence, before the search") {
+TEST_CASE("wrong options of plan are reported in one sentence, before the search") {
   const Folder folder;
   const auto said = [](const std::string& options, const std::string& sentence, int code = 2) {
     const auto result = run(barrett + options);

@@ -64,7 +64,7 @@ TEST_CASE(
   CHECK(text_of(out) == before);
 }
 
-TEST_CASE("what render is given badly is told in one sentence") {
+TEST_CASE("wrong options of render are reported in one sentence") {
   const Folder folder;
   const std::string out = folder / "a.png", list = list_of(folder, 2);
   const auto said = [&](const std::string& options, const std::string& sentence, int code = 2) {

@@ -25,7 +25,7 @@ static ShapePtr round_shape(const Round& round) {
 
 static constexpr double tilt_threshold = 1e-4, least_gap = 4e-5,
                         tilt_slack = tilt_threshold - least_gap;
-// contacts nearer than this are one
+// contacts nearer than this count as one [m]
 static constexpr double merged = 2e-4;
 
 static std::vector<Vector3d> contact_points(const Shape& a, const Shape& b, const Pose& X_AB) {
@@ -60,7 +60,7 @@ static double apart_from(const std::vector<Vector3d>& a, const std::vector<Vecto
   return out;
 }
 
-// How far the points reach along a unit direction.
+// Extent of the points along a unit direction [m].
 static double extent_along(const std::vector<Vector3d>& points, const Vector3d& along) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vector3d& p : points)

@@ -62,7 +62,7 @@ TEST_CASE("types that a file makes up are no names of libraries: nothing is open
   }
 }
 
-TEST_CASE("integers and words of any length are told by their beginning") {
+TEST_CASE("messages show the beginning of long integers and words") {
   const std::string digits(520, '1'), word(65'500, 'w'), head(max_excerpt, 'w');
   CHECK(
       refusal(iv + "Switch { whichChild " + digits + " Cube { } }") ==

@@ -64,7 +64,7 @@ TEST_CASE("PNG and JPEG images are decoded, rows from the top") {
   CHECK(std::abs(jpeg.pixels[3 * 15 + 2] - 200) < 6);
 }
 
-TEST_CASE("what is no image, cut short or damaged, is refused by name") {
+TEST_CASE("files that are not images, truncated or damaged are rejected by name") {
   CHECK_THROWS_WITH_AS(decode_image("GIF89a", "a.gif"),
                        "a.gif: expected an image in the format PNG or JPEG", Error);
   for (const std::string& whole : {bytes_of_base64(png_base64), bytes_of_base64(jpeg_base64)})

@@ -106,7 +106,7 @@ test("what the standard library requires of the engine bears what a stranger giv
   t.fails(function() raise("x", "odd") end, "expected a kind of errors, got 'odd'")
 end)
 
-test("what is logged is collected as values", function(t)
+test("logged messages are collected as values", function(t)
   local path = test.path(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nfoo 1\nfoo 2\n")
   local level, told = clench.log.level(), 0
   clench.log.sink(function() told = told + 1 end)

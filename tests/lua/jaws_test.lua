@@ -149,7 +149,7 @@ test("a report says that nothing fits between the pads, and how far the best gra
   t.ok(not words:find("wider", 1, true), words)
 end)
 
-test("jaws that are clear of one side by less than the contact threshold press when they are told to", function(t)
+test("jaws that are clear of one side by less than the contact threshold press on command", function(t)
   local hand, box = scene("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.06}, {mass = 0.1, material = "wood"})
   local middle = hand.pose:inverse() * hand.approach.point + clench.vec3(0, 0, 0.05)
   for _, aside in ipairs {0, 3e-5, -3e-5} do
@@ -162,7 +162,7 @@ test("jaws that are clear of one side by less than the contact threshold press w
   end
 end)
 
-test("a shaken object that is lost in the first direction is pulled in no other, if asked", function(t)
+test("with until_lost, an object lost in the first direction is not shaken in others", function(t)
   local hand, box = scene("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.06}, {mass = 0.1, material = "wood"})
   box.pose = hand.pose * clench.pose {xyz = hand.pose:inverse() * hand.approach.point + clench.vec3(0, 0, 0.05)}
   hand:autograsp()

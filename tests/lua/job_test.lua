@@ -74,6 +74,10 @@ test("errors of a job reach whoever asks for its result", function(t)
   t.fails(function() clench.job(3) end, "task: expected a function or a module's name, got 3")
   t.fails(function() clench.job(function() end, {arg = {1}}) end, "unknown key 'arg'", "did you mean 'args'?")
   t.fails(function() clench.job(function() end, {args = {print}}) end, ".args[1]: a function cannot be handed over")
+  t.fails(function() clench.job(function() end, {args = {hand = 3}}) end, "args: expected a list of arguments in their order, got the key 'hand'")
+  job = clench.job(function(...) return select("#", ...) end, {args = table.pack(1, nil, nil)})
+  job:wait(10)
+  t.equal(job:result(), 3)
   t.fails(function() clench.job(function() end, {args = 3}) end, "args: expected a list, got 3")
   job = clench.job "no.such.module"
   job:wait(10)
@@ -82,20 +86,21 @@ test("errors of a job reach whoever asks for its result", function(t)
   t.equal(clench.this_job, nil)
 end)
 
-test("whatever a job does, it is stopped at once", function(t)
+test("a job is stopped at once in any kind of work", function(t)
   local _, hand, mug = scene()
   local busy = {
     function() while true do end end,
     function() while true do pcall(function() while true do end end) end end,
     function() coroutine.wrap(function() while true do end end)() end,
+    function() if debug.sethook then debug.sethook() end while true do end end,
     function(h, m) require("clench").plan.sample {hand = h, object = m, count = 1000000} end,
     function(h) h.world:run(1e6) end,
     function() require("clench").loop.sleep(1e6) end,
   }
   for i, f in ipairs(busy) do
     local job = clench.job(f, {args = {{hand = hand, mug = mug}}})
-    if i == 4 then job = clench.job(function(s) return require("clench").plan.sample {hand = s.hand, object = s.mug, count = 1000000} end, {args = {{hand = hand, mug = mug}}}) end
-    if i == 5 then job = clench.job(function(h) h.world:run(1e5) end, {args = {hand}}) end
+    if i == 5 then job = clench.job(function(s) return require("clench").plan.sample {hand = s.hand, object = s.mug, count = 1000000} end, {args = {{hand = hand, mug = mug}}}) end
+    if i == 6 then job = clench.job(function(h) h.world:run(1e5) end, {args = {hand}}) end
     while job.state == "queued" do clench.loop.sleep(0.005) end
     clench.loop.sleep(0.05)
     t.equal(job.state, "running", i)
@@ -180,4 +185,18 @@ test("more jobs than cores are queued, jobs of jobs do not block them, and dropp
   clench.loop.run(20)  -- until no job is left
   local file <close> = io.open(path)
   t.equal(file:read "a", "written")
+end)
+
+test("a program ends, whatever its jobs do", function(t)
+  local log = test.path ".log"
+  os.execute(("readlink /proc/$PPID/exe > '%s'"):format(log))
+  local file <close> = io.open(log)
+  local program = file:read "l"
+  local endless = "local clench = require 'clench' for i = 1, 6 do clench.job(function() while true do end end) end clench.loop.sleep(0.1) "
+  local stuck = "local clench = require 'clench' clench.job(function() local s = ('a'):rep(30) return s:find(('a?'):rep(30) .. s) end) clench.loop.sleep(0.1) "
+  for _, case in ipairs {{endless, 0}, {endless .. "os.exit(4)", 4}, {endless .. "os.exit(4, true)", 4}, {endless .. "error 'end'", 1}, {stuck, 0}} do
+    local script = test.path(".lua", case[1])
+    local _, _, code = os.execute(("timeout 60 '%s' run '%s' 2> /dev/null"):format(program, script))
+    t.equal(code, case[2], case[1])
+  end
 end)

@@ -21,7 +21,7 @@ test("every special character of LaTeX is escaped once", function(t)
   t.ok(text:find("\\textbackslash{} \\{ \\} \\$ \\& \\# \\% \\_ \\textasciicircum{} \\textasciitilde{}", 1, true), text)
 end)
 
-test("numbers that are none, and infinite ones, are words of LaTeX", function(t)
+test("NaN is a dash, and infinite numbers are LaTeX symbols", function(t)
   local text = latex.table({{a = 0 / 0, b = math.huge, c = -math.huge, d = 3.0}}, {columns = {"a", "b", "c", "d"}})
   t.ok(text:find("-- & $\\infty$ & $-\\infty$ & 3 \\\\", 1, true), text)
 end)
@@ -32,7 +32,7 @@ test("a caption makes a floating table", function(t)
   t.equal(text:sub(-12), "\\end{table}\n")
 end)
 
-test("what is no table is refused by name", function(t)
+test("arguments that are not tables are rejected by name", function(t)
   local function fails(rows, options, message) t.fails(function() latex.table(rows, options) end, message) end
   fails(3, nil, "latex.table: rows: expected a list, got 3")
   fails({3}, nil, "latex.table: rows[1]: expected a table of names and values, got 3")

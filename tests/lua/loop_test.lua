@@ -60,6 +60,18 @@ test("a coroutine waits for jobs", function(t)
   t.equal(said, {1, 2, 3})
 end)
 
+test("a coroutine that removes itself ends at its next wait", function(t)
+  local task, went_on
+  task = loop.spawn(function()
+    task:remove()
+    loop.sleep(0)
+    went_on = true
+  end)
+  loop.run()
+  t.equal(went_on, nil)
+  t.equal(task.status, "removed")
+end)
+
 test("an error of a coroutine names it and its line, and the others run on", function(t)
   local after = false
   local broken = loop.spawn(function() loop.sleep(0) error "broken" end)
@@ -74,7 +86,7 @@ test("an error of a coroutine names it and its line, and the others run on", fun
   t.fails(function() loop.run() end, "expected an error with a message, got the table {}")
 end)
 
-test("what the loop is given is checked", function(t)
+test("arguments of the loop are checked", function(t)
   t.fails(function() loop.spawn(3) end, "loop.spawn: expected a function, got 3")
   t.fails(function() loop.sleep(0 / 0) end, "loop.sleep: expected a time >= 0 in seconds, got nan")
   t.fails(function() loop.wait(1.5) end, "loop.wait: expected a job or a descriptor, got 1.5")

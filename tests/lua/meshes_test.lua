@@ -67,7 +67,7 @@ test("a mesh of the script's own takes a unit, too, and a wrong key is its own",
   t.fails(function() clench.world():add_object(odd) end, "add_object: mesh: unknown key 'normals'")
 end)
 
-test("meshes for display that are missing are told in one sentence, and once", function(t)
+test("missing meshes for display are reported once, in one sentence", function(t)
   local link = [[<link name="l%d"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
     <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision><visual><geometry><mesh filename="no/%d.stl"/></geometry></visual></link>]]
   local joint = [[<joint name="j%d" type="revolute"><parent link="l%d"/><child link="l%d"/><axis xyz="0 0 1"/>

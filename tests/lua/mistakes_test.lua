@@ -2,7 +2,7 @@
 local clench = require "clench"
 local test = require "test"
 
-test("degrees and millimetres in a pose are told once, with the script's line", function(t)
+test("degrees and millimetres in a pose are reported once, with the script's line", function(t)
   local world = clench.world {}
   local box = clench.shapes.box {0.1, 0.1, 0.1}
   -- within a turn and ten metres nothing is

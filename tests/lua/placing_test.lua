@@ -30,7 +30,7 @@ test("a pose from two axes has the first exactly, and the other in the plane of 
   end
 end)
 
-test("one axis alone is turned to by the smallest rotation", function(t)
+test("a single axis is reached by the smallest rotation", function(t)
   local random = clench.random(3)
   for k, name in ipairs {"x_axis", "y_axis", "z_axis"} do
     local own = {0, 0, 0}
@@ -45,7 +45,7 @@ test("one axis alone is turned to by the smallest rotation", function(t)
   end
 end)
 
-test("what is no axis is refused", function(t)
+test("values that are not axes are rejected", function(t)
   t.fails(function() clench.pose {axis = {0, 0, 1}} end, "angle: expected a number, got nil")
   t.fails(function() clench.pose {angle = 1} end, "axis: expected a vec3")
   t.fails(function() clench.pose {axis = {0, 0, 0}, angle = 1} end, "axis: expected a direction, got zero")

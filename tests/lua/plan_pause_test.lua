@@ -73,7 +73,7 @@ test("a search that is stopped has sent what it had found", function(t)
   t.ok(grasps[1].hand_name == options.hand.name and grasps[1].epsilon > 0)
 end)
 
-test("errors of a planner in the background are told as always", function(t)
+test("errors of a planner in the background are those of the planner itself", function(t)
   t.fails(function() clench.plan.start(3) end, "plan.start: planner: expected a name, got 3")
   t.fails(function() clench.plan.start "smple" end, "did you mean 'sample'?")
   t.fails(function() clench.plan.start "online" end, "'online' is no search that ends")

@@ -46,7 +46,7 @@ test("handles of a script live on over undo, those of removed bodies too", funct
   t.ok(session.world == world and session.object == mug and session.hand == hand)
 end)
 
-test("what was done is a script of plain calls that makes the same world", function(t)
+test("the history is a script of plain calls that makes the same world", function(t)
   local session = opened()
   session:run("world.import_obstacle", {path = "models/objects/plate.iv"})
   session:run("body.move", {body = "plate", pose = {xyz = {0.3, 0, 0}, rpy = {0.1, 0.2, 0.3}}})
@@ -67,7 +67,7 @@ test("what was done is a script of plain calls that makes the same world", funct
   t.equal(replayed(session):hash(), session.world:hash())
 end)
 
-test("a command of one's own is checked by its parameters and logged as the state that results", function(t)
+test("a custom command is checked by its parameters and logged as the resulting state", function(t)
   local session = opened()
   session:command {name = "mine.lift", label = "Lift", parameters = {{name = "height", type = "number", unit = "m", min = 0, max = 1, default = 0.1, text = "how far"}},
     run = function(s, args) s.object.pose = clench.pose {xyz = {0, 0, args.height}} * s.object.pose return args.height end}
@@ -100,6 +100,30 @@ test("a command that fails leaves the session as it was", function(t)
   t.equal(session.world:hash(), hash)
   t.ok(session.object == mug and mug.pose ~= nil)
   t.equal(#session.history.done, 1)
+  -- commands that a command runs are part of it
+  session:command {name = "mine.half", run = function(s)
+    s:run "grasp.autograsp"
+    error "half"
+  end}
+  t.fails(function() session:run "mine.half" end, "half")
+  t.equal(session.world:hash(), hash)
+  t.equal(#session.history.done, 1)
+  session:command {name = "mine.whole", run = function(s)
+    s:run "grasp.autograsp"
+    s:run("body.mass", {body = "mug", mass = 0.2})
+  end}
+  session:run "mine.whole"
+  t.equal(replayed(session):hash(), session.world:hash())
+  session:undo()
+  t.equal(session.world:hash(), hash)
+  -- a change that the log could not hold is refused, and so is another body
+  session:command {name = "mine.gravity", run = function(s) s.world.gravity = {0, 0, -1} end}
+  t.fails(function() session:run "mine.gravity" end, "must say what it does, by its field script")
+  session:command {name = "mine.more", run = function(s) s.world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {9, 0, 0}}}) end}
+  t.fails(function() session:run "mine.more" end, "must say what it does")
+  t.equal(session.world:hash(), hash)
+  t.fails(function() session:command {name = "a.b", run = print, lable = "x"} end, "unknown key 'lable'")
+  t.fails(function() session:run("body.mass", {body = "mug", mas = 1}) end, "unknown argument 'mas'", "did you mean 'mass'?")
   t.fails(function() session:run("world.open", {path = "no/such.wld"}) end, "no such file")
   t.equal(session.world:hash(), hash)
   t.fails(function() session:run "grasp.autogasp" end, "there is no command 'grasp.autogasp'", "did you mean 'grasp.autograsp'?")
@@ -111,6 +135,8 @@ end)
 
 test("saving marks a session as unmodified", function(t)
   local session = opened()
+  t.ok(not session:is_modified())
+  session:run "grasp.open"
   t.ok(session:is_modified())
   local path = test.path ".wld"
   session:save(path)

@@ -144,7 +144,7 @@ TEST_CASE("links that overlap as a robot is loaded are switched off, and said to
         "gripper_chain0_link1");
 }
 
-TEST_CASE("of long names a file's messages show the beginning") {
+TEST_CASE("messages about files show the beginning of long names") {
   WorldSpec spec = arm_and_hand(0.01);
   std::string word;
   for (int i = 0; i < 100; ++i) word += std::to_string(i);

@@ -118,7 +118,7 @@ TEST_CASE("points that must be held lie in the frame, whatever the meshes are") 
   }
 }
 
-TEST_CASE("what need not be seen may leave the frame, and the view is not from its side") {
+TEST_CASE("unframed meshes may leave the frame, and the view is not from their side") {
   Scene scene;
   scene.meshes.push_back(solid(ball(0.1)));
   const Eye alone = frame_all(scene, 1.2);

@@ -111,7 +111,7 @@ TEST_CASE("what is out of order in a robot is told by place") {
           "arm: DOF 0: expected a range that all of its joints allow, got from 1.5 to -1.8");
 }
 
-TEST_CASE("of a robot's long name messages show the beginning") {
+TEST_CASE("messages show the beginning of a robot's long name") {
   std::string word;
   for (int n = 0; n < 100; ++n) word += std::to_string(n);
   const auto cut = [&](auto change) {

@@ -41,8 +41,8 @@ void update_gaps(const World& world, Manifold& manifold) {
   for (ManifoldPoint& point : manifold.points) point.gap = gap_of(point, X_AB);
 }
 
-// The patch of a point is fitted when its torsion is first needed; until then it holds its site alone,
-// and its radius is 0. Points of one site share it.
+// The patch of a point is fitted when its torsion is first needed; until then it holds only its
+// site, and its radius is 0. Points of one site share it.
 static std::shared_ptr<const SoftPatch> unfitted(const SoftSite& site) {
   SoftPatch patch;
   patch.site = site;

@@ -40,7 +40,7 @@ void update_manifolds(World& world);
 void update_gaps(const World& world, Manifold& manifold);
 
 /// The radii by which soft points resist torsion under their last forces; each is found anew when
-/// its force has changed by a twentieth. Patches are fitted where that is so and nowhere else.
+/// its force has changed by a twentieth. Patches are fitted only then.
 /// points  of one manifold
 void update_torsion(std::vector<ManifoldPoint>& points);
 

@@ -13,7 +13,7 @@ namespace clench {
 /// Names of these columns, in their order: "pregrasp x [m]", ..., "contacts".
 std::vector<std::string> part_column_names();
 
-/// Cells of a grasp by the names of their columns, as plain text; none of parts that it lacks.
+/// Cells of a grasp by the names of their columns, as plain text; parts that it lacks have none.
 std::vector<std::pair<std::string, std::string>> part_cells(const GraspSpec& grasp);
 
 /// Reads the cells of one grasp.

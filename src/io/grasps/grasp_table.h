@@ -10,8 +10,9 @@ namespace clench {
 /// Columns: hand, object and their files; planner, seed, epsilon, energy; x y z [m], qw qx qy qz:
 /// the hand's base in the object; "dof NAME [rad]" or [m], or "dof_1 [rad]" of DOFs without names;
 /// "joint NAME [rad]", "pregrasp dof NAME [rad]", "squeeze dof NAME [rad]"; those of
-/// part_column_names(); other "measure NAME", "info NAME", "label NAME". What a grasp does not have is empty, as are
-/// numbers that are not finite. Numbers keep their digits, text that looks like a number is quoted.
+/// part_column_names(); other "measure NAME", "info NAME", "label NAME". Cells of values that a
+/// grasp lacks, and of numbers that are not finite, are empty. Numbers keep
+/// their digits, text that looks like a number is quoted.
 std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                              const WriteOptions& options);
 

@@ -35,7 +35,7 @@ Image decode_png(const std::string& bytes, const std::string& name) {
   return image;
 }
 
-// errors of libjpeg come back to the call that was made last
+// errors of libjpeg jump back to the read_head or read_rows that is running
 struct JpegErrors {
   jpeg_error_mgr base;
   std::jmp_buf back;
@@ -48,7 +48,7 @@ struct JpegErrors {
   std::longjmp(errors->back, 1);
 }
 
-// one row at a time, into memory that outlives a jump; false: the message says why
+// decodes row by row into memory of the caller, which survives a jump; false: errors.message is set
 struct JpegDecoder {
   jpeg_decompress_struct info = {};
   JpegErrors errors = {};
@@ -90,7 +90,7 @@ Image decode_jpeg(const std::string& bytes, const std::string& name) {
       static_cast<int>(decoder.info.image_width), static_cast<int>(decoder.info.image_height), {}};
   image.pixels.resize(size_t{3} * image.width * image.height);
   if (!decoder.read_rows(image.pixels.data())) fail("{}: {}", name, decoder.errors.message);
-  // a file that is cut short is filled up with grey, and counts as damaged
+  // libjpeg fills the missing rows of a truncated file with grey, and only warns
   if (decoder.errors.base.num_warnings > 0) fail("{}: the image is damaged or cut short", name);
   return image;
 }
@@ -125,7 +125,8 @@ Eigen::Vector3f mean_color(const Image& image, std::span<const Eigen::Vector2d> 
   constexpr int steps = 6;  // along each side of a triangle
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int count = 0;
-  // the middles of the parts into which each triangle of a fan is divided: upright, and turned
+  // centroids of the parts of each triangle of the fan: first the parts oriented as it is, then the
+  // reversed ones
   for (size_t k = 1; k + 1 < corners.size(); ++k)
     for (const double middle : {1.0 / 3, 2.0 / 3})
       for (int i = 0; i < steps; ++i)

@@ -1,4 +1,4 @@
-// Images that colour surfaces: PNG and JPEG.
+// Texture images: PNG and JPEG.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -14,13 +14,13 @@ struct Image {
   std::vector<uint8_t> pixels;
 };
 
-/// Beyond this an image is refused [pixels].
+/// Largest image that is decoded [pixels].
 inline constexpr int64_t max_image_pixels = int64_t{1} << 26;
 
 /// Bounds the memory that the images of one file take.
 class ImageBudget {
  public:
-  /// Counts an image that is kept.
+  /// Adds an image to the total.
   /// throws  Error when all images together have more than twice max_image_pixels
   void add(const Image& image, const std::string& name);
 
@@ -28,8 +28,9 @@ class ImageBudget {
   int64_t pixels_ = 0;
 };
 
-/// Decodes a PNG or JPEG file, by its first bytes. What is transparent lies on white.
-/// throws  Error "NAME: ..." when it is neither, is malformed, cut short or too large
+/// Decodes a PNG or JPEG file; its first bytes determine the format. Transparent pixels are blended
+/// with white.
+/// throws  Error "NAME: ..." when it has another format, is malformed, truncated or too large
 Image decode_image(const std::string& bytes, const std::string& name);
 
 /// Mean colour of an image over a triangle or polygon of texture coordinates, repeated beyond

@@ -42,7 +42,7 @@ class MjcfMeshes {
   struct Asset {
     XmlValues values;
     std::optional<MjcfMesh> mesh = {};  // read when first used
-    bool is_missing = false;            // was it told?
+    bool is_missing = false;            // has this been reported?
   };
   const MjcfMesh& read(Asset& asset);
   std::shared_ptr<const Geometry> shape(const Asset& asset);

@@ -52,7 +52,7 @@ std::string number_words(const std::vector<double>& numbers) {
   return out;
 }
 
-// MuJoCo refuses an inertia whose largest moment exceeds the sum of the others, be it by rounding
+// MuJoCo rejects an inertia whose largest moment exceeds the sum of the others, even by rounding
 Eigen::Matrix3d checked_by_mujoco(const Eigen::Matrix3d& per_mass) {
   constexpr double slack = 1e-9;
   const Eigen::Matrix3d even = 0.5 * (per_mass + per_mass.transpose());
@@ -221,7 +221,7 @@ void SceneWriter::write_body(int number, int depth) {
   line(depth, "</body>");
 }
 
-// --- what joins bodies ---
+// --- contacts, couplings, tendons and actuators ---
 
 void SceneWriter::write_contacts() {
   if (contacts_.pairs.empty() && contacts_.excluded.empty()) return;
@@ -245,7 +245,7 @@ void SceneWriter::write_couplings() {
   for (int r = 0; r < static_cast<int>(request_.world.robots.size()); ++r) {
     const RobotSpec& robot = request_.world.robots[static_cast<size_t>(r)].robot;
     for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
-      // joints on springs follow by their servos
+      // joints on springs have servos instead of equalities
       if (robot.dofs[static_cast<size_t>(d)].kind == DofKind::compliant) continue;
       const auto joints = joints_of_dof(scene_, r, d);
       for (size_t j = 1; j < joints.size(); ++j) {

@@ -11,13 +11,13 @@ namespace clench {
 struct MjcfFiles {
   std::string text;                          ///< of the scene itself
   std::map<std::string, std::string> files;  ///< meshes: their text by their name
-  std::vector<std::string> losses;           ///< what the scene does not hold, or holds otherwise
+  std::vector<std::string> losses;           ///< properties that the scene lacks or changes
 };
 
 /// Bodies with inertias, joints with limits, springs and friction, couplings, tendons, actuators,
 /// friction of pairs, and the keys of the request. The reference posture of the scene is that of
 /// the world now, and coordinates of joints are those of the robots' own files.
-/// folder  of the meshes, from the scene's own folder on: "scene_files/"
+/// folder  of the meshes, relative to the folder of the scene: "scene_files/"
 /// source  MuJoCo documentation, "XML Reference"
 MjcfFiles mjcf_scene(const SceneRequest& request, const std::string& folder);
 

@@ -61,7 +61,7 @@ const WrittenJoint* DrivePlanner::joint_named(int r, const std::string& name) co
 
 // --- servos of DOFs ---
 
-// the gains that a simulation of ours gives the DOF, in units of its first joint
+// gains of the DOF as in dynamics, in units of its first joint
 struct ServoLaw {
   double kp = 0, kd = 0;
 };
@@ -105,7 +105,7 @@ void DrivePlanner::add_servo(int r, int d) {
   out_.actuators.push_back(std::move(out));
 }
 
-// the tendon pulls each joint by its spring: as a servo of that stiffness on each of them
+// the tendon pulls each joint by a spring, which is written as a servo of the same stiffness
 void DrivePlanner::add_springy_servos(int r, int d, const std::vector<MovedBody>& joints) {
   const DofSpec& dof = robot(r).dofs[static_cast<size_t>(d)];
   double squares = 0;
@@ -130,7 +130,7 @@ void DrivePlanner::add_springy_servos(int r, int d, const std::vector<MovedBody>
     }
     out.robot = r, out.dof = d;
     out.arms = {{moved.joint->number, 1.0}};
-    // efforts are shared by the stiffness of the springs
+    // efforts are divided in proportion to the stiffness of the springs
     out.effort_share = joint.ratio / std::max(squares, 1e-12);
     out_.actuators.push_back(std::move(out));
   }

@@ -1,4 +1,4 @@
-// Motors of written robots as MJCF actuators, with the law of their DOFs.
+// Motors of robots as MJCF actuators, with the force law of their DOFs.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,11 +11,11 @@ namespace clench {
 /// force = gain * control + bias[0] + hold + bias[1] * length + bias[2] * velocity, within its
 /// range.
 struct WrittenActuator {
-  std::string name, joint, tendon;  ///< what it drives: one of the two
+  std::string name, joint, tendon;  ///< it drives a joint or a tendon; the other is empty
   double gear = 1, gain = 1;
   std::array<double, 2> gain_slopes = {0, 0};
   std::array<double, 3> bias = {0, 0, 0};
-  double hold = 0;  ///< carries the weight of what it moves at the reference posture
+  double hold = 0;  ///< supports the weight of what it moves at the reference posture
   std::optional<std::array<double, 2>> control_range = {}, force_range = {};
   int robot = -1, dof = -1;  ///< -1: of the carriage
   int axis = -1;             ///< of the carriage: 0 to 5
@@ -24,12 +24,12 @@ struct WrittenActuator {
   double effort_share = 0;  ///< force of the actuator per unit of extra effort of the DOF
 };
 
-/// A fixed tendon: what a joint tendon of the robot or the tendon of an actuator is.
+/// A fixed tendon, of a joint tendon of the robot or of an actuator.
 struct WrittenTendon {
   std::string name;
   std::vector<std::pair<std::string, double>> joints;
   const JointTendonSpec* spec = nullptr;  ///< null: an actuator's, which is passive
-  double shift = 0;  ///< length where all joints of the robot are at 0 in our coordinates
+  double shift = 0;  ///< length at zero of all joints of the robot, in our coordinates
 };
 
 struct WrittenDrives {
@@ -39,7 +39,7 @@ struct WrittenDrives {
 };
 
 /// A robot's own actuators where its file describes them, else a servo for each driven DOF. Servos
-/// carry the weight of what they move at the present posture.
+/// support the weight of what they move at the present posture.
 WrittenDrives plan_drives(const SceneRequest& request, const WrittenScene& scene);
 
 /// Control at which the actuator holds a posture, pressing with an extra effort of its DOF.

@@ -5,9 +5,9 @@
 
 namespace clench {
 
-// of the servos, which move the hand as a robot does: stiff, and critically damped [rad/s]
+// natural frequency of the servos, stiff as a robot arm and critically damped [rad/s]
 static constexpr double carriage_frequency = 200;
-// a base that turns by less stands on slides alone [rad]
+// a base that turns by less has slides only [rad]
 static constexpr double least_turn = 1e-9;
 
 static constexpr const char* axis_names[] = {"carriage_x",    "carriage_y",     "carriage_z",
@@ -17,7 +17,7 @@ std::vector<double> Carriage::coordinates(const Pose& X) const {
   const Eigen::Vector3d p = X.position - X_WB.position;
   std::vector<double> out = {p.x(), p.y(), p.z()};
   if (axes.size() <= 3) return out;
-  // R = Rx(a) Ry(b) Rz(c), each about the axis as those before have turned it
+  // R = Rx(a) Ry(b) Rz(c), each about the axis as turned by those before it
   const Eigen::Matrix3d R = (X_WB.rotation.conjugate() * X.rotation).toRotationMatrix();
   out.push_back(std::atan2(-R(1, 2), R(2, 2)));
   out.push_back(std::atan2(R(0, 2), std::hypot(R(0, 0), R(0, 1))));

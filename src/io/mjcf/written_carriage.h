@@ -1,4 +1,4 @@
-// Slides and hinges under the base of a hand, by which a scene moves it.
+// Slides and hinges that move the base of a hand in a scene.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,17 +11,17 @@ namespace clench {
 struct CarriageAxis {
   std::string name;  ///< "carriage_x", ... "carriage_yaw"; of joint and actuator
   bool turns = false;
-  Eigen::Vector3d axis_B;  ///< in the base as it stands now
+  Eigen::Vector3d axis_B;  ///< in the base at its present pose
   double kp = 0, kd = 0;   ///< [N/m or N m/rad], [N s/m or N m s/rad]
-  double hold = 0;         ///< carries the weight as the scene stands now [N or N m]
+  double hold = 0;         ///< supports the weight at the present posture [N or N m]
 };
 
 /// Slides along the axes of the world; hinges about the axes of the base, through its origin.
 struct Carriage {
   std::vector<CarriageAxis> axes;
-  Pose X_WB;  ///< the base where all are at 0
+  Pose X_WB;  ///< the base when all axes are at 0
 
-  /// Coordinates of the axes with the base at X.
+  /// Coordinates of the axes that put the base at the pose X in the world [m or rad].
   std::vector<double> coordinates(const Pose& X) const;
 };
 

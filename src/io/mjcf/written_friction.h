@@ -1,4 +1,4 @@
-// Friction of geoms, as MuJoCo combines it, and the pairs that may not collide.
+// Friction of geoms, as MuJoCo combines it, and the pairs that do not collide.
 #pragma once
 #include <map>
 #include <string>
@@ -23,7 +23,7 @@ struct WrittenContacts {
 };
 
 /// MuJoCo takes the larger friction of two geoms. Each material gets the smallest coefficient that
-/// it has with any material that it can touch; what differs then is listed as pairs.
+/// it has with any material that it can touch; pairs that differ then are listed.
 WrittenContacts plan_contacts(const SceneRequest& request, const WrittenScene& scene);
 
 }  // namespace clench

@@ -9,7 +9,7 @@
 
 namespace clench {
 
-/// A geom that collides or, else, is drawn only.
+/// A geom that collides, or that is only drawn.
 struct WrittenGeom {
   std::string name;
   std::string type;  ///< "mesh", "box", "sphere" ...
@@ -20,22 +20,22 @@ struct WrittenGeom {
 };
 
 struct WrittenMesh {
-  std::string name, file;  ///< file: from the scene's folder on
+  std::string name, file;  ///< file: relative to the folder of the scene
   Mesh mesh;
 };
 
 /// Geoms of all bodies; equal meshes are shared.
 class SceneGeoms {
  public:
-  /// folder  of the mesh files, from the scene's folder on: "scene_files/"
+  /// folder  of the mesh files, relative to the folder of the scene: "scene_files/"
   explicit SceneGeoms(std::string folder) : folder_(std::move(folder)) {}
 
   void add(const WrittenBody& body);
 
-  /// Of each body that was added, in that order.
+  /// Geoms of each body, in the order of `add`.
   const std::vector<std::vector<WrittenGeom>>& geoms() const { return geoms_; }
   const std::vector<WrittenMesh>& meshes() const { return meshes_; }
-  /// Sentences about surfaces that collide otherwise in MuJoCo, each with the names of bodies.
+  /// Sentences about surfaces that collide differently in MuJoCo, each with names of bodies.
   std::vector<std::string> losses() const;
 
  private:
@@ -55,7 +55,7 @@ class SceneGeoms {
   std::vector<std::string> concave_, open_, flat_;
 };
 
-/// The box that a mesh of 8 corners is, as its pose and half lengths; empty: it is none.
+/// Pose and half lengths [m] of a mesh that is a box; empty for other meshes.
 struct BoxFit {
   Pose X_MB;
   Eigen::Vector3d half;

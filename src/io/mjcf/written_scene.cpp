@@ -31,7 +31,7 @@ class ScenePlanner {
   const SceneRequest& request_;
   const WorldSpec& world_;
   WrittenScene out_;
-  std::vector<std::string> body_names_, joint_names_;
+  std::vector<std::string> body_names_ = {"world"}, joint_names_;  // "world" is MuJoCo's own
   std::vector<std::vector<std::string>> names_of_joints_;  // of each robot
 };
 

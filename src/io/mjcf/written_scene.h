@@ -1,4 +1,4 @@
-// A world as a tree of MJCF bodies, as it is written: names, joints and poses as they stand now.
+// A world as the tree of MJCF bodies that is written: names, joints and present poses.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace clench {
 
-/// A joint of a body; anchor and axis in the body's frame as the body stands now.
+/// A joint of a body; anchor [m] and axis in the body's frame at its present pose.
 struct WrittenJoint {
   std::string name;
   const JointSpec* spec = nullptr;
@@ -17,7 +17,7 @@ struct WrittenJoint {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
   double value = 0;  ///< q now [rad or m]
 
-  /// The joint's value in its own file, and in the scene.
+  /// The joint's value in the robot's own file and in the scene, from its position q [rad or m].
   double coordinate(double q) const { return q + spec->offset; }
 };
 
@@ -39,7 +39,7 @@ struct WrittenBody {
 /// Static and kinetic coefficient of two materials.
 using FrictionOf = std::function<std::array<double, 2>(const std::string&, const std::string&)>;
 
-/// A state that a scene names.
+/// A keyframe of a scene.
 struct WrittenKey {
   std::string name;
   std::vector<Pose> bodies;                 ///< one per body of the world
@@ -91,7 +91,7 @@ struct MovedBody {
 /// Joints of a DOF, link by link; the first one has the DOF's value, its opposite, or is the first.
 std::vector<MovedBody> joints_of_dof(const WrittenScene& scene, int robot, int dof);
 
-/// What a DOF feels at the present posture, of everything that it moves.
+/// Inertia and weight that a DOF moves at the present posture.
 struct DofLoad {
   double inertia = 0;  ///< [kg m^2 or kg]
   double weight = 0;   ///< effort of gravity on the DOF [N m or N]
@@ -99,7 +99,7 @@ struct DofLoad {
 DofLoad load_of_dof(const WrittenScene& scene, const std::vector<MovedBody>& joints,
                     const Eigen::Vector3d& gravity);
 
-/// A name that no earlier one of its kind has: "name", "name_2".
+/// `name`, or `name_2` and so on if `taken` has it already; adds the result to `taken`.
 std::string unique_name(const std::string& name, std::vector<std::string>& taken);
 
 }  // namespace clench

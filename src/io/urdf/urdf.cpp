@@ -523,7 +523,7 @@ RobotSpec UrdfReader::read() {
   return robot;
 }
 
-// Hands whose package is missing lack a mesh per link: one sentence tells of all.
+// Hands whose package is missing lack one mesh per link: one sentence reports all of them.
 void UrdfReader::warn_of_undrawn() const {
   if (undrawn_ == 1) cache_.warn(first_undrawn_ + "; it is not drawn");
   if (undrawn_ > 1)

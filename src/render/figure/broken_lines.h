@@ -1,4 +1,4 @@
-// A text as lines of a width.
+// Breaks texts into lines.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// Breaks a text between words where a line would be wider than `width`; a single word may be.
+/// Breaks a text between words, so that no line is wider than `width`, except of a single word.
 /// height  of capital letters; width: of a line [pixels]
 std::vector<std::string> broken_lines(const std::string& text, float height, float width,
                                       const Font& font);

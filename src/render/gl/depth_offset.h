@@ -4,8 +4,8 @@
 
 namespace clench::gl {
 
-/// While it lives, what is drawn lies a few steps of the depth buffer behind (towards > 0) or in
-/// front of (towards < 0) where it stands, so that of coplanar surfaces always the same one is seen.
+/// While it lives, drawn surfaces are moved by a few steps of the depth buffer, backwards (towards
+/// > 0) or forwards (towards < 0), so that of coplanar surfaces always the same one is seen.
 /// Steps exceed the rounding of vertices and of their positions in a pixel.
 class DepthOffset {
  public:

@@ -86,7 +86,7 @@ struct Sight {
   Points framed;  // all that must be in the frame, to its last vertex
   Points solid, aside, clear,
       marks;    // some of what hides; of what need not be seen; of what should
-  Points held;  // what must be in the frame besides meshes
+  Points held;  // further points that must be in the frame
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double scale = 1;
 };

@@ -17,7 +17,8 @@ struct RenderOptions {
   /// a pixel: smoothness of edges and shadows against time, 1..256; drafts have one, with edges
   /// smoothed
   int samples = 8;
-  /// a draft is drawn so many times as wide and as high and reduced, which smooths it: 1..max_draft_scale
+  /// factor by which a draft is drawn wider and higher before it is reduced, which smooths it:
+  /// 1..max_draft_scale
   int draft_scale = 1;
   Quality quality = Quality::paper;
   Backdrop backdrop = Backdrop::studio;

@@ -13,9 +13,9 @@
 
 namespace clench {
 
-/// Plain data, objects of the standard library's classes that hold nothing else, and copies of what scripts hold: worlds as clones with their bodies and robots,
-/// snapshots, meshes, poses, vectors, random numbers, and grasps, which stand in no world
-/// afterwards, as those of files.
+/// Plain data, objects of the standard library's classes that hold only plain data, and copies of
+/// what scripts hold: worlds as clones with their bodies and robots, snapshots, meshes,
+/// poses, vectors, random numbers, and grasps, which belong to no world afterwards, as those of files.
 class Parcel {
  public:
   Parcel() = default;

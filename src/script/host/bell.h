@@ -1,4 +1,4 @@
-// What jobs ring when they have something new for the state that started them.
+// A descriptor by which jobs wake the state that started them.
 #pragma once
 #include <memory>
 
@@ -6,7 +6,7 @@ struct lua_State;
 
 namespace clench {
 
-/// Tells that jobs of a state have something new: a descriptor that can be polled.
+/// An eventfd that becomes readable when a job of a state sends an event, shows a value or ends.
 class Bell {
  public:
   /// throws  Error when the system has no descriptor left
@@ -19,13 +19,15 @@ class Bell {
   int descriptor() const { return descriptor_; }
   /// May be called from any thread.
   void ring();
+  /// Makes the descriptor unreadable until the next `ring`.
   void clear();
 
  private:
   int descriptor_;
 };
 
-/// The bell of a state's jobs.
+/// The bell of a state's jobs, created at the first call.
+/// throws  Error when the system has no descriptor left
 const std::shared_ptr<Bell>& bell_of(lua_State* L);
 
 }  // namespace clench

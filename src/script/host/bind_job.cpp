@@ -1,4 +1,4 @@
-// clench.job: a function that runs beside the script.
+// clench.job: a function of a script that runs in a thread of its own.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -51,7 +51,7 @@ struct StartedJobs {
   }
 };
 
-constexpr size_t max_jobs = 1000;  // that are not over, of one state
+constexpr size_t max_jobs = 1000;  // of one state that are queued, running or paused
 
 // of a list, or of a table that table.pack has made
 lua_Integer count_arguments(lua_State* L, int list, const std::string& subject) {
@@ -69,8 +69,7 @@ lua_Integer count_arguments(lua_State* L, int list, const std::string& subject) 
   return count;
 }
 
-// The arguments, and what is shared by all functions of the job, as one value, so that worlds of
-// both are the same copies.
+// Packs the arguments and the shared value into one parcel, so that a world in both is one copy.
 void read_arguments(lua_State* L, int list, int shared, Job::Start& start) {
   constexpr lua_Integer most = 100;
   const std::string subject = clench::subject(L);
@@ -118,7 +117,7 @@ std::string job_text(const JobPtr& job) {
   return fmt::format("job '{}', {}", job->name(), word_of(job->phase(), phases));
 }
 
-// in short pieces, which Ctrl-C ends
+// waits in pieces of 20 ms, between which Ctrl-C is checked
 int wait_for_job(lua_State* L) {
   const JobPtr job = self<JobPtr>(L);
   const double seconds = given(L, 2) ? check_number(L, 2, "seconds") : INFINITY;

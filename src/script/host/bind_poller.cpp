@@ -1,4 +1,4 @@
-// clench.poller: what stdlib/loop.lua waits by.
+// clench.poller: descriptors and timer of stdlib/loop.lua.
 #include "clench/script/host/bind_poller.h"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ int set_timer(lua_State* L) {
   return 0;
 }
 
-// poller:wait(seconds): descriptors that are ready, each followed by "readable" or "writable"; Ctrl-C
-// ends it within a tenth of a second, by an error
+// poller:wait(seconds): descriptors that are ready, each followed by "readable" or "writable".
+// Returns after at most 0.1 s; Ctrl-C raises an error.
 int wait(lua_State* L) {
   constexpr double piece = 0.1;
   const Watching watching(L);

@@ -1,4 +1,4 @@
-// A native of the standard library: what its event loop waits by.
+// Natives of the standard library for its event loop.
 #pragma once
 
 struct lua_State;
@@ -7,7 +7,7 @@ namespace clench {
 
 int new_poller(lua_State* L);
 
-/// Does a job run that the state has started?   returns  on the stack
+/// Pushes true if a job that the state has started is not over.
 int has_jobs(lua_State* L);
 
 }  // namespace clench

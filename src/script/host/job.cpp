@@ -20,8 +20,8 @@ struct RunningJob {
   Job* job = nullptr;
 };
 
-// Jobs that run at once, in the whole process: as many as there are cores, and at least two, so that
-// one that is endless does not hold up all others.
+// Limits the jobs of the process that run at once to the number of cores, and to two on one core,
+// so that an endless job does not block all others.
 class Slots {
  public:
   void take(const std::function<bool()>& given_up) {
@@ -49,7 +49,7 @@ Slots& slots() {
 thread_local bool holds_slot = false;
 thread_local const Job* job_of_thread = nullptr;
 
-// Of a job that waits for another: others run meanwhile.
+// Releases the slot of a job while it waits for another one, so that a queued job can run.
 class SlotLent {
  public:
   SlotLent() : lent_(std::exchange(holds_slot, false)) {
@@ -70,7 +70,7 @@ class SlotLent {
 
 }  // namespace
 
-static const char shared_key = 0;  // its address names the place of what is shared
+static const char shared_key = 0;  // its address is the registry key of the shared value
 
 void push_shared_of_job(lua_State* L) { lua_rawgetp(L, LUA_REGISTRYINDEX, &shared_key); }
 
@@ -148,7 +148,7 @@ int Job::push_results(lua_State* L) const {
   if (phase_ == Phase::failed) {
     const std::string sentence = fmt::format("job '{}': {}", name(), failure_.words);
     if (failure_.kind.empty()) throw Error(sentence);
-    // a time limit of the function's own, which is no stop of the script that asks
+    // a stop or time limit inside the job does not stop the script that asks for its result
     const bool ended = failure_.kind == "stopped" || failure_.kind == "timeout";
     throw Error(sentence, ended ? ErrorKind::limit : error_kind(failure_.kind));
   }
@@ -192,7 +192,7 @@ int Job::call_function(lua_State* L) {
   return 0;
 }
 
-// returns  false: it failed, and why is told
+// returns  false if it failed; failure_ has the error
 bool Job::run_function(State& state) {
   lua_State* L = state.lua();
   const Watched watched{Progress(bar_of(L))};
@@ -234,7 +234,7 @@ void Job::run() {
     const std::lock_guard lock(mutex_);
     state = std::move(state_);
   }
-  state.reset();  // before the end is told: nothing of the job runs after it
+  state.reset();  // before the end is announced, so that nothing of the job runs after it
   {
     const std::lock_guard lock(mutex_);
     phase_ = stop_asked_ ? Phase::stopped : done ? Phase::done : Phase::failed;

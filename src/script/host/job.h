@@ -1,5 +1,4 @@
-// A function of a script that runs in a thread and a state of its own, beside the state that started
-// it.
+// A function of a script that runs in a separate thread and a separate state.
 #pragma once
 #include <condition_variable>
 #include <deque>
@@ -22,14 +21,14 @@ class Job {
  public:
   enum class Phase { queued, running, paused, done, failed, stopped };
 
-  /// What a job is started with.
+  /// Task, arguments and limits of a new job.
   struct Start {
     WorkerTask task;
-    std::string name;            ///< for messages
+    std::string name;            ///< in messages
     Parcel arguments;            ///< {args =, shared =}, of copies that share worlds
-    int count = 0;               ///< of the arguments
-    size_t memory = 0;           ///< of its state, [bytes]
-    std::shared_ptr<Bell> bell;  ///< rung for each event, and at the end
+    int count = 0;               ///< number of arguments
+    size_t memory = 0;           ///< limit of its state [bytes]
+    std::shared_ptr<Bell> bell;  ///< rung at each event, at each shown value and at the end
   };
 
   /// Starts a job. Its thread keeps it alive until its function has ended.
@@ -41,7 +40,7 @@ class Job {
   Phase phase() const;
   bool is_over() const;
   Watcher::State progress() const;
-  /// Waits at most so long.   returns  is it over?
+  /// Waits until the job is over, at most for `time`.   returns  is it over?
   bool wait(std::chrono::milliseconds time) const;
 
   void stop();
@@ -49,9 +48,9 @@ class Job {
   void pause();
   void resume();
 
-  /// What the job has sent since the last call, in order.
+  /// Events sent since the last call, in order.
   std::deque<Parcel> take_events();
-  /// The latest value that the job shows; null before the first.
+  /// The latest value that the job has shown; null before the first.
   std::shared_ptr<const Parcel> snapshot() const;
   /// Leaves the values that the function returned on the stack.
   /// returns  how many
@@ -84,9 +83,9 @@ class Job {
 
 using JobPtr = std::shared_ptr<Job>;
 
-/// The job whose function runs in the state; null: none.
+/// The job whose function runs in the state; null outside of jobs.
 Job* running_job(lua_State* L);
-/// Leaves what that job was given as shared on the stack.
+/// Pushes the value that was passed to that job as the option `shared`.
 void push_shared_of_job(lua_State* L);
 
 }  // namespace clench

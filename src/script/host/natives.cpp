@@ -21,7 +21,8 @@ static int raise(lua_State* L) {
   throw Error(sentence, given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
 }
 
-// call_script(subject, fn, ...): returns the values of the script's function; its errors name the subject
+// call_script(subject, fn, ...): returns the values of the script's function; its errors name the
+// subject
 static int call_script(lua_State* L) {
   const std::string subject = check_string(L, 1, "subject");
   call_script(L, lua_gettop(L) - 2, LUA_MULTRET, subject);

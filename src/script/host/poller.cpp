@@ -75,7 +75,7 @@ void Poller::set_timer(double seconds) {
 }
 
 std::vector<Poller::Ready> Poller::wait(double seconds) {
-  constexpr double longest = 1e6;  // what milliseconds of an int hold
+  constexpr double longest = 1e6;  // [s]; its milliseconds fit into an int
   epoll_event events[64];
   const int milliseconds =
       seconds < 0 ? -1 : static_cast<int>(std::ceil(1e3 * std::min(seconds, longest)));

@@ -1,4 +1,4 @@
-// What an event loop waits for: descriptors, a time, and the bell of the state's jobs.
+// Waits for descriptors, a timer and the bell of a state's jobs.
 #pragma once
 #include <memory>
 #include <vector>
@@ -21,17 +21,17 @@ class Poller {
   Poller(const Poller&) = delete;
   Poller& operator=(const Poller&) = delete;
 
-  /// Readable when something of what is watched has come; a host's own loop may poll it.
+  /// Readable when a watched descriptor, the timer or the bell is ready; a host may poll it.
   int descriptor() const { return set_; }
 
-  /// Watches a descriptor in place of how it was watched before; for nothing: no longer.
+  /// Sets the events for which a descriptor is watched; without any, it is no longer watched.
   /// throws  Error when it is no open descriptor, or one of a kind that cannot be polled
   void watch(int descriptor, bool readable, bool writable);
-  /// Makes `descriptor` readable after so long [s], once; below 0: never.
+  /// Makes `descriptor()` readable once, after `seconds` [s]; a time below 0 cancels the timer.
   void set_timer(double seconds);
-  /// Waits at most so long [s]; below 0: until something comes. A signal ends the wait.
-  /// returns  descriptors that are ready, at most 64; those that are closed on the other side count
-  ///          as ready for whatever was asked
+  /// Waits at most `seconds` [s], or without limit if below 0. A signal ends the wait.
+  /// returns  at most 64 ready descriptors; one that is closed on the other side counts as
+  ///          readable and writable
   std::vector<Ready> wait(double seconds);
 
  private:

@@ -199,7 +199,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
   const bool again = state.interrupts_ > 1 || now() > state.patient_until_;
   // the first time another coroutine, or a call of the engine, may have ended for it
   const bool first = state.bar_->take_all();
-  // with every instruction from then on, so that all that catches it ends
+  // raised at every instruction from now on, so that a script that catches the error ends, too
   lua_sethook(L, on_hook, all_events, again ? 1 : 1000);
   if (!again && !first) return;
   push_error_value(L, "interrupted", "stopped");
@@ -220,7 +220,7 @@ void State::on_count(lua_State* L, lua_Debug*) {
   State& state = *static_cast<State*>(data);
   if (!state.ended_) state.paused_.wait(true);
   if (!state.ended_) return;
-  // with every instruction from then on, so that all that catches it ends
+  // raised at every instruction from now on, so that a script that catches the error ends, too
   lua_sethook(L, on_count, LUA_MASKCOUNT, 1);
   push_error_value(L, "stopped", "stopped");
   lua_error(L);

@@ -14,7 +14,7 @@
 
 namespace clench {
 
-// --- in the state that asks ---
+// --- in the calling state ---
 
 static int write_chunk(lua_State*, const void* data, size_t size, void* to) {
   static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
@@ -88,7 +88,7 @@ static int prepare(lua_State* L) {
     const int status =
         luaL_loadbufferx(L, task.compiled.data(), task.compiled.size(), task.name.c_str(), "b");
     if (status != LUA_OK) fail("{}", string_at(L, -1));
-    // its one upvalue is _ENV, whatever it was outside
+    // its only upvalue is _ENV, which becomes the globals of this state
     lua_pushglobaltable(L);
     if (!lua_setupvalue(L, -2, 1)) lua_pop(L, 1);
     return 1;
@@ -137,7 +137,7 @@ bool open_worker(State& state, const WorkerTask& task, WorkerError& failure) {
   if (!task.script_folder.empty()) set_setting(L, Setting::modules, task.script_folder);
   if (!task.confine.empty()) set_setting(L, Setting::confine, task.confine);
   set_log_level(L, task.log_level);
-  bar_of(L)->hide();  // the caller's shows how far all of them are
+  bar_of(L)->hide();  // the bar of the calling state shows the common progress
   state.look_for_end();
   lua_pushcfunction(L, guarded<prepare>);
   lua_pushlightuserdata(L, const_cast<WorkerTask*>(&task));

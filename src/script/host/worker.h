@@ -1,5 +1,5 @@
-// What parallel.map and jobs share: a function of a script that runs in a state of its own, in
-// another thread.
+// Functions of scripts that run in a separate state, in another thread; used by clench.job and
+// clench.parallel.map.
 #pragma once
 #include <lua.hpp>
 #include <string>
@@ -10,33 +10,32 @@ namespace clench {
 
 class State;
 
-/// A function as text or compiled, and what the state that runs it takes over from the one that
-/// asks for it.
+/// A function, and the settings that its new state copies from the calling one.
 struct WorkerTask {
-  std::string module, compiled;  // one of them
-  std::string name;              // of the function in messages, "=clench.job"
+  std::string module, compiled;  // a module's name or the compiled function; the other is empty
+  std::string name;              // chunk name of the function in messages, "=clench.job"
   std::string path, cpath;       // of require
   std::string script_folder, confine;
   LogLevel log_level = LogLevel::info;
 };
 
-/// Reads the argument `task`: a function that uses nothing of the lines around it, or the name of a
-/// module that returns a function.
+/// Reads the argument `task`: a function without upvalues other than _ENV, or the name of a module
+/// that returns a function.
 /// throws  Error "clench.job: function: it uses 'world' of the lines around it, ..."
 WorkerTask read_worker_task(lua_State* L, int index);
 
 /// An error that leaves a worker.
 struct WorkerError {
-  std::string words;  ///< empty: there is none
-  std::string kind;   ///< empty: an error of Lua's
+  std::string words;  ///< empty: no error
+  std::string kind;   ///< of a clench::Error; empty: an error of Lua
 };
 
-/// Pops an error's value.
+/// Pops an error value from the stack and converts it.
 WorkerError take_worker_error(lua_State* L);
 
-/// Makes a new state run the task, and leaves its function on the stack. From now on State::end stops
-/// the state.
-/// returns  false when it cannot, and says why
+/// Prepares a new state for the task and pushes its function. State::end stops the state from now
+/// on.
+/// returns  false if that failed; `failure` has the error
 bool open_worker(State& state, const WorkerTask& task, WorkerError& failure);
 
 }  // namespace clench

@@ -14,7 +14,8 @@ namespace clench {
 
 static const char texts_key = 0, lines_key = 0;  // their addresses name tables in the registry
 
-// of texts by chunk's name, or, with weak keys, of lines by function
+// pushes a registry table, created if missing: texts by chunk name, or lines by function, with weak
+// keys
 static void push_registered(lua_State* L, const char* key, const char* mode) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return;
   lua_pop(L, 1);
@@ -28,7 +29,7 @@ static void push_registered(lua_State* L, const char* key, const char* mode) {
 }
 
 void keep_chunk_text(lua_State* L, const char* text, size_t size, const char* name) {
-  constexpr size_t longest = 100'000;  // more is not typed by hand
+  constexpr size_t longest = 100'000;  // longer texts are not typed by hand
   if (!name || name[0] != '=' || size > longest) return;
   push_registered(L, &texts_key, "");
   lua_pushlstring(L, text, size);
@@ -108,8 +109,8 @@ static std::string_view owner_before(std::string_view line, size_t i) {
   return line.substr(first, i - first);
 }
 
-// How many indices are between ".key" and an assignment, 1 in ".key[2] = 3"; 0: there is none, or
-// the line reads fields of that name of several owners.
+// Number of indices between ".key" and an assignment: 1 in ".key[2] = 3"; 0 without an assignment,
+// or if the line reads fields of that name of several owners.
 static int indices_assigned(std::string_view line, std::string_view key) {
   line = line.substr(0, line.find("--"));
   int indices = 0;
@@ -140,7 +141,7 @@ static bool is_plain(lua_State* L, int indices) {
   return lua_next(L, -2) && is_plain(L, indices - 1);
 }
 
-// Leaves a table of the lines of a function that assign to a part of something, by number, or false.
+// Pushes the lines of a function that assign to a part of a table, by number; false without any.
 static void push_assignments(lua_State* L, const lua_Debug& at) {
   std::istringstream text(chunk_text(L, at));
   std::string line;

@@ -1,4 +1,4 @@
-// Tables that fields return are copies: an assignment to a part of one is an error.
+// Detects assignments to parts of tables that fields return: these are copies.
 #pragma once
 #include <cstddef>
 
@@ -6,7 +6,8 @@ struct lua_State;
 
 namespace clench {
 
-/// Remembers the text of a chunk that no file holds, by its name; the last one of each name.
+/// Stores the text of a chunk that is not in a file, such as a line of the console, under its name;
+/// a later chunk of the same name replaces it.
 void keep_chunk_text(lua_State* L, const char* text, size_t size, const char* name);
 
 /// To be called by a metamethod that returns the field `key` of `owner` and has left a table on top

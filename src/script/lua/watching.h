@@ -1,4 +1,5 @@
-// Watches the long calls of a script: Ctrl-C and time limits stop them, a terminal shows their progress.
+// Watches the long calls of a script: Ctrl-C and time limits stop them, and a terminal shows their
+// progress.
 #pragma once
 #include <atomic>
 #include <lua.hpp>
@@ -11,9 +12,9 @@ namespace clench {
 class Bar : public Watcher {
  public:
   Bar();
-  /// Of a script's own loop; meanwhile the engine's work is not displayed.
+  /// Stores the progress of a script's own loop; meanwhile that of the engine is not displayed.
   void note_script(double fraction, std::string_view text);
-  /// Displays nothing from now on, as the bar of a state in another thread.
+  /// Stops displaying; for states in other threads.
   void hide() { terminal_ = false; }
 
   /// Work begins, and ends: the outermost takes the bar away.

@@ -1,4 +1,4 @@
-// Scenes that we write, as MuJoCo loads them and as we read them again.
+// Written scenes, as MuJoCo loads them and as Clench reads them again.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -33,7 +33,7 @@ void set_log_level(lua_State* L, LogLevel level) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &level_key);
 }
 
-// The texts among the running function's arguments, which tell files of the same name apart.
+// The strings among the running function's arguments, which distinguish files of the same name.
 static std::string argument_text(lua_State* L) {
   std::string out;
   for (int i = 1; i <= std::min(2, lua_gettop(L)); ++i)
@@ -52,7 +52,7 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
     return;
   }
   lua_pop(L, 1);
-  // of a file, once, however often it is read
+  // a message about a file is logged once, even if the file is read several times
   if (about && !first_time(L, &of_file_key, message + argument_text(L))) return;
   // a message about a file is one line, whatever names it quotes
   const std::string line =

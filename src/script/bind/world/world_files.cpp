@@ -230,7 +230,7 @@ void save_scene(lua_State* L, const World& world, const fs::path& path, const Sa
                 SceneRequest& request) {
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
   writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
-  // what would not load is not written
+  // a scene that could not be loaded is not written
   writing.check = [&](const fs::path& written) {
     if (!world.bodies().empty() && lies_within(written, saving.confine))
       build_world(read_world(written, {.confine = saving.confine}));

@@ -12,24 +12,23 @@ namespace clench {
 WorldPtr push_world_of(lua_State* L, const std::filesystem::path& path, const ReadOptions& reading);
 struct SavingOptions {
   std::filesystem::path root, confine;  ///< as in WriteOptions
-  std::string format = {};              ///< "mjcf", "graspit" or "lua"; empty: by the ending
+  std::string format = {};              ///< "mjcf", "graspit" or "lua"; empty: by the extension
 };
 /// Writes it, reads it again, and warns of what the file does not hold.
 void save_world(lua_State* L, const World& world, const std::filesystem::path& path,
                 const SavingOptions& saving);
 
-/// Writes a scene of MuJoCo, and warns of what it does not hold. The request's world, friction and
-/// time step are those of the world.
+/// Writes a scene of MuJoCo, and warns of properties that it does not hold. The request's world,
+/// friction and time step are those of the world.
 void save_scene(lua_State* L, const World& world, const std::filesystem::path& path,
                 const SavingOptions& saving, SceneRequest& request);
-/// What a scene holds of a world: its description, with the gains and limits that scripts give to
-/// motors.
+/// The description of a world for a scene, with the gains and limits that scripts give to motors.
 WorldSpec scene_spec(const World& world);
 /// spec  as scene_spec gives it
 SceneRequest scene_of(const World& world, const WorldSpec& spec, const std::filesystem::path& path);
-/// Is a scene of MuJoCo what the world is written as there? An .xml is, unless a robot carries
-/// another one, which a scene read again would merge; `format` says otherwise.
-/// throws  Error for a format that the ending cannot have
+/// Is the world written to this path as a scene of MuJoCo? By default an .xml is one, unless a
+/// robot carries another one, as reading would merge the two; `format` overrides this.
+/// throws  Error for a format that does not fit the extension
 bool is_mjcf_target(const World& world, const std::filesystem::path& path,
                     const std::string& format);
 
