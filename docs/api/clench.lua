@@ -740,7 +740,7 @@ function job:wait(seconds) end
 ---@return any ...
 function job:result() end
 
----Stops it within some 100 ms, whatever it does. What is over stays as it is.
+---Stops it within some 100 ms, in Lua and in calls of the engine; in a call of another program or of string.find with a hostile pattern it ends after that call. What is over stays as it is.
 function job:stop() end
 
 ---Holds it at its next instruction in Lua; a call of the engine ends first.

@@ -95,7 +95,7 @@ static void add(Hasher& h, const DofDrive& drive) {
   for (const double x : {range.low, range.high, drive.max_effort}) add_number(h, x);
   for (const DriveTerm& term : drive.terms) {
     for (const auto& numbers : {term.gain, term.bias}) add_numbers(h, numbers);
-    for (const auto& range : {term.control, term.force}) add_numbers(h, range);
+    for (const auto& limits : {term.control, term.force}) add_numbers(h, limits);
   }
   for (const BoundedSum& sum : drive.sums) {
     add_number(h, sum.factor);
