@@ -61,9 +61,9 @@ uint64_t fingerprint(const World& world, Id<Body> id) {
   add_number(h, body.mass);
   add_numbers(h, body.com);
   add_numbers(h, body.inertia_per_mass.reshaped());
-  for (const double x : {body.elastic_modulus.value_or(0), body.soft_layer, body.poisson_ratio,
-                         body.restitution, body.free_damping, body.free_friction,
-                         body.free_armature, body.gravity_compensation})
+  for (const double x :
+       {body.elastic_modulus.value_or(0), body.soft_layer, body.poisson_ratio, body.restitution,
+        body.free_damping, body.free_friction, body.free_armature, body.gravity_compensation})
     add_number(h, x);
   return h.value();
 }
@@ -84,9 +84,8 @@ static void add(Hasher& h, const JointSpec& joint) {
 static void add(Hasher& h, const DofSpec& dof) {
   h.add(static_cast<uint64_t>(dof.kind));
   add_flag(h, dof.driven);
-  for (const double x :
-       {dof.default_velocity, dof.max_effort, dof.max_velocity, dof.kp, dof.kd, dof.damping_ratio,
-        dof.breakaway_torque, dof.default_value})
+  for (const double x : {dof.default_velocity, dof.max_effort, dof.max_velocity, dof.kp, dof.kd,
+                         dof.damping_ratio, dof.breakaway_torque, dof.default_value})
     add_number(h, x);
 }
 
