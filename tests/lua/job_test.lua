@@ -196,7 +196,7 @@ test("a program ends, whatever its jobs do", function(t)
   local stuck = "local clench = require 'clench' clench.job(function() local s = ('a'):rep(30) return s:find(('a?'):rep(30) .. s) end) clench.loop.sleep(0.1) "
   for _, case in ipairs {{endless, 0}, {endless .. "os.exit(4)", 4}, {endless .. "os.exit(4, true)", 4}, {endless .. "error 'end'", 1}, {stuck, 0}} do
     local script = test.path(".lua", case[1])
-    local _, _, code = os.execute(("timeout 60 '%s' run '%s' 2> /dev/null"):format(program, script))
+    local _, _, code = os.execute(("timeout -s KILL 60 '%s' run '%s' 2> /dev/null"):format(program, script))
     t.equal(code, case[2], case[1])
   end
 end)
