@@ -1,6 +1,7 @@
 --- Tables of results as comma-separated values (RFC 4180), with their types: numbers come back to the bit, integers as integers, and text
 --- that looks like a number is quoted.
 local raise = require "clench.raise"
+local column_names = require "clench.column_names"
 local described = require "clench.described"
 local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
@@ -32,22 +33,6 @@ local function field(value, separator, place)
   raise(("csv.write: %s: expected a number, a text, true or false, got %s"):format(place, described(value)))
 end
 
--- names of all columns, in order
-local function all_columns(rows)
-  local seen, columns = {}, {}
-  for i, row in ipairs(rows) do
-    if type(row) ~= "table" then raise(("csv.write: rows[%d]: expected a table of names and values, got %s"):format(i, described(row))) end
-    for name in pairs(row) do
-      if type(name) ~= "string" then
-        raise(("csv.write: rows[%d]: expected names of columns as keys, got %s"):format(i, described(name)))
-      end
-      if not seen[name] then seen[name], columns[#columns + 1] = true, name end
-    end
-  end
-  table.sort(columns)
-  return columns
-end
-
 local function check_columns(rows, columns)
   local known = {}
   for i, name in ipairs(columns) do
@@ -55,8 +40,8 @@ local function check_columns(rows, columns)
     if known[name] then raise(("csv.write: column '%s' appears twice"):format(name)) end
     known[name] = true
   end
-  for _, name in ipairs(all_columns(rows)) do
-    if not known[name] then raise(("csv.write: rows have '%s', which is none of the columns"):format(name)) end
+  for _, name in ipairs(column_names("csv.write", rows)) do
+    if not known[name] then raise(("csv.write: rows have '%s', which is not one of the columns"):format(name)) end
   end
 end
 
@@ -86,7 +71,7 @@ function csv.write(path, rows, options)
   read:done()
   if columns ~= nil and type(columns) ~= "table" then raise("csv.write: columns: expected a list of names, got " .. described(columns)) end
   if columns then check_columns(rows, columns) end
-  columns = columns or all_columns(rows)
+  columns = columns or column_names("csv.write", rows)
   if #columns == 0 then raise("csv.write: expected rows with columns, or `columns`, got neither") end
   local lines, cells = {}, {}
   for c, name in ipairs(columns) do cells[c] = clench.files.csv_text(name, separator) end

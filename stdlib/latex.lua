@@ -1,5 +1,6 @@
 --- Tables of results for papers: rows as clench.csv takes them, as a LaTeX table with the rules of the package booktabs.
 local raise = require "clench.raise"
+local column_names = require "clench.column_names"
 local described = require "clench.described"
 local read_options = require "clench.options"
 local latex = {}
@@ -26,27 +27,13 @@ local function cell(value, format, place)
   raise(("latex.table: %s: expected a number, a text, true or false, got %s"):format(place, described(value)))
 end
 
--- names of all columns, in order
-local function all_columns(rows)
-  local seen, columns = {}, {}
-  for i, row in ipairs(rows) do
-    if type(row) ~= "table" then raise(("latex.table: rows[%d]: expected a table of names and values, got %s"):format(i, described(row))) end
-    for name in pairs(row) do
-      if type(name) ~= "string" then raise(("latex.table: rows[%d]: expected names of columns as keys, got %s"):format(i, described(name))) end
-      if not seen[name] then seen[name], columns[#columns + 1] = true, name end
-    end
-  end
-  table.sort(columns)
-  return columns
-end
-
 local function texts_by_column(read, key, columns)
   local given = read:raw(key) or {}
   if type(given) ~= "table" then read:expected(key, "a table by names of columns", given) end
   local known = {}
   for _, name in ipairs(columns) do known[name] = true end
   for name, text in pairs(given) do
-    if not known[name] then read:fail("%s: '%s' is none of the columns", key, tostring(name)) end
+    if not known[name] then read:fail("%s: '%s' is not one of the columns", key, tostring(name)) end
     if type(text) ~= "string" then read:expected(("%s.%s"):format(key, name), "a text", text) end
   end
   return given
@@ -78,12 +65,12 @@ end
 
 local function columns_of(read, rows)
   local columns = read:raw "columns"
-  if columns == nil then columns = all_columns(rows) end
+  if columns == nil then columns = column_names("latex.table", rows) end
   if type(columns) ~= "table" then read:expected("columns", "a list of names", columns) end
   for i, name in ipairs(columns) do
     if type(name) ~= "string" then read:expected(("columns[%d]"):format(i), "a name", name) end
   end
-  all_columns(rows)  -- rejects rows that are not tables
+  column_names("latex.table", rows)  -- rejects rows that are not tables
   if #columns == 0 then read:fail "expected rows with columns, or `columns`, got neither" end
   return columns
 end
@@ -105,7 +92,7 @@ end
 ---@return string
 --- > text = clench.latex.table({{object = "mug_2", epsilon = 0.25}, {object = "flask"}}, {columns = {"object", "epsilon"}, headings = {epsilon = "$\\epsilon$"}, formats = {epsilon = "%.3f"}})
 --- > text:find("mug\\_2 & 0.250", 1, true) ~= nil, text:find("flask & --", 1, true) ~= nil  --> true, true
---- > clench.latex.table({{a = 1}}, {headings = {b = "B"}})  --> error: headings: 'b' is none of the columns
+--- > clench.latex.table({{a = 1}}, {headings = {b = "B"}})  --> error: headings: 'b' is not one of the columns
 function latex.table(rows, options)
   if type(rows) ~= "table" then raise("latex.table: rows: expected a list, got " .. described(rows)) end
   local read = read_options("latex.table", options or {})

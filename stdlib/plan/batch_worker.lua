@@ -7,7 +7,7 @@ local quiet = require "clench.plan.quiet"
 local touch = require "clench.plan.touch"
 local verification = require "clench.plan.verification"
 
--- What refinement increases: epsilon or, of two fingers, the load in the worst direction. The epsilon of two fingers is that about the line
+-- Refinement increases this measure: epsilon or, of two fingers, the load in the worst direction. The epsilon of two fingers is that about the line
 -- between them, which hardly depends on the distance of that line from the centre of mass; the load decreases with it.
 local function merit_of(hand, object, shared)
   local verify = shared.verify

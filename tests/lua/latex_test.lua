@@ -40,7 +40,7 @@ test("arguments that are not tables are rejected by name", function(t)
   fails({{a = {}}}, nil, "rows[1].a: expected a number, a text, true or false")
   fails({}, nil, "expected rows with columns, or `columns`, got neither")
   fails({{a = 1}}, {formats = {a = "%s"}}, "formats.a must be a format of one number, such as %.3f, got '%s'")
-  fails({{a = 1}}, {formats = {b = "%d"}}, "formats: 'b' is none of the columns")
+  fails({{a = 1}}, {formats = {b = "%d"}}, "formats: 'b' is not one of the columns")
   fails({{a = 1}}, {colums = {"a"}}, "unknown key 'colums'")
 end)
 

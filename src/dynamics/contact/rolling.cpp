@@ -46,7 +46,7 @@ struct TouchingSide {
     if (is_face) piece = nullptr;
   }
 
-  // How far the body reaches along n from its com when it has been turned to R [m].
+  // Extent of the body along n from its com, in the orientation R [m].
   double reach(const Eigen::Quaterniond& R, const Vector3d& n) const {
     const Vector3d n_B = R.conjugate() * n;
     if (!piece) return n_B.dot(p - body.com);

@@ -107,7 +107,7 @@ double near_height(double slack, double drop) {
 }
 
 // Largest sine of the angle between a flat part and a direction's tangent plane.
-static constexpr double most_tilted = 0.5;
+static constexpr double max_tilt_sine = 0.5;
 
 static FlatPart flat_disc(const Round& round, const Vector3d& direction, double slack) {
   const double radius = round.radii.x(), aside = std::hypot(direction.x(), direction.y());
@@ -145,9 +145,9 @@ static FlatPart flat_side(const Round& round, const Vector3d& direction, double 
 
 FlatPart flat_part(const Round& round, const Vector3d& direction, double slack) {
   if (round.kind != Round::ellipsoid && round.half > 0) {
-    if (round.kind == Round::cylinder && std::hypot(direction.x(), direction.y()) <= most_tilted)
+    if (round.kind == Round::cylinder && std::hypot(direction.x(), direction.y()) <= max_tilt_sine)
       return flat_disc(round, direction, slack);
-    if (std::abs(direction.z()) <= most_tilted) return flat_side(round, direction, slack);
+    if (std::abs(direction.z()) <= max_tilt_sine) return flat_side(round, direction, slack);
   }
   return {.middle = support(round, direction)};
 }

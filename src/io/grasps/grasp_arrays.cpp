@@ -47,17 +47,7 @@ std::string grasp_arrays_bytes(const std::vector<GraspSpec>& grasps, const std::
     return g.labels.contains("planner") ? g.labels.at("planner") : std::string();
   });
   add_array_parts(grasps, out);
-  report_lost(grasps,
-              {.dofs = true,
-               .epsilon = true,
-               .pregrasp_dofs = true,
-               .notes = true,
-               .files = true,
-               .joints = has_same_joints(grasps),
-               .contacts = true,
-               .pregrasp_poses = true,
-               .squeeze = true},
-              file, "npz", options);
+  report_lost(grasps, everything(has_same_joints(grasps)), file, "npz", options);
   return npz_bytes(out);
 }
 

@@ -157,17 +157,7 @@ std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::st
     }
     out += '\n';
   }
-  report_lost(grasps,
-              {.dofs = true,
-               .epsilon = true,
-               .pregrasp_dofs = true,
-               .notes = true,
-               .files = true,
-               .joints = with_joints,
-               .contacts = true,
-               .pregrasp_poses = true,
-               .squeeze = true},
-              file, "csv", options);
+  report_lost(grasps, everything(with_joints), file, "csv", options);
   return out;
 }
 

@@ -26,6 +26,20 @@ struct Holds {
        object = true, files = false;
   bool joints = false, contacts = false, pregrasp_poses = false, squeeze = false;
 };
+
+/// Of the formats that hold all that JSON lines hold.
+/// joints  do the values of joints have the same names in all grasps?
+inline Holds everything(bool joints) {
+  return {.dofs = true,
+          .epsilon = true,
+          .pregrasp_dofs = true,
+          .notes = true,
+          .files = true,
+          .joints = joints,
+          .contacts = true,
+          .pregrasp_poses = true,
+          .squeeze = true};
+}
 /// Warns once of what the grasps have and the format does not hold:
 /// "g.yaml: the format isaac_grasp does not hold contacts and joint positions, which are not
 /// written"

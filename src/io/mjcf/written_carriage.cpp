@@ -8,7 +8,7 @@ namespace clench {
 // natural frequency of the servos, stiff as a robot arm and critically damped [rad/s]
 static constexpr double carriage_frequency = 200;
 // a base that turns by less has slides only [rad]
-static constexpr double least_turn = 1e-9;
+static constexpr double min_rotation = 1e-9;
 
 static constexpr const char* axis_names[] = {"carriage_x",    "carriage_y",     "carriage_z",
                                              "carriage_roll", "carriage_pitch", "carriage_yaw"};
@@ -54,7 +54,7 @@ Carriage plan_carriage(const SceneRequest& request, const WrittenScene& scene) {
   out.X_WB = scene.bodies[static_cast<size_t>(base)].X_WB;
   const bool turns = std::ranges::any_of(request.keys, [&](const WrittenKey& key) {
     const Pose& X = key.robots[static_cast<size_t>(request.carriage)];
-    return out.X_WB.rotation.angularDistance(X.rotation) > least_turn;
+    return out.X_WB.rotation.angularDistance(X.rotation) > min_rotation;
   });
   const Eigen::Vector3d gravity =
       request.world.gravity.value_or(Eigen::Vector3d(0, 0, -standard_gravity));
