@@ -103,7 +103,8 @@ FrictionSolution TreeFrictionSolver::solve(const TreeFriction& problem, const Ve
                               {true, 1e-4, 2},  {false, 1, 5},     {true, 0.1, 8}};
   for (const Effort& effort : efforts) {
     for (const Start& start : starts) {
-      if (solution.solved || !options.restarts) return solution;
+      if (solution.solved || solution.residual <= options.acceptable || !options.restarts)
+        return solution;
       solution.fell_back = true;
       r_ = start.best ? solution.r : VectorXd::Zero(problem.rows());
       approach(problem, start.damping, start.rho, effort, options.tolerance, progress, solution);

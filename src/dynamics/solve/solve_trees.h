@@ -10,6 +10,9 @@ struct TreeFrictionOptions {
   /// Largest residual of a solution [m/s]; rounding is allowed for in addition, as in
   /// FrictionOptions.
   double tolerance = 1e-12;
+  /// Largest residual that is good enough not to try other initial impulses and dampings [m/s]: the
+  /// last digits cost many times the ones before.
+  double acceptable = 1e-10;
   /// Try other initial impulses and dampings if the first ones fail.
   bool restarts = true;
 };

@@ -12,6 +12,8 @@ namespace clench {
 // Faults of a solution [m/s]: what is asked of the solver, and above what a step counts as failed:
 // a micrometre in a quarter of an hour.
 static constexpr double tolerance = 1e-12, failed_above = 1e-9;
+// A heap whose fault is below this is not solved again [m/s].
+static constexpr double acceptable = 1e-10;
 // An island that touches something, is slower than this and would gain no more than that under the
 // forces that it had rests: it stops, and its forces stay. That is a millionth of gravity.
 static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
@@ -168,16 +170,20 @@ FrictionSolution IslandSolver::solve_heap(const System& system, const StepProble
                                           const Progress& progress) {
   gather_trees(system, problem, island);
   const bool pushes = std::ranges::any_of(rows_, [&](int row) { return problem.push[row] != 0; });
-  TreeFrictionOptions by_trees{.tolerance = *options.tolerance, .restarts = !pushes};
+  TreeFrictionOptions by_trees{
+      .tolerance = *options.tolerance, .acceptable = acceptable, .restarts = !pushes};
+  const auto is_acceptable = [](const FrictionSolution& s) {
+    return s.solved || s.residual <= acceptable;
+  };
   FrictionSolution solution = tree_solver_.solve(trees_, warm_start_, by_trees, progress);
   int iterations = solution.iterations;
-  if (!solution.solved && leave_out_push(problem)) {
+  if (!is_acceptable(solution) && leave_out_push(problem)) {
     trees_.q = problem_.q;
     by_trees.restarts = true;
     solution = tree_solver_.solve(trees_, solution.r, by_trees, progress);
     solution.iterations = iterations += solution.iterations;
     solution.fell_back = true;
-    if (!solution.solved) {
+    if (!is_acceptable(solution)) {
       const FrictionSolution anew = tree_solver_.solve(trees_, warm_start_, by_trees, progress);
       iterations += anew.iterations;
       if (anew.solved || anew.residual < solution.residual) solution = anew;
@@ -185,7 +191,7 @@ FrictionSolution IslandSolver::solve_heap(const System& system, const StepProble
       solution.fell_back = true;
     }
   }
-  if (solution.solved || problem_.q.size() > max_dense_rows) return solution;
+  if (is_acceptable(solution) || problem_.q.size() > max_dense_rows) return solution;
   assemble(problem, island);
   const FrictionSolution dense = solver_.solve(problem_, warm_start_, options, progress);
   iterations += dense.iterations;
