@@ -324,17 +324,16 @@ local function round(patience)
   wake_due()
   local now_ready = ready
   ready = {}
-  while #now_ready > 0 do
-    local task = table.remove(now_ready, 1)
+  for i, task in ipairs(now_ready) do
     local ok, problem = pcall(resume, task)
-    if not ok then
-      for i, other in ipairs(now_ready) do table.insert(ready, i, other) end
-      error(problem, 0)
+    if not ok or stop_asked then
+      -- tasks that were not resumed stay before those that became ready meanwhile
+      local later = ready
+      ready = table.move(now_ready, i + 1, #now_ready, 1, {})
+      table.move(later, 1, #later, #ready + 1, ready)
     end
-    if stop_asked then
-      for i, other in ipairs(now_ready) do table.insert(ready, i, other) end
-      return
-    end
+    if not ok then error(problem, 0) end
+    if stop_asked then return end
   end
   if #ready > 0 then patience = 0 end
   local first = first_time()

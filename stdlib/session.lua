@@ -24,13 +24,34 @@ local function command_named(self, name)
   raise(("session:run: there is no command %s%s"):format(described(name), suggest(tostring(name), names)))
 end
 
---- Registers a command, in place of one of the same name.
----@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function}
----  name: "group.verb"; run(session, args); enabled(session): can it run now?; parameters: a list of {name =, type =, unit =, min =, max =, default =,
+local function check_enabled(self, command)
+  if not command.enabled then return end
+  local can, reason = command.enabled(self)
+  if can then return end
+  raise(("session:run: %s: the command cannot run now%s"):format(command.name, type(reason) == "string" and ": " .. reason or ""))
+end
+
+local max_depth = 20  -- of commands that run commands
+
+local function run_within(self, command, args)
+  if self.depth >= max_depth then
+    raise(("session:run: %s: commands that run commands are more than %d deep; does one run itself?"):format(command.name, max_depth))
+  end
+  self.depth = self.depth + 1
+  local _ <close> = setmetatable({}, {__close = function() self.depth = self.depth - 1 end})
+  return command.run(self, args)
+end
+
+--- Registers a command.
+---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean}
+---  name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =, type =, unit =, min =, max =, default =,
 ---  optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of Lua that do the same,
----  logged instead of the resulting state
+---  logged instead of the resulting state; replace: it may take the place of a command of the same name
 function Session:command(command)
   arguments.check_command(command)
+  if self.commands[command.name] and not command.replace then
+    raise(("session:command: there is a command '%s' already; replace = true puts another in its place"):format(command.name))
+  end
   self.commands[command.name] = command
 end
 
@@ -63,21 +84,21 @@ end
 function Session:run(name, args)
   local command = command_named(self, name)
   args = arguments.read(command, args)
-  if command.enabled and not command.enabled(self) then raise(("session:run: %s: the command cannot run now"):format(name)) end
+  check_enabled(self, command)
   if command.reads then
-    local result = command.run(self, args)
+    local result = run_within(self, command, args)
     self:emit("result", {command = name, result = result})
     return result
   end
   -- a command that another one runs is part of that one
-  if self.is_running then return command.run(self, args) end
+  if self.is_running then return run_within(self, command, args) end
   local before = history.state_of(self)
   self.is_running = true
   local lines
   local ok, result = pcall(function()
     -- the lines are made before the command runs, as it may change names
     lines = command.script and command.script(self, args)
-    local result = command.run(self, args)
+    local result = run_within(self, command, args)
     lines = lines or script.of_change(self, before)
     return result
   end)
@@ -131,7 +152,7 @@ function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
   if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
-  local session = setmetatable({commands = {}, subscribers = {}, selection = {}, stack = {}, history = history.new()}, Session)
+  local session = setmetatable({depth = 0, commands = {}, subscribers = {}, selection = {}, stack = {}, history = history.new()}, Session)
   for _, group in ipairs {"world", "body", "grasp", "dynamics"} do
     for _, command in ipairs(require("clench.session.commands_" .. group)) do session:command(command) end
   end

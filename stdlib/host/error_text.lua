@@ -8,6 +8,7 @@ local longest = 4000  -- characters; what says more says it to nobody
 local function words_of(value)
   local kind = type(value)
   if kind == "string" then return value end
+  if kind == "number" then return tostring(value) end
   local meta = getmetatable(value)
   if type(meta) == "table" and rawget(meta, "__tostring") ~= nil then
     local ok, text = pcall(tostring, value)

@@ -2,7 +2,7 @@
 local arguments = require "clench.session.arguments"
 local script = require "clench.session.script"
 
-local function has_world(session) return session.world ~= nil end
+local function has_world(session) return session.world ~= nil, "no world is open" end
 local body = {name = "body", type = "body", text = "address of a body or robot"}
 
 -- a command that sets one field of a body

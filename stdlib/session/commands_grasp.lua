@@ -3,7 +3,7 @@ local arguments = require "clench.session.arguments"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
 
-local function has_hand(session) return session.hand ~= nil end
+local function has_hand(session) return session.hand ~= nil, "no hand is current" end
 local hand = {name = "hand", type = "robot", optional = true, text = "address of a robot; the current hand by default"}
 
 -- a command that calls a method of the hand

@@ -5,7 +5,7 @@ local raise = require "clench.raise"
 local script = require "clench.session.script"
 
 local function world_of(session) return session.world or raise "session: no world is open" end
-local function has_world(session) return session.world ~= nil end
+local function has_world(session) return session.world ~= nil, "no world is open" end
 
 local path = {name = "path", type = "string", text = "a file"}
 local options = {name = "options", type = "table", optional = true, text = "of the function that reads it"}

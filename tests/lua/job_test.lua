@@ -66,6 +66,9 @@ test("errors of a job reach whoever asks for its result", function(t)
   local ok, problem = pcall(job.result, job)
   t.ok(not ok)
   t.equal(problem.kind, "file")
+  job = clench.job(function() error(42) end)
+  job:wait(10)
+  t.fails(function() job:result() end, "42")
   job = clench.job(function() return print end)
   job:wait(10)
   t.fails(function() job:result() end, "result 1: a function cannot be handed over")
@@ -131,6 +134,25 @@ test("a paused job waits", function(t)
   job:stop()
   t.ok(job:wait(10))
   t.equal(job.state, "stopped")
+end)
+
+test("a paused job leaves its core to queued ones, and takes one when it continues", function(t)
+  local paused = {}
+  for i = 1, clench.parallel.cores + 2 do
+    paused[i] = clench.job(function() while true do end end)
+    paused[i]:pause()
+  end
+  local job = clench.job(function() return 5 end)
+  t.ok(job:wait(20))
+  t.equal(job:result(), 5)
+  for _, other in ipairs(paused) do
+    other:resume()
+    other:stop()
+  end
+  for _, other in ipairs(paused) do
+    t.ok(other:wait(20))
+    t.equal(other.state, "stopped")
+  end
 end)
 
 test("progress of a job is a value", function(t)

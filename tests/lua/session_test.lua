@@ -128,7 +128,21 @@ test("a command that fails leaves the session as it was", function(t)
   t.equal(session.world:hash(), hash)
   t.fails(function() session:run "grasp.autogasp" end, "there is no command 'grasp.autogasp'", "did you mean 'grasp.autograsp'?")
   t.fails(function() session:run("body.remove", {body = "mgu"}) end, "there is no body or robot 'mgu'", "did you mean 'mug'?")
-  t.fails(function() clench.session():run "grasp.autograsp" end, "the command cannot run now")
+  t.fails(function() clench.session():run "grasp.autograsp" end, "the command cannot run now: no hand is current")
+  t.fails(function() session:run "dynamics.pop" end, "dynamics.pop: the command cannot run now: no state was pushed")
+  session:command {name = "mine.closed", run = print, enabled = function() return false end}
+  t.fails(function() session:run "mine.closed" end, "mine.closed: the command cannot run now")
+  session:command {name = "mine.self", run = function(s) s:run "mine.self" end}
+  t.fails(function() session:run "mine.self" end, "mine.self: commands that run commands are more than 20 deep; does one run itself?")
+  t.equal(session.world:hash(), hash)
+  session:run("body.mass", {body = "mug", mass = 0.3})  -- the depth is counted anew
+  session:undo()
+  local function nothing() end
+  t.fails(function() session:command {name = "grasp.open", run = nothing} end, "there is a command 'grasp.open' already; replace = true")
+  session:command {name = "grasp.open", run = nothing, replace = true}
+  session:run "grasp.open"
+  t.equal(session.world:hash(), hash)
+  session:undo()
   t.fails(function() session:subscribe("change", print) end, "expected 'changed'")
   t.fails(function() clench.session(3) end, "clench.session: expected a world, got 3")
 end)

@@ -49,17 +49,25 @@ Slots& slots() {
 thread_local bool holds_slot = false;
 thread_local const Job* job_of_thread = nullptr;
 
+// returns  did the thread hold one?
+bool lend_slot() {
+  if (!std::exchange(holds_slot, false)) return false;
+  slots().give();
+  return true;
+}
+
+void take_slot_back() {
+  // one that is stopped ends without waiting for others to give theirs
+  slots().take([] { return job_of_thread && job_of_thread->is_stop_asked(); });
+  holds_slot = true;
+}
+
 // Releases the slot of a job while it waits for another one, so that a queued job can run.
 class SlotLent {
  public:
-  SlotLent() : lent_(std::exchange(holds_slot, false)) {
-    if (lent_) slots().give();
-  }
+  SlotLent() : lent_(lend_slot()) {}
   ~SlotLent() {
-    if (!lent_) return;
-    // one that is stopped ends without waiting for others to give theirs
-    slots().take([] { return job_of_thread && job_of_thread->is_stop_asked(); });
-    holds_slot = true;
+    if (lent_) take_slot_back();
   }
   SlotLent(const SlotLent&) = delete;
   SlotLent& operator=(const SlotLent&) = delete;
@@ -217,6 +225,8 @@ void Job::run() {
   try {
     auto state = std::make_unique<State>(start_.memory);
     State& opened = *state;
+    // a paused job leaves its core to others
+    opened.on_hold([](bool held) { held ? void(lend_slot()) : take_slot_back(); });
     {
       const std::lock_guard lock(mutex_);
       state_ = std::move(state);

@@ -214,11 +214,18 @@ void State::interrupt() {
   if (running_ != L_) lua_sethook(running_, on_hook, all_events, 1);
 }
 
+// waits until `resume` or `end` is called
+void State::hold() {
+  if (on_hold_) on_hold_(true);
+  paused_.wait(true);
+  if (on_hold_) on_hold_(false);
+}
+
 void State::on_count(lua_State* L, lua_Debug*) {
   void* data = nullptr;
   lua_getallocf(L, &data);
   State& state = *static_cast<State*>(data);
-  if (!state.ended_) state.paused_.wait(true);
+  if (!state.ended_ && state.paused_) state.hold();
   if (!state.ended_) return;
   // raised at every instruction from now on, so that a script that catches the error ends, too
   lua_sethook(L, on_count, LUA_MASKCOUNT, 1);

@@ -2,8 +2,10 @@
 // a script can neither end the process by an error nor take all of the machine's memory.
 #pragma once
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct lua_Debug;
@@ -70,6 +72,9 @@ class State {
   /// `resume` or `end` is called. May be called from any thread.
   void pause() { paused_ = true; }
   void resume();
+  /// Called in the state's own thread: with true before the running chunk is held by `pause`, with
+  /// false before it continues. Must not throw; set before anything runs.
+  void on_hold(std::function<void(bool)> call) { on_hold_ = std::move(call); }
 
  private:
   struct Memory {
@@ -94,6 +99,8 @@ class State {
   lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
   std::atomic<int> interrupts_ = 0;        // since a run began
   std::atomic<bool> ended_ = false, paused_ = false;
+  std::function<void(bool)> on_hold_;
+  void hold();
   std::atomic<double> patient_until_ = 0;  // then an interruption can no longer be caught [s]
 };
 
