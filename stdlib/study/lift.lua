@@ -51,9 +51,9 @@ return function(options)
     rising:remove()
     return row
   end
-  if add("gravity", trial:watch(0.2)) and add("lift", lift()) then
+  if add("gravity", trial:watch_steady(0.2)) and add("lift", lift()) then
     trial:halt()
-    if hold > 0 then add("hold", trial:watch(hold)) end
+    if hold > 0 then add("hold", trial:watch_steady(hold)) end
   end
   return verdict.close(result)
 end

@@ -27,5 +27,5 @@ return function(options)
   bounds.check_force(read, "force", force, job.mass)
   local trial = new_trial(job)
   local result = verdict.new(trial, job, ("%g N along each axis for %g s"):format(force, seconds))
-  return push_along_axes(trial, job, result, seconds, function() return force end, {until_lost = until_lost})
+  return push_along_axes(trial, job, result, seconds, function() return force end, {until_lost = until_lost, is_steady = true})
 end

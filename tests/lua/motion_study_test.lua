@@ -42,6 +42,46 @@ test("a grasp held under a load comes to rest, and costs next to no more iterati
   end
 end)
 
+test("a trial under steady forces ends once nothing moves, with the verdict and displacements of the full time", function(t)
+  local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  local object = world:add_object(clench.shapes.box {0.03, 0.03, 0.02}, {mass = 0.1, pose = {xyz = hand.approach.point + hand.approach.direction * 0.02}})
+  hand:autograsp()
+  for _, load in ipairs {0.5, 100} do
+    local read = require "clench.options"("test", {hand = hand, object = object, mass = 0.1, grip_force = 10, max_distance = 0.005})
+    local trial = new_trial(read_motion(read, {gravity = clench.vec3(0, 0, 0)}))
+    trial:push(function() return hand.approach.direction * -load end)
+    local began = trial.world.time
+    local short = trial:watch_steady(4)
+    local took = trial.world.time - began
+    trial:reset()
+    local full = trial:watch(4)
+    t.ok(short.held == full.held and short.held == (load < 1) and short.time == full.time)
+    t.close(short.moved, full.moved, 1e-9)
+    t.close(short.turned, full.turned, 1e-7)
+    t.ok(took < 0.5)
+  end
+end)
+
+test("a trial at rest continues while anything else in its world moves", function(t)
+  local detector = require "clench.study.motion.rest".detector
+  local world = clench.world()
+  world.gravity = {0, 0, 0}
+  world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
+  local other = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 2}}})
+  local function parts_until_rest(count)
+    local at_rest = detector(world)
+    for part = 1, count do
+      world:run(0.01)
+      if at_rest() then return part end
+    end
+  end
+  t.equal(parts_until_rest(20), 5)
+  other.velocity = {linear = {0, 0, 0.1}, angular = {0, 0, 0}}
+  t.ok(parts_until_rest(20) == nil)
+end)
+
 test("a share of the friction is counted on, and a weaker one loses what a stronger one holds", function(t)
   local hand, flask, world = closed_on_flask()
   local static, kinetic = world:friction(hand.links[1].material, flask.material)

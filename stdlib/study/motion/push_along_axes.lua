@@ -10,13 +10,13 @@ local directions = {{"+x", clench.vec3(1, 0, 0)}, {"-x", clench.vec3(-1, 0, 0)},
 ---@param result table  of study.motion.verdict, gets `directions`
 ---@param seconds number  in each direction
 ---@param force fun(time: number): number  [N]
----@param options? {note?: fun(row: table), until_lost?: boolean}  note: completes a row; until_lost: the directions after the first one that is not held are left out
+---@param options? {note?: fun(row: table), until_lost?: boolean, is_steady?: boolean}  note: completes a row; is_steady: the force does not change; until_lost: the directions after the first one that is not held are left out
 return function(trial, job, result, seconds, force, options)
-  local note, until_lost = options and options.note, options and options.until_lost
+  local note, until_lost, steady = options and options.note, options and options.until_lost, options and options.is_steady
   for _, direction in ipairs(directions) do
     local row = verdict.attempt(trial, job, function()
       local push = trial:push(function(time) return direction[2] * force(time) end)
-      local watched = trial:watch(seconds)
+      local watched = steady and trial:watch_steady(seconds) or trial:watch(seconds)
       push:remove()
       return watched
     end)

@@ -2,6 +2,7 @@
 --- goes from where the hand held it then.
 local drives = require "clench.drives"
 local on_behalf_of = require "clench.on_behalf_of"
+local rest = require "clench.study.motion.rest"
 local share_friction = require "clench.study.motion.share_friction"
 
 local Trial = {}
@@ -184,10 +185,12 @@ end
 ---@param seconds number
 ---@param tick? fun(time: number)  called before each part of the time, with what has passed
 ---@param length? number  of the parts [s]
+---@param is_steady? boolean  forces and targets do not change: the run ends once nothing in the world moves
 ---@return {moved: number, turned: number, held: boolean, time?: number}  the largest displacement [m, rad]; time at which it was lost [s]
-function Trial:watch(seconds, tick, length)
+function Trial:watch(seconds, tick, length, is_steady)
   local from, row = self.held_at, {moved = 0, turned = 0, held = true}
   local parts = math.max(1, math.ceil(seconds / (length or every) - 1e-9))
+  local at_rest = rest.detector(self.world)
   for part = 1, parts do
     if tick then tick(seconds * (part - 1) / parts) end
     self.world:run(seconds / parts)
@@ -198,9 +201,13 @@ function Trial:watch(seconds, tick, length)
       row.held, row.time = false, seconds * part / parts
       break
     end
+    if is_steady and at_rest() then break end
   end
   return row
 end
+
+--- As watch, under forces and targets that do not change.
+function Trial:watch_steady(seconds) return self:watch(seconds, nil, nil, true) end
 
 --- Pushes the object at its centre of mass until the handle that it returns is removed.
 ---@param force fun(time: number): vec3  of the time since then [s], [N]
@@ -231,7 +238,7 @@ local function new_trial(job)
   local first = trial:pose()
   press(trial, job)
   trial.held_at = trial:pose()
-  trial.settled = trial:watch(math.max(job.settle, every))
+  trial.settled = trial:watch_steady(math.max(job.settle, every))
   trial.contacts = #world:contacts(hand, object)
   trial.grip_force = pressing_force(world, hand, object)
   trial.unlimited_efforts = drives.unlimited(hand)
