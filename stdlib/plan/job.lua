@@ -5,7 +5,6 @@ local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
 local deadline = require "clench.deadline"
-local described = require "clench.described"
 local is_stopped = require "clench.is_stopped"
 local is_timeout = require "clench.is_timeout"
 local closing = require "clench.plan.closing"
@@ -25,7 +24,7 @@ local largest_energy = 1e30
 
 local function check(read, name, kind)
   local value = read:raw(name)
-  if described(value) ~= kind then read:expected(name, kind, value) end
+  if clench.type(value) ~= kind then read:expected(name, "a " .. kind, value) end
   return value
 end
 
@@ -227,7 +226,7 @@ end
 return function(subject, given, own)
   local read = read_options(subject, given)
   local job = setmetatable({subject = subject, space = {}}, Job)
-  local hand, object = check(read, "hand", "a robot"), check(read, "object", "a body")
+  local hand, object = check(read, "hand", "robot"), check(read, "object", "body")
   local world = read:raw "world" or hand.world
   if clench.type(world) ~= "world" then read:expected("world", "a world", world) end
   if hand.world ~= world or object.world ~= world then

@@ -20,9 +20,12 @@
 //     when memory is out, and then leaks.)
 //  5. The doc is the sentence or two that a reader needs, then LuaCATS lines, then running
 //     examples. A field has `@type`; what follows two spaces is prose, with the unit in brackets:
-//         Closes the fingers until contact stops them. @param options? {speed?: number,
-//         stop_at_contact?: boolean}  speed 1: the hand's own pace @return table result  `moved`,
-//         `stops` > hand:autograsp().moved  --> true
+// clang-format off
+//         Closes the fingers until contact stops them.
+//         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1: the hand's own pace
+//         @return table result  `moved`, `stops`
+//         > hand:autograsp().moved  --> true
+// clang-format on
 //     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
 //     contains text. Examples run with clench, world, hand (closed on the flask), flask, grasp and
 //     patch (of a fingertip with the flask as rubber). The tests run every one of them; `clench

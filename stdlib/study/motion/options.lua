@@ -2,11 +2,10 @@
 local bounds = require "clench.study.motion.bounds"
 local read_vector = require "clench.study.motion.read_vector"
 local suspect = require "clench.suspect"
-local described = require "clench.described"
 
 local function check(read, name, kind)
   local value = read:raw(name)
-  if described(value) ~= kind then read:expected(name, kind, value) end
+  if clench.type(value) ~= kind then read:expected(name, "a " .. kind, value) end
   return value
 end
 
@@ -15,7 +14,7 @@ end
 ---@param default {mass?: number, gravity?: vec3, grip_force?: number, surroundings?: boolean}  mass: the object's, unless given; gravity: the world's; grip_force: ten weights
 ---@return table job
 return function(read, default)
-  local job = {subject = read.subject, hand = check(read, "hand", "a robot"), object = check(read, "object", "a body")}
+  local job = {subject = read.subject, hand = check(read, "hand", "robot"), object = check(read, "object", "body")}
   job.world = read:raw "world" or job.hand.world
   if clench.type(job.world) ~= "world" then read:expected("world", "a world", job.world) end
   if job.hand.world ~= job.world or job.object.world ~= job.world then read:fail("hand and object must be in the same world") end
