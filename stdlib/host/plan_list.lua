@@ -34,12 +34,22 @@ local function format_of(path, given)
   return {path = path, format = format, given_format = said}
 end
 
+-- the same name without its parts "." and its doubled slashes
+local function without_dots(path)
+  local parts = {}
+  for part in path:gmatch "[^/]+" do
+    if part ~= "." then parts[#parts + 1] = part end
+  end
+  return (path:find "^/" and "/" or "") .. table.concat(parts, "/")
+end
+
 -- all lists, the one that is written during the search first
 local function lists_of(given)
   local lists, known = {}, {}
   for i, path in ipairs(given.o) do
-    if known[path] then fail("-o: %s is given twice", path) end
-    known[path] = true
+    local plain = without_dots(path)
+    if known[plain] then fail("-o: %s is given twice", path) end
+    known[plain] = true
     lists[i] = format_of(path, given)
   end
   for i, list in ipairs(lists) do

@@ -50,6 +50,9 @@ TEST_CASE("a search is written in several formats at once") {
   const auto twice = run(barrett + "-o " + lines + " -o " + lines);
   CHECK(twice.code == 2);
   CHECK(has(twice.out, "-o: " + lines + " is given twice"));
+  const auto dotted = run(barrett + "-o " + lines + " -o /." + lines);
+  CHECK(dotted.code == 2);
+  CHECK(has(dotted.out, "is given twice"));
 }
 
 TEST_CASE("a list that exists is replaced or continued only as asked") {

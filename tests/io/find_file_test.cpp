@@ -48,6 +48,15 @@ TEST_CASE("back-slashes and another case are understood, an exact name goes firs
   CHECK(find_file("./Models/../b.iv", referrer, {}) == lower);
 }
 
+TEST_CASE("a file whose own name has a backslash is found before one in a folder") {
+  const TemporaryFolder folder;
+  folder.write("b\\c.off", "");
+  CHECK(find_file("b\\c.off", folder.path() / "x", {}) == folder.path() / "b\\c.off");
+  folder.write("b/c.off", "");
+  CHECK(find_file("b\\c.off", folder.path() / "x", {}) == folder.path() / "b\\c.off");
+  CHECK(find_file("b/c.off", folder.path() / "x", {}) == folder.path() / "b/c.off");
+}
+
 TEST_CASE("a near name in the same folder is suggested") {
   const TemporaryFolder folder;
   folder.write("models/flask.iv", "");

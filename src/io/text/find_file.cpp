@@ -1,6 +1,8 @@
 #include "clench/io/text/find_file.h"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "clench/base/file.h"
 #include "clench/base/suggest.h"
@@ -68,7 +70,10 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail(ErrorKind::file, "no such file: {}", in_quotes(name));
 
-  auto places = places_of(slashed, referrer, options);
+  // a backslash may belong to the name itself; that is tried first
+  std::vector<fs::path> places;
+  if (slashed != name) places = places_of(name, referrer, options);
+  std::ranges::copy(places_of(slashed, referrer, options), std::back_inserter(places));
   // of what lies outside nothing is asked, so that no answer tells what is there
   std::erase_if(places, [&](const auto& place) { return !lies_within(place, options.confine); });
   // a name from a file is quoted as all of it is; the user's own stands whole

@@ -138,11 +138,12 @@ std::string unescaped(const std::string& name) {
   return any ? out : "";
 }
 
-/// `name` has slashes and no blanks around it.
-fs::path find_by_scheme(const std::string& name, const fs::path& referrer,
+/// `given` has no blanks around it. Its backslashes are slashes, unless a file has them in its name.
+fs::path find_by_scheme(const std::string& given, const fs::path& referrer,
                         const ReadOptions& options) {
+  const std::string name = with_slashes(given);
   const size_t colon = scheme_length(name);
-  if (colon == 0) return find_file(name, referrer, options);
+  if (colon == 0) return find_file(given, referrer, options);
   const std::string scheme = lower_case(name.substr(0, colon)), rest = name.substr(colon + 1);
   if (scheme == "file") {
     // of file:///tmp/a.stl and file://localhost/tmp/a.stl the path is /tmp/a.stl
@@ -164,7 +165,7 @@ fs::path find_by_scheme(const std::string& name, const fs::path& referrer,
 
 fs::path find_robot_file(const std::string& given, const fs::path& referrer,
                          const ReadOptions& options) {
-  const std::string name = with_slashes(std::string(trim(given)));
+  const std::string name(trim(given));
   if (name.size() > 4096) fail("no such file: {}", in_quotes(name));
   const std::string plain = unescaped(name);
   if (plain.empty()) return find_by_scheme(name, referrer, options);
