@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "clench/geometry/round/round.h"
 
@@ -69,6 +70,9 @@ struct TouchingSide {
 
 double rolled_gap(const World& world, const Manifold& m, const ManifoldPoint& point, double h) {
   if (!world.dynamics()) return 0;
+  if (point.feature_a.kind != Feature::round && point.feature_b.kind != Feature::round) return 0;
+  const std::vector<Twist>& twists = world.dynamics()->twists;
+  if (twists[m.a.index].angular.isZero(0) && twists[m.b.index].angular.isZero(0)) return 0;
   const Vector3d n = world.pose(m.a).rotation * point.normal;
   const TouchingSide a(world, m, point, false, n, h), b(world, m, point, true, -n, h);
   if (!a.piece && !b.piece) return 0;
