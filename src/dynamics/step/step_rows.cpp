@@ -93,10 +93,11 @@ Eigen::Matrix3d RowBuilder::frame_of(const Manifold& m, int manifold,
 double RowBuilder::mobility(const TouchingPoint& touch) const {
   constexpr double at_axis = 1e-12;  // points this near to a joint's axis do not move [m/rad]
   const System::Place a = system_.place(touch.a), b = system_.place(touch.b);
+  for (const int tree : {a.tree, b.tree})
+    if (tree >= 0 && system_.trees[tree].size() > 0 && system_.trees[tree].floating) return 1;
   double most = 0;
   for (const int tree : {a.tree, b.tree}) {
     if (tree < 0 || system_.trees[tree].size() == 0) continue;
-    if (system_.trees[tree].floating) return 1;
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size(tree), 3);
     for (int k = 0; k < 3; ++k) {
       const auto& dynamics = problem_.trees[tree];
