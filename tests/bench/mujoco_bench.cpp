@@ -23,6 +23,16 @@ struct Tally {
   }
 };
 
+void print_lost(const GripVerdict& verdict) {
+  constexpr const char* directions[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  for (size_t d = 0; verdict.settled && d < verdict.pushes.size(); ++d) {
+    const PushVerdict& push = verdict.pushes[d];
+    if (!push.held)
+      std::printf(", lost along %s (%.1f mm, %.1f degrees)", directions[d], 1e3 * push.moved,
+                  57.29578 * push.turned);
+  }
+}
+
 Tally judge(const GripScene& scene, size_t limit, bool each, const GripOptions& options) {
   Tally out;
   for (size_t g = 0; g < std::min(limit, scene.grasps.size()); ++g) {
@@ -40,7 +50,10 @@ Tally judge(const GripScene& scene, size_t limit, bool each, const GripOptions& 
         std::printf(", lift %s (%.1f mm, %.1f degrees)", lifted.held ? "held" : "lost",
                     1e3 * lifted.moved, 57.29578 * lifted.turned);
     }
-    if (each) std::printf("\n");
+    if (each) {
+      print_lost(shaken);
+      std::printf("\n");
+    }
   }
   return out;
 }

@@ -66,17 +66,29 @@ local function describe_hand(hand_name)
   return describe.hand(hand)
 end
 
+-- The mean torsion radius of the contacts of each link, 0 of those that do not touch the object [m].
+local function torsion_radii(grasp, links)
+  local out = {}
+  for i, link in ipairs(links) do
+    local sum, count = 0, 0
+    for k, name in ipairs(grasp.links) do
+      if name == link.name then sum, count = sum + grasp.points[k].torsion_radius, count + 1 end
+    end
+    out[i] = count > 0 and sum / count or 0.0
+  end
+  return out
+end
+
 -- One grasp, with the torques with which the hand presses; joints of one DOF share its torque.
-local function row_of(scene, grasp, dofs)
+local function row_of(scene, grasp, description)
   local hand, object = scene.hand, scene.object
   local placed = grasp:apply(scene.world, {hand = hand, object = object})
   local weight = 9.81 * object.mass
   local torques = placed:contact_forces({objective = "max_margin", total_force = weights * weight}).joint_torques
-  for i, dof in ipairs(torques and dofs or {}) do torques[i] = torques[i] / dof.joints end
-  local torsion = 0
-  for _, point in ipairs(placed.points) do torsion = torsion + point.torsion_radius / #placed.points end
-  return {torsion_radius = torsion, pose = describe.pose(grasp.pose), dofs = hand.dofs, torques = torques, epsilon = grasp.epsilon, load = grasp.info.load_margin or 0,
-          held = grasp.info.directions_held or 0, survived = grasp.info.survived == 1, verified = true}
+  for i, dof in ipairs(torques and description.dofs or {}) do torques[i] = torques[i] / dof.joints end
+  return {pose = describe.pose(grasp.pose), dofs = hand.dofs, torques = torques, torsion_radii = torsion_radii(placed, description.links),
+          epsilon = grasp.epsilon, load = grasp.info.load_margin or 0, held = grasp.info.directions_held or 0,
+          survived = grasp.info.survived == 1, verified = true}
 end
 
 --- Writes the scene and its grasps for bench_mujoco.
@@ -86,7 +98,7 @@ function table_scene.save(scene, grasps, path)
   local out = {hand_name = scene.hand_name, object_name = scene.object_name, mu = mu, force = 9.81 * mass, hand = describe_hand(scene.hand_name),
                object = describe.body(scene.object), table = {point = {point.x, point.y, point.z}, up = {up.x, up.y, up.z}}, grasps = {}}
   local here <close> = scene.world:snapshot()
-  for i, grasp in ipairs(grasps) do out.grasps[i] = row_of(scene, grasp, out.hand.dofs) end
+  for i, grasp in ipairs(grasps) do out.grasps[i] = row_of(scene, grasp, out.hand) end
   scene.world:restore(here)
   clench.files.save_text(path, clench.json.encode(out))
 end

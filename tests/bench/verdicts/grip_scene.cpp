@@ -2,6 +2,9 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace clench::bench {
 
@@ -82,10 +85,14 @@ GripScene read_grip_scene(const std::string& path) {
                       .torques = {},
                       .epsilon = v.at("epsilon"),
                       .load = v.at("load"),
-                      .torsion_radius = v.value("torsion_radius", 0.0),
+                      .torsion_radii = v.value("torsion_radii", std::vector<double>()),
                       .verified = v.at("verified"),
                       .held = v.at("held"),
                       .survived = v.at("survived")};
+    if (!grasp.torsion_radii.empty() && grasp.torsion_radii.size() != out.links.size())
+      throw std::runtime_error(path + ": torsion_radii: expected one per link, " +
+                               std::to_string(out.links.size()) + ", got " +
+                               std::to_string(grasp.torsion_radii.size()));
     if (v.contains("torques")) grasp.torques = v.at("torques").get<std::vector<double>>();
     out.grasps.push_back(grasp);
   }

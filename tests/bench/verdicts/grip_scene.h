@@ -40,9 +40,9 @@ struct StoredGrasp {
   std::vector<double> dofs,
       torques;  // torques: of the motors, beside what holds the posture; empty: none found
   double epsilon = 0, load = 0;
-  // mean torsion radius of the contacts of soft fingers: friction resists torques about the normal
-  // up to mu times the force times this radius [m]
-  double torsion_radius = 0;
+  // mean torsion radius of each link's contacts: friction resists torques about the normal up to mu
+  // times the force times this radius; 0 of hard links, empty where all are [m]
+  std::vector<double> torsion_radii;
   bool verified = false;  // by `clench plan --verify`
   int held = 0;           // in how many of the six directions study.shake held it
   bool survived = false;

@@ -1,5 +1,6 @@
 #include "bench/verdicts/grip_test.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clench::bench {
@@ -41,12 +42,15 @@ GripVerdict shake(Grip& grip, const GripScene& scene, const GripOptions& options
     grip.restore();
     const Isometry3d from = grip.pose();
     const Vector3d force = (d % 2 == 0 ? 1 : -1) * scene.force * Vector3d::Unit(d / 2);
-    bool held = true;
-    for (int i = 0; held && i < steps(options.seconds); ++i) {
+    PushVerdict& push = out.pushes[d];
+    push.held = true;
+    for (int i = 0; push.held && i < steps(options.seconds); ++i) {
       grip.step(1, force);
-      held = !lost(between(from, grip.pose(), scene.object.com));
+      const Displacement by = between(from, grip.pose(), scene.object.com);
+      push.moved = std::max(push.moved, by.moved), push.turned = std::max(push.turned, by.turned);
+      push.held = !lost(by);
     }
-    out.held += held;
+    out.held += push.held;
   }
   out.survived = out.held == 6;
   return out;

@@ -1,5 +1,7 @@
 // The six-direction force test on a grasp as numbers, in any engine.
 #pragma once
+#include <array>
+
 #include "bench/verdicts/grip_scene.h"
 
 namespace clench::bench {
@@ -24,10 +26,17 @@ class Grip {
   virtual void restore() = 0;
 };
 
+/// Largest displacement of the object under a force.
+struct PushVerdict {
+  bool held = false;
+  double moved = 0, turned = 0;  // [m, rad]
+};
+
 struct GripVerdict {
   bool survived = false, settled = false;
-  int held = 0;                  // in how many directions
-  double moved = 0, turned = 0;  // until the hand held it [m, rad]
+  int held = 0;                       // in how many directions
+  double moved = 0, turned = 0;       // until the hand held it [m, rad]
+  std::array<PushVerdict, 6> pushes;  // along +x, -x, +y, -y, +z, -z
 };
 
 /// The grasp's torques are added within grip_seconds, and all comes to rest; then, each time from

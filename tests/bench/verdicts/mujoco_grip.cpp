@@ -28,7 +28,7 @@ class GripFile {
     for (auto* out : {&bodies, &actuators, &couplings, &assets_}) out->precision(12);
     write_link(0, bodies);
     bodies << "<body name=\"object\"><freejoint/>" << inertial(scene.object);
-    write_pieces(scene.object, "contype=\"2\" conaffinity=\"1\"", bodies);
+    write_pieces(scene.object, "contype=\"2\" conaffinity=\"1\"", 0, bodies);
     bodies << "</body>";
     if (lift) write_table(bodies);
     write_drives(kp, actuators, couplings);
@@ -69,21 +69,23 @@ class GripFile {
         << ' ' << I(0, 1) << ' ' << I(0, 2) << ' ' << I(1, 2) << "\"/>";
     return out.str();
   }
-  // torsional friction of patches becomes that of MuJoCo's contact points
-  std::string surface() const {
+  // Torsional friction of patches becomes that of MuJoCo's contact points; of the two bodies that
+  // touch, MuJoCo takes the larger coefficients and dimension.
+  std::string surface(double torsion_radius) const {
     std::ostringstream out;
-    out << "condim=\"" << (grasp_.torsion_radius > 0 ? 4 : 3) << "\" friction=\"" << scene_.mu
-        << ' ' << scene_.mu * grasp_.torsion_radius << " 0.0001\" solref=\"" << 4 * time_step
+    out << "condim=\"" << (torsion_radius > 0 ? 4 : 3) << "\" friction=\"" << scene_.mu << ' '
+        << scene_.mu * torsion_radius << " 0.0001\" solref=\"" << 4 * time_step
         << " 1\" solimp=\"0.95 0.99 0.0001\"";
     return out.str();
   }
-  void write_pieces(const GripBody& body, const std::string& kind, std::ostringstream& out) {
+  void write_pieces(const GripBody& body, const std::string& kind, double torsion_radius,
+                    std::ostringstream& out) {
     for (const Points& piece : body.pieces) {
       assets_ << "<mesh name=\"piece" << pieces_ << "\" vertex=\"";
       for (const Vector3d& p : piece) assets_ << row(p) << ' ';
       assets_ << "\"/>";
-      out << "<geom type=\"mesh\" mesh=\"piece" << pieces_++ << "\" " << kind << ' ' << surface()
-          << "/>";
+      out << "<geom type=\"mesh\" mesh=\"piece" << pieces_++ << "\" " << kind << ' '
+          << surface(torsion_radius) << "/>";
     }
   }
   void write_link(size_t i, std::ostringstream& out) {
@@ -96,7 +98,8 @@ class GripFile {
       out << "<joint name=\"lift\" type=\"slide\" axis=\""
           << row(grasp_.pose.linear().transpose() * scene_.table->up) << "\"/>";
     if (link.has_joint) write_joint(i, out);
-    write_pieces(link.body, "contype=\"1\" conaffinity=\"2\"", out);
+    write_pieces(link.body, "contype=\"1\" conaffinity=\"2\"",
+                 grasp_.torsion_radii.empty() ? 0 : grasp_.torsion_radii[i], out);
     for (size_t k = 1; k < scene_.links.size(); ++k)
       if (scene_.links[k].parent == static_cast<int>(i)) write_link(k, out);
     out << "</body>";
@@ -121,7 +124,7 @@ class GripFile {
     X.linear() = q.toRotationMatrix();
     X.translation() = scene_.table->point;
     out << "<geom type=\"plane\" size=\"1 1 0.1\" contype=\"1\" conaffinity=\"2\" " << placed(X)
-        << ' ' << surface() << "/>";
+        << ' ' << surface(0) << "/>";
   }
   // a servo at the first joint of each DOF, and its other joints coupled to that one
   void write_drives(double kp, std::ostringstream& actuators, std::ostringstream& couplings) const {
