@@ -54,7 +54,7 @@ local function separator_of(read)
 end
 
 --- Writes rows to a file, whole or not at all: what stood there stays when something is wrong.
----@param path string
+---@param path string  file to write
 ---@param rows table[]  of names and values: numbers, texts, true, false; what a row lacks stays empty
 ---@param options? {columns?: string[], separator?: string}  columns: in this order, by their names unless given; separator: "," by default, ";" or a tab
 --- > clench.csv.write("build/table.csv", {{object = "mug", epsilon = 0.25}, {object = "flask", note = "7"}})
@@ -84,7 +84,7 @@ function csv.write(path, rows, options)
 end
 
 --- Reads such a file, or anyone's: numbers, true and false as such, what stands in quotes as text, empty cells as nil.
----@param path string
+---@param path string  file to read
 ---@param options? {separator?: string, confine?: string}  separator: "," by default, ";" or a tab; confine: the folder below which it may lie
 ---@return table[] rows  of names and values, with the names in order as `columns`
 --- > clench.csv.read "no/such.csv"  --> error: no/such.csv

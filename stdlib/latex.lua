@@ -110,8 +110,8 @@ function latex.table(rows, options)
 end
 
 --- Writes such a table to a file, whole or not at all.
----@param path string
----@param rows table[]
+---@param path string  file to write
+---@param rows table[]  one table per row
 ---@param options? table  those of `table`
 --- > clench.latex.write("build/table.tex", {{object = "mug", epsilon = 0.25}})
 --- > clench.latex.write("no/such/folder/a.tex", {{a = 1}})  --> error: no such folder: no/such/folder

@@ -114,7 +114,7 @@ end
 function loop.time() return clock() end
 
 --- Starts a function as a coroutine of the loop. It runs from the next `run` on.
----@param f function
+---@param f function  function that runs as a coroutine of the loop
 ---@return table task # `status`: "waiting", "running", "done", "failed" or "removed"; `task:remove()` ends it
 --- > words = {}
 --- > clench.loop.spawn(function() clench.loop.sleep(0.02) words[#words + 1] = "late" end)
@@ -220,7 +220,7 @@ end
 
 --- Calls a function after some time, once.
 ---@param seconds number  [s]
----@param f function
+---@param f function  called once
 ---@return table task # `task:remove()` ends it
 --- > clench.loop.after(0.01, function() late = true end)
 --- > clench.loop.run()
@@ -229,7 +229,7 @@ function loop.after(seconds, f) return add_timer("after", seconds, f) end
 
 --- Calls a function again and again.
 ---@param seconds number  between two calls, and before the first [s]
----@param f function
+---@param f function  called again and again
 ---@return table task # `task:remove()` ends it
 --- > calls = 0
 --- > timer = clench.loop.every(0.01, function() calls = calls + 1 end)
@@ -244,7 +244,7 @@ end
 
 --- Calls a function whenever a descriptor is ready.
 ---@param descriptor integer  of a socket, a pipe, a terminal or a device
----@param f fun(descriptor: integer)
+---@param f fun(descriptor: integer)  called with the descriptor when it is ready
 ---@param event? "readable"|"writable"  "readable" by default
 ---@return table watch # `watch:remove()` ends it
 --- > clench.loop.on(-1, print)  --> error: expected a descriptor >= 0, got -1

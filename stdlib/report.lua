@@ -298,7 +298,7 @@ local readers = {
 --- One file, parsed: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
 --- `parsed` is a table of what its kind holds, all in metres, kilograms and radians; without it `error` says why.
 --- With `strict` so does the first sentence of what was repaired, not used or suspicious.
----@param path string
+---@param path string  file to check
 ---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used
 ---@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], error: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"

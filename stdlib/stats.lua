@@ -136,8 +136,8 @@ function stats.histogram(values, options)
 end
 
 --- The interval that holds a probability with 95 % confidence, after so many successes in so many trials. Source: Wilson (1927).
----@param successes integer
----@param trials integer
+---@param successes integer [>= 0]  number of successes
+---@param trials integer [>= 0]  number of trials
 ---@return {low: number, high: number}
 --- > i = clench.stats.interval(8, 10)
 --- > i.low < 0.5 and i.high > 0.9  --> true

@@ -142,7 +142,7 @@ local function make_folder(path) assert(os.execute("mkdir " .. path), "the folde
 
 --- A new temporary path with this ending; with a text, that of a file that holds it. It is removed at the end of `clench test`.
 ---@param ending? string  such as ".urdf"
----@param text? string
+---@param text? string  contents of the file; without it no file is written
 ---@return string
 function test.path(ending, text)
   if not folder then

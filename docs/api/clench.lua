@@ -9,12 +9,12 @@
 local vec3 = {}
 
 ---Scalar product.
----@param other vec3
+---@param other vec3 # other factor
 ---@return number
 function vec3:dot(other) end
 
 ---Vector product.
----@param other vec3
+---@param other vec3 # other factor
 ---@return vec3
 function vec3:cross(other) end
 
@@ -46,13 +46,13 @@ function pose:angle() end
 function pose:matrix() end
 
 ---A direction turned by the rotation alone.
----@param direction vec3
+---@param direction vec3 # direction in the frame of the pose
 ---@return vec3
 function pose:rotate(direction) end
 
 ---The pose between this one (t = 0) and another (t = 1): straight line, shortest turn.
----@param other pose
----@param t number
+---@param other pose # pose at t = 1
+---@param t number # part of the path from this pose to the other
 ---@return pose
 function pose:interpolate(other, t) end
 
@@ -61,8 +61,8 @@ function pose:interpolate(other, t) end
 local random = {}
 
 ---A number from low (included, default 0) to high (excluded, default 1).
----@param low? number
----@param high? number
+---@param low? number # lower bound
+---@param high? number # upper bound
 ---@return number
 function random:uniform(low, high) end
 
@@ -71,8 +71,8 @@ function random:uniform(low, high) end
 function random:normal() end
 
 ---An integer from low to high, both included, each as likely.
----@param low integer
----@param high integer
+---@param low integer # smallest result
+---@param high integer # largest result
 ---@return integer
 function random:integer(low, high) end
 
@@ -94,12 +94,12 @@ function random:rotation() end
 local world = {}
 
 ---The body of a name.
----@param name string
+---@param name string # name of the body
 ---@return body
 function world:body(name) end
 
 ---The robot of a name.
----@param name string
+---@param name string # name of the robot
 ---@return robot
 function world:robot(name) end
 
@@ -110,8 +110,8 @@ function world:robot(name) end
 function world:add_object(body, options) end
 
 ---Adds a body that only stands in the way; as add_object.
----@param body string|mesh|table
----@param options? table
+---@param body string|mesh|table # file name, mesh, or vertices and triangles, as world:add_object takes them
+---@param options? table # options of world:add_object, apart from those of moving bodies
 ---@return body
 function world:add_obstacle(body, options) end
 
@@ -122,7 +122,7 @@ function world:add_obstacle(body, options) end
 function world:add_robot(path, options) end
 
 ---Removes an object, an obstacle or a whole robot. Using it afterwards is an error that names it.
----@param entity body|robot
+---@param entity body|robot # body or robot to remove
 function world:remove(entity) end
 
 ---An independent copy that shares the meshes. Its bodies and robots are found by name, or by their places in its lists.
@@ -130,7 +130,7 @@ function world:remove(entity) end
 function world:clone() end
 
 ---Makes the world what a clone of it is: state, bodies, robots and settings. Bodies and robots that were removed after the clone was made are back under their old handles.
----@param clone world
+---@param clone world # clone of this world whose state is taken
 function world:become(clone) end
 
 ---The state of the world now, exact to the bit.
@@ -138,7 +138,7 @@ function world:become(clone) end
 function world:snapshot() end
 
 ---Goes back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is back, what was added since is gone.
----@param snapshot snapshot
+---@param snapshot snapshot # result of world:snapshot
 function world:restore(snapshot) end
 
 ---Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder beside it, and its state now as the reference posture and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that holds everything. The old file stays until the new one has been read again; what the format cannot hold is told in a warning.
@@ -193,12 +193,12 @@ local entity = {}
 local body = {}
 
 ---The same body in a clone of its world, or in the world of which its own is a clone.
----@param world world
+---@param world world # a clone of its world, or the world of which its own is a clone
 ---@return body
 function body:in_world(world) end
 
 ---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
----@param pose pose
+---@param pose pose # target pose in the world
 ---@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 function body:move_to(pose) end
 
@@ -231,8 +231,8 @@ function mesh:closest_point(point) end
 function mesh:contains(point) end
 
 ---Points of the surface at random, each piece of it as likely as its area, with the outward normals of their triangles.
----@param random random
----@param count integer
+---@param random random # source of the random numbers
+---@param count integer # number of points
 ---@return {point: vec3, normal: vec3, triangle: integer}[] # [m]
 function mesh:sample(random, count) end
 
@@ -256,13 +256,13 @@ function mesh:save(path) end
 local hand = {}
 
 ---Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
----@param amplitudes number[]
+---@param amplitudes number[] # one amplitude per eigengrasp
 ---@param options? {keep?: boolean, fixed?: integer[]} # keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
 ---@return integer[] clamped # numbers of the DOFs whose limit was in the way
 function hand:set_amplitudes(amplitudes, options) end
 
 ---Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
----@param amplitudes number[]
+---@param amplitudes number[] # one amplitude per eigengrasp
 ---@param options? {keep?: boolean, fixed?: integer[], stop_at_contact?: boolean} # keep and fixed as of set_amplitudes
 ---@return table result # as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
 function hand:move_amplitudes(amplitudes, options) end
@@ -273,7 +273,7 @@ function hand:move_amplitudes(amplitudes, options) end
 function hand:add_virtual_contact(contact) end
 
 ---Takes one out of its list.
----@param number integer
+---@param number integer # number of the contact, from 1
 function hand:remove_virtual_contact(number) end
 
 ---Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
@@ -282,7 +282,7 @@ function hand:remove_virtual_contact(number) end
 function hand:find_virtual_contacts(options) end
 
 ---Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
----@param path string
+---@param path string # file to write
 function hand:save_virtual_contacts(path) end
 
 ---What every robot knows of where its DOFs take its links: inverse kinematics and Jacobians.
@@ -303,7 +303,7 @@ function kinematics:ik(link, pose, options) end
 function kinematics:jacobian(link, point) end
 
 ---Values for all its DOFs, any within the limits as likely as any other; an endless DOF gets one within dof_limits, about where it is. Moves nothing.
----@param random random
+---@param random random # source of the random numbers
 ---@return number[] # [rad or m]
 function kinematics:random_posture(random) end
 
@@ -324,7 +324,7 @@ local dofs = {}
 function dofs:set_dofs(values, options) end
 
 ---Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs stop at their limits. All joints follow their DOFs.
----@param pose pose
+---@param pose pose # pose of the base in the world
 ---@param values number[]|table<string, number> # one per DOF, or some by name [rad or m]
 ---@return integer[]? # DOFs that stopped at a limit; nil: none
 function dofs:set_posture(pose, values) end
@@ -362,17 +362,17 @@ function dofs:open(options) end
 local robot = {}
 
 ---The same robot in a clone of its world, or in the world of which its own is a clone.
----@param world world
+---@param world world # a clone of its world, or the world of which its own is a clone
 ---@return robot
 function robot:in_world(world) end
 
 ---A link, or the base, by its name, whole or without the robot's.
----@param name string
+---@param name string # name of the link
 ---@return body
 function robot:link(name) end
 
 ---Moves the whole robot until it first touches something, as a body's move_to.
----@param pose pose
+---@param pose pose # target pose of the base in the world
 ---@return table result # `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 function robot:move_to(pose) end
 
@@ -388,7 +388,7 @@ function robot:approach_object(options) end
 function robot:place_approach(target, direction, standoff) end
 
 ---Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
----@param parent robot
+---@param parent robot # robot that carries this one
 ---@param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean} # chain 1 by default; pose of the base in the link; file of an adapter
 function robot:mount_on(parent, options) end
 
@@ -414,13 +414,13 @@ local eigengrasps = {}
 function eigengrasps:amplitudes(dofs) end
 
 ---DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own amplitudes is kept.
----@param amplitudes number[]
+---@param amplitudes number[] # one amplitude per eigengrasp
 ---@param options? {from?: number[]}
 ---@return number[] # [rad or m]
 function eigengrasps:dofs(amplitudes, options) end
 
 ---Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
----@param path string
+---@param path string # file to write; its ending selects the format
 function eigengrasps:save(path) end
 
 ---A place on a link where a hand would like to touch what it grasps; it moves with the link.
@@ -493,7 +493,7 @@ function forces:hand_jacobian() end
 local measures = {}
 
 ---A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and source. Infinite where there is nothing to measure, as the clearance of a hand alone. The world must stand as it did when the grasp was measured.
----@param measure string
+---@param measure string # name of a quality measure, from clench.measures
 ---@return number
 function measures:quality(measure) end
 
@@ -567,7 +567,7 @@ local grasp = {}
 function grasp:apply(world, options) end
 
 ---Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
----@param hand robot
+---@param hand robot # hand whose DOFs are wanted
 ---@param options? {dof_order?: string|string[]} # as `apply` takes it
 ---@return number[] dofs, number[]? pregrasp # [rad or m]
 function grasp:dofs_for(hand, options) end
@@ -650,20 +650,20 @@ function projection:render(options) end
 local picture = {}
 
 ---Writes a PNG file, with alpha where the background is transparent.
----@param path string
+---@param path string # file to write, .png
 function picture:save(path) end
 
 ---Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
----@param x integer
----@param y integer
+---@param x integer # column, from the left
+---@param y integer # row, from the top
 ---@return integer red
 ---@return integer green
 ---@return integer blue
 function picture:pixel(x, y) end
 
 ---How much a pixel covers, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
----@param x integer
----@param y integer
+---@param x integer # column, from the left
+---@param y integer # row, from the top
 ---@return integer alpha
 function picture:alpha(x, y) end
 
@@ -675,7 +675,7 @@ function picture:alpha(x, y) end
 local plot = {}
 
 ---Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
----@param path string
+---@param path string # file to write, .svg or .png
 function plot:save(path) end
 
 ---How far a script's loop is, as `clench.progress` shows it.
@@ -697,17 +697,17 @@ function progress:close() end
 local grasps = {}
 
 ---Adds a grasp at the end: its value as it is now, measures included.
----@param grasp grasp
+---@param grasp grasp # grasp to append
 ---@return integer count
 function grasps:add(grasp) end
 
 ---Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names what a format does not hold. The same list gives the same bytes.
----@param path string
+---@param path string # file to write; its ending selects the format
 ---@param options? {format?: string, notes?: table} # format: as clench.grasps takes it; notes: plain data about the list as such, for the head of JSON lines
 function grasps:save(path, options) end
 
 ---Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and folder may be written. Changes no file.
----@param path string
+---@param path string # file that is to be written; its ending selects the format
 ---@param options? {format?: string} # as of `save`
 ---@return string format
 function grasps:check_save(path, options) end
@@ -718,8 +718,8 @@ function grasps:check_save(path, options) end
 local energy = {}
 
 ---The same, but never below `low` nor above `high`; nil: no such bound.
----@param low? number
----@param high? number
+---@param low? number # lower bound
+---@param high? number # upper bound
 ---@return energy
 function energy:within(low, high) end
 
@@ -777,7 +777,7 @@ function this_job:show(value) end
 local annealing = {}
 
 ---Takes steps, each to a legal neighbour that is accepted or not.
----@param steps integer
+---@param steps integer # steps to take at most
 ---@return integer taken # fewer where 10,000 tries in a row found no legal neighbour
 function annealing:run(steps) end
 
@@ -806,37 +806,37 @@ function annealing:clear() end
 local world_settings = {}
 
 ---Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
----@param on boolean
----@param a? body|robot
----@param b? body|robot
+---@param on boolean # true: collisions count; false: they are ignored
+---@param a? body|robot # one of two; without both, the setting is for all
+---@param b? body|robot # the other of two; without it, all pairs of the first
 function world_settings:set_collision(on, a, b) end
 
 ---Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair collide whatever its bits are.
----@param entity body|robot
+---@param entity body|robot # body or robot to set
 ---@param bits? {type?: integer, affinity?: integer, fixed?: boolean} # type and affinity: 1 by default; fixed: is it fixed to the world? false by default
 function world_settings:set_collision_bits(entity, bits) end
 
 ---Sets the Coulomb coefficients of a pair of materials; new names become materials.
----@param a string
----@param b string
+---@param a string # name of a material
+---@param b string # name of the other material, or of the same
 ---@param friction number|{static: number, kinetic?: number, restitution?: number} # a number is both coefficients; kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 function world_settings:set_friction(a, b, friction) end
 
 ---The coefficients of a pair of materials.
----@param a string
----@param b string
+---@param a string # name of a material
+---@param b string # name of the other material, or of the same
 ---@return number static
 ---@return number kinetic
 ---@return number? restitution # where the pair has one of its own
 function world_settings:friction(a, b) end
 
 ---Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
----@param name string
+---@param name string # name of the keyframe
 ---@param states? table[] # {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 function world_settings:add_keyframe(name, states) end
 
 ---Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a robot that is carried stays on its carrier.
----@param name string
+---@param name string # name of the keyframe
 function world_settings:set_keyframe(name) end
 
 ---What every world answers: what collides, how far things are apart, where they touch, what a ray meets.
@@ -844,42 +844,42 @@ function world_settings:set_keyframe(name) end
 local world_queries = {}
 
 ---What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
----@param origin vec3
+---@param origin vec3 # first point of the ray in the world
 ---@param direction vec3 # of any length
 ---@param reach? number # how far it goes [m]; as far as there is something by default
 ---@return table?
 function world_queries:raycast(origin, direction, reach) end
 
 ---Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
----@param entity? body|robot
+---@param entity? body|robot # body or robot to test against all others
 ---@return boolean
 function world_queries:collides(entity) end
 
 ---Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
----@param a? body|robot
----@param b? body|robot
+---@param a? body|robot # one of two
+---@param b? body|robot # the other
 ---@param options? {max?: integer} # max: largest number of pairs, the first ones in creation order; all by default
 ---@return body[][] # pairs
 function world_queries:colliding(a, b, options) end
 
 ---Least distance of two things, 0 when they collide, with the closest points in the world frame.
----@param a body|robot
----@param b body|robot
+---@param a body|robot # one of two
+---@param b body|robot # the other
 ---@return number distance # [m]; infinite where one has no surface, and from a body to itself
 ---@return vec3 on_a
 ---@return vec3 on_b
 function world_queries:distance(a, b) end
 
 ---Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the world frame. It is at most 1 um + 0.1 % below the true one, and 0 only where the two do not overlap or just touch. Nothing is inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite where they cross.
----@param a body|robot
----@param b body|robot
+---@param a body|robot # one of two
+---@param b body|robot # the other
 ---@return number depth # [m]
 ---@return vec3? point # the deepest one; none where nothing overlaps
 function world_queries:penetration(a, b) end
 
 ---Where surfaces touch: everywhere, on one entity, or of `a` on `b`. After a step all that pressed in it are among them; a ball touches as a sphere, outside its facets.
----@param a? body|robot
----@param b? body|robot
+---@param a? body|robot # only contacts of this one
+---@param b? body|robot # only contacts between both
 ---@return contact[] # on b; without arguments on the object of each pair
 function world_queries:contacts(a, b) end
 
@@ -916,7 +916,7 @@ function world_dynamics:momentum() end
 function world_dynamics:energy() end
 
 ---What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing presses are left out.
----@param links body|body[]
+---@param links body|body[] # link or links whose contacts are averaged
 ---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
 function world_dynamics:average_contacts(links) end
 
@@ -925,19 +925,19 @@ function world_dynamics:average_contacts(links) end
 local world_control = {}
 
 ---Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world, not to its clones or snapshots.
----@param fn function
+---@param fn function # called after each step
 ---@param options? {rate?: number} # calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
 ---@return table handle # `remove()` ends it
 function world_control:on_step(fn, options) end
 
 ---Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
----@param fn function
+---@param fn function # function that runs as a coroutine in the time of the world
 ---@return table handle # `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
 function world_control:spawn(fn) end
 
 ---Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a, b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
----@param event string
----@param fn function
+---@param event string # name of the event
+---@param fn function # called at each such event
 ---@return table handle # `remove()` ends it
 function world_control:on(event, fn) end
 
@@ -1034,22 +1034,22 @@ function robot_dynamics:has_closed() end
 local clench = {}
 
 ---The type of a value: that of Lua, or the name of its class.
----@param value any
+---@param value any # any value
 ---@return string
 function clench.type(value) end
 
 ---Degrees to radians.
----@param degrees number
+---@param degrees number # angle
 ---@return number # [rad]
 function clench.rad(degrees) end
 
 ---Radians to degrees.
----@param radians number
+---@param radians number # angle
 ---@return number # [deg]
 function clench.deg(radians) end
 
 ---Millimetres to metres.
----@param millimetres number
+---@param millimetres number # length
 ---@return number # [m]
 function clench.mm(millimetres) end
 
@@ -1058,9 +1058,9 @@ function clench.mm(millimetres) end
 function clench.clock() end
 
 ---A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
----@param x number[]|number
----@param y? number
----@param z? number
+---@param x? number[]|number # first component, or a list of all three; without it all are 0
+---@param y? number # second component, when they are given one by one
+---@param z? number # third component
 ---@return vec3
 function clench.vec3(x, y, z) end
 
@@ -1070,20 +1070,20 @@ function clench.vec3(x, y, z) end
 function clench.pose(options) end
 
 ---The pose of a camera at `eye` that sees `target`: it looks along its -z, with y up, as `world.camera.pose`.
----@param eye vec3
----@param target vec3
+---@param eye vec3 # position of the camera
+---@param target vec3 # point that it looks at
 ---@param up? vec3 # {0, 0, 1} by default
 ---@return pose
 function clench.look_at(eye, target, up) end
 
 ---A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
----@param seed integer
+---@param seed integer # seed of the numbers: the same seed gives the same numbers
 ---@param item? integer # which of many streams, default 0
 ---@return random
 function clench.random(seed, item) end
 
 ---What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers stand.
----@param path string
+---@param path string # file to inspect
 ---@param options? {confine?: string}
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
 function clench.file_kind(path, options) end
@@ -1093,8 +1093,8 @@ function clench.file_kind(path, options) end
 function clench.catalog() end
 
 ---Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml, lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
----@param from string
----@param to string
+---@param from string # file to read
+---@param to string # file to write; its ending selects the format
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # of reading; of robots those of add_robot, too; of worlds `format`, as world:save takes it; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
 function clench.convert(from, to, options) end
@@ -1115,8 +1115,8 @@ function clench.world(options) end
 function clench.load(path, options) end
 
 ---The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
----@param hand robot
----@param object body
+---@param hand robot # hand that holds the object
+---@param object body # object that is held
 ---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
@@ -1136,7 +1136,7 @@ function clench.wrench_space(options) end
 function clench.eigengrasps(options) end
 
 ---Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display. What a picture needs is kept for the next one, which is drawn faster.
----@param world world
+---@param world world # world to draw
 ---@param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean} # size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 ---@return picture
 function clench.render(world, options) end
@@ -1164,12 +1164,12 @@ function clench.sheet(options) end
 
 ---Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end, or by `close`.
 ---@param total? integer|any[] # how many steps, or what to go through; without, only the text is shown
----@param text? string
+---@param text? string # what is in progress, shown before the bar
 ---@return progress
 function clench.progress(total, text) end
 
 ---A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture and measures, and `apply` puts them into a world.
----@param path? string
+---@param path? string # file of grasps to read; without it the list is empty
 ---@param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean} # format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
 ---@return grasps list, string? format # of the file
 function clench.grasps(path, options) end
@@ -1180,7 +1180,7 @@ function clench.grasps(path, options) end
 function clench.annealing(options) end
 
 ---Runs several chains at once, each in a world of its own; what they find does not depend on the number of threads.
----@param searches annealing[]
+---@param searches annealing[] # searches to advance
 ---@param steps integer[] # one per chain
 ---@param threads? integer # 1 by default
 ---@return integer[] taken # fewer than asked where no legal neighbour was found
@@ -1198,13 +1198,13 @@ function clench.job(task, options) end
 clench.json = {}
 
 ---A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
----@param value any
+---@param value any # plain data: nil, booleans, numbers, strings, lists and tables with names as keys
 ---@param options? {indent?: integer} # spaces per level; default: all on one line
 ---@return string
 function clench.json.encode(value, options) end
 
 ---The value of a JSON text. A null in a list is `clench.json.null`; in an object it is absent.
----@param text string
+---@param text string # JSON text
 ---@return any
 function clench.json.decode(text) end
 
@@ -1213,35 +1213,35 @@ function clench.json.decode(text) end
 clench.log = {}
 
 ---Calls a function, and returns what was logged meanwhile as values. Notes, warnings and errors are collected whatever the level is; nothing is printed, and no sink is called.
----@param f function
+---@param f function # function to call
 ---@param ... any # its arguments
 ---@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, about?: string, count: integer}[] diagnostics # file and line: the place in a file that is read; about: "inferred", "ignored", "repaired" or "suspicious"; equal messages are one, with their count
 ---@return any ... # what the function returns
 function clench.log.collect(f, ...) end
 
 ---Logs what only a developer wants to read.
----@param ... any
+---@param ... any # values of the message, as print takes them
 function clench.log.debug(...) end
 
 ---Logs what a user may want to know.
----@param ... any
+---@param ... any # values of the message, as print takes them
 function clench.log.info(...) end
 
 ---Logs what a user should know: what a file contains and the engine does not use, say.
----@param ... any
+---@param ... any # values of the message, as print takes them
 function clench.log.warning(...) end
 
 ---Logs what went wrong, and goes on.
----@param ... any
+---@param ... any # values of the message, as print takes them
 function clench.log.error(...) end
 
 ---Says from which level on messages are shown, and sets it if one is given.
----@param name? "debug"|"info"|"warning"|"error"|"quiet"
+---@param name? "debug"|"info"|"warning"|"error"|"quiet" # least severe level that is printed; without it the level stays
 ---@return string before
 function clench.log.level(name) end
 
 ---Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` says of what the reader of a file tells: what is "inferred", "ignored", "repaired" or "suspicious"; nil otherwise.
----@param fn? fun(level: string, text: string, about: string?)
+---@param fn? fun(level: string, text: string, about: string?) # called with each message in place of printing it; without it messages are printed again
 function clench.log.sink(fn) end
 
 ---The small files around hands and planners, read as tables and written from them.
@@ -1249,93 +1249,93 @@ function clench.log.sink(fn) end
 clench.files = {}
 
 ---Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return eigengrasps
 function clench.files.eigengrasps(path, options) end
 
 ---Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1, chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
 function clench.files.virtual_contacts(path, options) end
 
 ---Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the points out.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
 function clench.files.object_contacts(path, options) end
 
 ---Writes contacts on an object; without `edges` those of a point.
----@param path string
+---@param path string # file to write
 ---@param list {frame: pose, normal: vec3, mu?: number, edges?: number[][]}[] # in the object's frame
 function clench.files.save_object_contacts(path, list) end
 
 ---Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[] # [m]
 function clench.files.primitives(path, options) end
 
 ---Pre-grasps of a planner's list, in the object's frame.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {point: vec3, direction: vec3, thumb: vec3, spread: number}[] # [m, rad]
 function clench.files.pregrasps(path, options) end
 
 ---Writes a text as a file, whole or not at all: what stood there stays when it cannot be written.
----@param path string
----@param text string
+---@param path string # file to write
+---@param text string # contents of the file
 function clench.files.save_text(path, text) end
 
 ---Appends a text on a line of its own, whose end is added, with one call of the system: a process that is killed leaves all of it or nothing, and of a full disk no part remains. Creates the file if there is none.
----@param path string
----@param text string
+---@param path string # file to append to
+---@param text string # text to append
 function clench.files.append_text(path, text) end
 
 ---Checks that a file could be written there, before long work for instance: its folder exists, both may be written, and it is no folder, pipe or device. Changes no file.
----@param path string
+---@param path string # file that is to be written
 function clench.files.check_writable(path) end
 
 ---The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return string
 function clench.files.read_text(path, options) end
 
 ---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
 ---@param name string # for errors
----@param text string
+---@param text string # contents of a CSV file
 ---@param separator? string # "," by default, ";" or a tab
 ---@return table[] records # lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
 function clench.files.csv_records(name, text, separator) end
 
 ---A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
----@param text string
+---@param text string # text of the cell
 ---@param separator? string # "," by default, ";" or a tab
 ---@return string
 function clench.files.csv_text(text, separator) end
 
 ---Writes pre-grasps as a planner's list.
----@param path string
----@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
+---@param path string # file to write
+---@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[] # pregrasps in the frame of the object
 function clench.files.save_pregrasps(path, list) end
 
 ---How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {slopes: number[][], intercepts: number[]} # [rad per count, rad]
 function clench.files.glove_calibration(path, options) end
 
 ---Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the `distance` of fingertips that were to meet [m], and the hand's `pose`.
----@param path string
+---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean}
 ---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 function clench.files.glove_poses(path, options) end
 
 ---Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
 ---@param path string # .npz
----@param arrays table<string, number[]|number[][]>
+---@param arrays table<string, number[]|number[][]> # arrays by name, of one or two dimensions
 function clench.files.save_arrays(path, arrays) end
 
 ---The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
@@ -1345,8 +1345,8 @@ function clench.files.save_arrays(path, arrays) end
 function clench.files.arrays(path, options) end
 
 ---Writes pictures of one size as an animated GIF of up to 256 colours that plays again and again.
----@param path string
----@param pictures picture[]
+---@param path string # file to write
+---@param pictures picture[] # frames in order, all of one size
 ---@param options? {rate?: number, delays?: number[]} # rate: pictures a second, 10 by default [Hz]; delays: of each picture [0.01 s]
 function clench.files.save_gif(path, pictures, options) end
 

@@ -1,52 +1,17 @@
 --- The documentation from the bindings' own tables: pages for people, and a stub for editors (LuaCATS).
+local signature = require "clench.host.signature"
 local doc = {}
 
--- what stands before two blanks, and the prose after them
-local function split(line)
-  local head, prose = line:match "^(.-)%s%s+(.*)$"
-  return head or line, prose or ""
-end
-
--- "> code" alone prepares; "> code  --> result" shows
-local function add_example(parsed, line, prepared)
-  local code, result = line:match "^> (.-)%s*%-%->%s?(.*)$"
-  if not code then
-    prepared[#prepared + 1] = line:sub(3)
-    return prepared
-  end
-  parsed.examples[#parsed.examples + 1] = {prepare = prepared, code = code, result = result}
-  return {}
-end
-
-local function add_tag(parsed, tag, rest)
-  local head, prose = split(rest)
-  if tag == "param" then
-    local name, kind = head:match "^(%S+)%s+(.*)$"
-    parsed.params[#parsed.params + 1] = {name = name or head, type = kind or "any", text = prose}
-  elseif tag == "return" then
-    parsed.returns[#parsed.returns + 1] = {type = head, text = prose}
-  elseif tag == "type" then
-    parsed.type = {type = head, text = prose}
-  end
-end
-
---- The parts of an entry's doc: text, params, returns, type, examples, and what is prepared for no example.
+--- The parts of an entry's doc, as pages write them: text, params, returns, type, examples, and what is prepared for no example.
 ---@param text string
 function doc.parse(text)
-  local parsed = {text = "", params = {}, returns = {}, examples = {}}
-  local sentences, prepared = {}, {}
-  for line in (text .. "\n"):gmatch "(.-)\n" do
-    local tag, rest = line:match "^@(%l+)%s+(.*)$"
-    if line:sub(1, 2) == "> " then
-      prepared = add_example(parsed, line, prepared)
-    elseif tag then
-      add_tag(parsed, tag, rest)
-    elseif line ~= "" then
-      sentences[#sentences + 1] = line
-    end
+  local parsed = signature.parse(text)
+  parsed.params = {}
+  for i, item in ipairs(parsed.parameters) do
+    local name = item.name .. (item.optional and "?" or "")
+    local lines = item.fields and item.type == "table" and item.fields
+    parsed.params[i] = {name = name, type = signature.type_of(item), text = item.text, limits = signature.limits(item), options = lines or nil}
   end
-  parsed.text = table.concat(sentences, " ")
-  parsed.unused = #prepared
   return parsed
 end
 
@@ -63,11 +28,24 @@ end
 
 local function after(dash, text) return text ~= "" and dash .. text or "" end
 
---- a line for each parameter and result, and the examples
+-- calls visit("verify.lift?", option) for each option that stands on a line of its own, in order
+local function each_option(options, before, visit)
+  for _, option in ipairs(options or {}) do
+    visit(before .. option.name .. (option.optional and "?" or ""), option)
+    each_option(option.fields, before .. option.name .. ".", visit)
+  end
+end
+
+--- a line for each parameter, option and result, and the examples
 function doc.details(parsed)
   local lines = {}
   if parsed.type then lines[#lines + 1] = "type " .. parsed.type.type .. after("  ", parsed.type.text) end
-  for _, p in ipairs(parsed.params) do lines[#lines + 1] = ("%s: %s%s"):format(p.name, p.type, after("  ", p.text)) end
+  for _, p in ipairs(parsed.params) do
+    lines[#lines + 1] = ("%s: %s%s%s"):format(p.name, p.options and "table" or p.type, after(" ", p.limits), after("  ", p.text))
+    each_option(p.options, "", function(name, option)
+      lines[#lines + 1] = ("  %s: %s%s%s"):format(name, option.type, after(" ", signature.limits(option)), after("  ", option.text))
+    end)
+  end
   for _, r in ipairs(parsed.returns) do lines[#lines + 1] = "returns " .. r.type .. after("  ", r.text) end
   for _, e in ipairs(parsed.examples) do
     for _, code in ipairs(e.prepare) do lines[#lines + 1] = "> " .. code end
@@ -92,7 +70,12 @@ local function add_entry(page, subject, entry)
     page("\nType `%s`%s%s\n", parsed.type.type, after(" ", parsed.type.text), access(parsed.type.type, entry.settable))
   end
   if #parsed.params + #parsed.returns > 0 then page "\n" end
-  for _, p in ipairs(parsed.params) do page("- `%s`: `%s`%s\n", p.name, p.type, after(" – ", p.text)) end
+  for _, p in ipairs(parsed.params) do
+    page("- `%s`: `%s`%s%s\n", p.name, p.options and "table" or p.type, after(" ", p.limits), after(" – ", p.text))
+    each_option(p.options, "", function(name, option)
+      page("  - `%s`: `%s`%s%s\n", name, option.type, after(" ", signature.limits(option)), after(" – ", option.text))
+    end)
+  end
   for _, r in ipairs(parsed.returns) do page("- returns `%s`%s\n", r.type, after(" – ", r.text)) end
   if #parsed.examples == 0 then return end
   page "\n```lua\n"
@@ -170,7 +153,10 @@ local function packed_functions_of(file)
       comment[#comment + 1] = said
     else
       local name = line:match("^function " .. (unit or module) .. "%.([%w_]+)%(")
-      local offers = name or line:match "^return function%("
+      local single = line:match "^return function%("
+      local has_example = ("\n" .. table.concat(comment, "\n")):find("\n> ", 1, true)
+      -- a file outside of folders that returns one function is for scripts if its comment shows an example
+      local offers = name or single and (unit or has_example)
       if offers and #comment > 0 then
         local full = name and (folder or module .. ".") .. name or module
         found[#found + 1] = {name = full, line = number, doc = table.concat(comment, "\n")}
@@ -183,15 +169,16 @@ end
 
 --- Functions of the standard library that scripts find by name: what a module's init.lua offers, or its only file.
 ---@param files {path: string, text: string}[]
----@return {name: string, doc: string}[]
+---@return {name: string, doc: string, fn: function}[]
 function doc.packed_functions(files)
   local list = {}
   for _, file in ipairs(files) do
     for _, entry in ipairs(file.path:find "^host/" and {} or packed_functions_of(file)) do
-      local module, name = entry.name:match "^([%w_]+)%.([%w_]+)$"
-      local ok, offered = pcall(function() return clench[module][name] end)
+      local module, name = entry.name:match "^([%w_]+)%.?([%w_]*)$"
+      local ok, offered = pcall(function() return name == "" and clench[module] or clench[module][name] end)
       -- another unit of the folder may have a function of that name, which it does not offer
       if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then
+        entry.fn = offered
         list[#list + 1] = entry
       end
     end

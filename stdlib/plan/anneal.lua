@@ -5,7 +5,33 @@ local chain = require "clench.plan.chain"
 local closing = require "clench.plan.closing"
 
 --- Simulated annealing: one chain from a start to small energies; then the hand closes from each of the best states.
----@param options {hand: robot, object: body, energy?: string|energy|function, steps?: integer, seconds?: number, seed?: integer, schedule?: string|table, best?: table, grasp?: table, world?: world, threads?: integer, max_effort?: number}  energy: "contact" by default; steps: 70000; and what clench.annealing takes: position, posture, limits, jumps, values, targets, fixed, start, variables, collisions; grasp: options of clench.grasp; max_effort: of motors without a limit [N m or N]
+---@param options table  the hand, the object and how the search goes
+---@option hand robot  hand that grasps; it moves in a clone of its world
+---@option object body  object that is grasped
+---@option energy? string|energy|function = "contact"  objective, or its name in clench.energy
+---@option steps? integer [1 to 1000000000] = 70000  steps of annealing
+---@option seconds? number [s, > 0]  time limit, unlimited by default
+---@option seed? integer = 1  seed of the random numbers
+---@option schedule? string|table  as of clench.annealing
+---@option best? table  as of clench.annealing
+---@option position? string  as of clench.annealing
+---@option posture? string  as of clench.annealing
+---@option semi_axes? vec3  as of clench.annealing
+---@option limits? table  as of clench.annealing
+---@option jumps? table  as of clench.annealing
+---@option values? table  as of clench.annealing
+---@option targets? table  as of clench.annealing
+---@option fixed? string[]  as of clench.annealing
+---@option start? string  as of clench.annealing
+---@option variables? table  as of clench.annealing
+---@option collisions? boolean  as of clench.annealing
+---@option max_tries? integer  as of clench.annealing
+---@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
+---@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
+---@option grasp? table  options of clench.grasp
+---@option world? world  world of both that the planner moves instead of that of the hand
+---@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
 ---@return {grasps: grasps, report: table} # grasps in the order of their energies, each with its `pregrasp`, and `info.energy`, `info.step`, `info.seed`; report: steps, first, best, steps_per_second, accepted, in_collision, ..., trace, causes; chart() draws the best energy over the steps
 --- > run = clench.plan.anneal {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.best < run.report.first  --> 500, true

@@ -52,7 +52,20 @@ local function read_states(read, hand)
 end
 
 --- Tries a given list of states, of another planner, hand or file: the hand closes from each.
----@param options {hand: robot, object: body, states: grasps|table, approach?: number, energy?: string|energy|function, count?: integer, seconds?: number, world?: world, max_effort?: number}  states: grasps, from their pregrasps, or {pose = of the hand in the object, dofs =} each; approach: to the first touch, at most so far [m]; by default as far as the grasp came from its pregrasp, else 0; energy: noted with each, measured before it closes; max_effort: of motors without a limit [N m or N]
+---@param options table  the hand, the object and how the search goes
+---@option hand robot  hand that grasps; it moves in a clone of its world
+---@option object body  object that is grasped
+---@option states grasps|table  grasps, which begin at their pregrasps, or a list of {pose = of the hand in the object, dofs =}
+---@option approach? number [m, >= 0, <= 1000000]  longest travel to the first touch; by default as far as the grasp came from its pregrasp,
+---  else 0
+---@option energy? string|energy|function  noted with each grasp, measured before it closes
+---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
+---@option seconds? number [s, > 0]  time limit, unlimited by default
+---@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
+---@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@option grasp? table  options of clench.grasp
+---@option world? world  world of both that the planner moves instead of that of the hand
+---@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
 ---@return {grasps: grasps, report: table} # all in contact, the largest epsilon first
 --- > run = clench.plan.list {hand = hand, object = flask, states = {{pose = grasp.pose, dofs = grasp.dofs}, grasp}}
 --- > #run.grasps, run.report.candidates  --> 1, 2

@@ -91,7 +91,15 @@ end
 
 --- A search that goes on while hand and object move: each `planner:search()` looks around where they are now, and what was
 --- found is ranked by how near it is to the hand. Nothing of the user's world is moved.
----@param options {hand: robot, object: body, energy?: string|energy, seed?: integer, grasp?: table, posture?: string, world?: world, max_effort?: number}  energy: "contact"; max_effort: of motors without a limit [N m or N]
+---@param options table  the hand, the object and how the search goes
+---@option hand robot  hand that grasps; it moves in a clone of its world
+---@option object body  object that is grasped
+---@option energy? string|energy = "contact"  objective, one of the engine
+---@option seed? integer = 1  seed of the random numbers
+---@option posture? string  as of clench.annealing
+---@option grasp? table  options of clench.grasp
+---@option world? world  world of both that the planner moves instead of that of the hand
+---@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
 ---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs to go on with, `tested`, `found`
 --- > planner = clench.plan.online {hand = hand, object = flask}
 --- > list = planner:search(200)

@@ -78,7 +78,25 @@ end
 
 --- An object as boxes, spheres, cylinders and cones, each approached from all sides (Miller, Knoop, Christensen and Allen
 --- 2003): the hand comes to the first touch, closes, and where that holds nothing once more from a step further back.
----@param options {hand: robot, object: body, primitives?: string|table, root?: string, density?: integer, preshapes?: table, thumb?: vec3, rule?: string, seconds?: number, threads?: integer, count?: integer, on_grasp?: function, grasp?: table, world?: world, max_effort?: number}  primitives: a file of clench.files.primitives, or such a list; by default primitives/<name>.iv beside the object's file or below root/models/objects, else the primitives in its own file, else its bounding box: report.primitives says which; density: 2; preshapes: {opposing = dofs, circle = dofs}, otherwise derived; thumb: where it is, across the approach, in the frame of the hand's base; rule: "corrected" (default), or "graspit" with the original's sizes of boxes and limits; max_effort: of motors without a limit [N m or N]
+---@param options table  the hand, the object and how the search goes
+---@option hand robot  hand that grasps; it moves in a clone of its world
+---@option object body  object that is grasped
+---@option primitives? string|table  a file of clench.files.primitives, or such a list; by default primitives/<name>.iv beside the file of
+---  the object or below root/models/objects, else the primitives in its own file, else its bounding box: report.primitives names which
+---@option root? string  folder of GraspIt!
+---@option density? integer [1 to 100] = 2  density of the starts on each primitive
+---@option preshapes? table  {opposing = dofs, circle = dofs}, derived from the hand by default
+---@option thumb? vec3  direction to the thumb across the approach, in the frame of the base of the hand
+---@option rule? "corrected"|"graspit" = "corrected"  graspit: sizes of boxes and limits as in GraspIt!
+---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
+---@option seconds? number [s, > 0]  time limit, unlimited by default
+---@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
+---@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
+---@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
+---@option grasp? table  options of clench.grasp
+---@option world? world  world of both that the planner moves instead of that of the hand
+---@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
 ---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
 --- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
 --- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12

@@ -25,7 +25,38 @@ end
 --- Random approaches, by turns along the surface's normals to the first touch, and with thumb and fingers about two points that
 --- face each other, later also near those that succeeded; then the hand closes. What is in force closure is improved by small random changes and verified. Fast,
 --- diverse, and any number of threads gives the same grasps.
----@param options {hand: robot, object: body, count?: integer, candidates?: integer, seconds?: number, seed?: integer, threads?: integer, refine?: integer, verify?: boolean|table, standoff?: number, distance?: number, contacts?: "fingertip"|"power"|"any", touch?: table, keep_searching?: boolean, on_grasp?: function, on_progress?: function, grasp?: table, world?: world, max_effort?: number}  count: the best of those that were found when there were as many, 100; candidates: at most, 100000; refine: changes that are tried, 10; verify: {displacement: 0.001 [m], force_ratio: 10 weights of normal force, min_load: 2 weights, min_slippery_load: the same with half of the friction, 2 weights of grasps that are shaken, otherwise 0, min_epsilon: 0.01, lift: 0.1 [m], shake: true, false or options of study.shake: grasps are shaken by the object's weight, as the last stage; by default those in which no more than two fingers touch are, after they have held the weight with half of the friction; keep_lost: false, those that do not survive it are kept and marked}; standoff: of the middle between thumb and fingers before the surface, 0.15 [m]; distance: grasps nearer than that part of the object's radius, of half a turn and of the DOFs' ranges are alike, 0.1; contacts: fingertip: with the last links of fingers alone; power: with the palm as well; or touch = {must = names of links, or lists of which one must, may = names}, of any planner; keep_searching: false; true: the search continues until its time or its candidates run out, and the best `count` are kept; on_grasp(grasp): called as soon as one is found; on_progress(state): called as candidates are tried, with {candidates, grasps, rejected = counts by reason, elapsed [s], hint = a sentence that names which of friction, force and effort is too small}; grasp: options of clench.grasp; max_effort: of motors without a limit [N m or N]
+---@param options table  the hand, the object and how the search goes
+---@option hand robot  hand that grasps; it moves in a clone of its world
+---@option object body  object that is grasped
+---@option count? integer [1 to 1000000] = 100  the best of those that were found when there were as many
+---@option candidates? integer [1 to 1000000000] = 100000  largest number of candidates
+---@option seconds? number [s, > 0]  time limit, unlimited by default
+---@option seed? integer = 1  seed of the random numbers
+---@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
+---@option refine? integer [0 to 10000] = 10  changes that are tried to improve each grasp
+---@option verify? boolean|table = true  false: grasps are not verified; a table: how they are
+---@option verify.displacement? number [m, >= 0] = 0.001  largest displacement of the object
+---@option verify.force_ratio? number [>= 0] = 10  largest normal force, in weights of the object
+---@option verify.lift? number [m, >= 0] = 0.1  height of the lift
+---@option verify.min_epsilon? number [>= 0] = 0.01  smallest epsilon
+---@option verify.min_load? number [>= 0] = 2  load that is held, in weights of the object
+---@option verify.min_slippery_load? number [>= 0]  load that is held with half of the friction, in weights: 2 if grasps are shaken, else 0
+---@option verify.shake? boolean|table  true, false or options of study.shake: grasps are shaken by the weight of the object, as the last
+---  stage; by default those in which no more than two fingers touch are, after they have held the weight with half of the friction
+---@option verify.keep_lost? boolean = false  true: grasps that do not survive shaking are kept and marked
+---@option standoff? number [m, > 0, <= 10] = 0.15  distance of the middle between thumb and fingers from the surface at the start
+---@option distance? number [>= 0] = 0.1  grasps nearer than this part of the radius of the object, of half a turn and of the ranges of the
+---  DOFs are alike
+---@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
+---@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@option keep_searching? boolean = false  true: the search continues until its time or its candidates run out, and the best `count` are
+---  kept
+---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
+---@option on_progress? function  on_progress(state) is called as candidates are tried, with {candidates, grasps, rejected = counts by
+---  reason, elapsed [s], hint = a sentence that names which of friction, force and effort is too small}
+---@option grasp? table  options of clench.grasp
+---@option world? world  world of both that the planner moves instead of that of the hand
+---@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
 ---@return {grasps: grasps, report: table} # the largest epsilon first, and grasps from different sides if there were more than `count`; each with `info.load_margin` [weights] and `info.perturbed_epsilon`, of those that were shaken `info.directions_held` and `info.survived`, 1 or 0; report.survived, report.shaken: how many
 --- > run = clench.plan.sample {hand = hand, object = flask, count = 3, refine = 2}
 --- > run.grasps[1].epsilon > 0, run.report.candidates > 3  --> true, true

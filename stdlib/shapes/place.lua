@@ -20,7 +20,7 @@ local function check_vector(subject, what, v)
 end
 
 --- The shape moved by an offset.
----@param shape table
+---@param shape table  mesh as functions of clench.shapes return it
 ---@param offset number[]  {x, y, z} [m]
 ---@return table mesh
 function place.move(shape, offset)
@@ -30,7 +30,7 @@ function place.move(shape, offset)
 end
 
 --- The shape turned about an axis through a point.
----@param shape table
+---@param shape table  mesh as functions of clench.shapes return it
 ---@param axis number[]  {x, y, z}, of any length
 ---@param angle number  right-handed [rad]
 ---@param about? number[]  a point of the axis, else the origin [m]
@@ -49,7 +49,7 @@ function place.turn(shape, axis, angle, about)
 end
 
 --- The shape scaled about the origin, by one factor or by one for each axis.
----@param shape table
+---@param shape table  mesh as functions of clench.shapes return it
 ---@param factor number|number[]  > 0
 ---@return table mesh
 function place.scale(shape, factor)
@@ -65,8 +65,8 @@ function place.scale(shape, factor)
 end
 
 --- The shape mirrored in the plane through the origin at right angles to an axis.
----@param shape table
----@param axis "x"|"y"|"z"
+---@param shape table  mesh as functions of clench.shapes return it
+---@param axis "x"|"y"|"z"  axis whose coordinates change their sign
 ---@return table mesh
 function place.mirror(shape, axis)
   shape = mesh.check(shape, "shapes.mirror")

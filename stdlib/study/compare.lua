@@ -70,7 +70,7 @@ end
 
 --- Several measures of several grasps, side by side; `chart` draws them, one panel per measure, with the options title,
 --- width and height of clench.chart.
----@param grasps grasp[]|grasps
+---@param grasps grasp[]|grasps  grasps to measure
 ---@param options? {world?: world, measures?: string[], labels?: string[]}  world: in copies of which grasps of planners and files are applied, and measured; names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})

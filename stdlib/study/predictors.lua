@@ -80,7 +80,7 @@ end
 --- How well measures of quality predict whether a grasp survives the six-direction force test: for each the area under the ROC
 --- curve, the probability that of a survivor and a lost grasp the survivor has the better value. 0.5 is no better than chance. The interval holds it at 95 %
 --- (Hanley and McNeil 1982). The grasps, in any number of threads, are put into copies of the world.
----@param grasps grasp[]|grasps
+---@param grasps grasp[]|grasps  grasps to measure and to shake
 ---@param options {hand: robot, object: body, measures?: string[], shake?: table, threads?: integer}  measures: names as grasp:quality takes them, "load_margin" (times the object's weight that the hand holds in the worst of six directions, as the planners' verification has it) and "contacts"; shake: options of study.shake; threads: all cores
 ---@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}, without auc, low and high where all or none survived: there is nothing to compare; grasps: {survived, held, values}, or {error}, of each; chart: bars; plot: the curves
 --- > p = clench.study.predictors({grasp, grasp}, {hand = hand, object = flask, measures = {"epsilon"}, shake = {seconds = 0.1, settle = 0.1}})

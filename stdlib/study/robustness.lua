@@ -60,7 +60,7 @@ end
 --- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
 --- The centre of mass and rho are those with which the grasp was measured.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
----@param grasp grasp
+---@param grasp grasp  grasp to disturb
 ---@param options {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
 ---@return {count: integer, samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})

@@ -41,7 +41,7 @@ static const Entry control_methods[] = {
 Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that
 comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
 not to its clones or snapshots.
-@param fn function
+@param fn function  called after each step
 @param options? {rate?: number}  calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
 @return table handle  `remove()` ends it
 > count = 0
@@ -55,7 +55,7 @@ Has a function run beside the world, as a coroutine: fn(task). It goes on when `
 `task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives
 false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were
 spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
-@param fn function
+@param fn function  function that runs as a coroutine in the time of the world
 @return table handle  `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
 > task = world:spawn(function(task) task.wait(0.02) seen = world.time end)
 > world:run(0.05)
@@ -64,8 +64,8 @@ spawned; an error in one ends the run. A yield of nothing waits for the next ste
 Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a,
 b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a
 DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
-@param event string
-@param fn function
+@param event string  name of the event
+@param fn function  called at each such event
 @return table handle  `remove()` ends it
 > touched = {}
 > handle = world:on("contact", function(e) touched[#touched + 1] = e.b.name end)

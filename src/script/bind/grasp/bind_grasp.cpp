@@ -286,8 +286,8 @@ static int grasp_space(lua_State* L) {
 static const Entry grasp_functions[] = {
     {"grasp", guarded<measure>, R"(
 The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
-@param hand robot
-@param object body
+@param hand robot  hand that holds the object
+@param object body  object that is held
 @param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 @return grasp
 > clench.grasp(hand, flask):is_force_closure()  --> true
@@ -439,7 +439,7 @@ the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `do
 > grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
     {"dofs_for", guarded<dofs_for>, R"(
 Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
-@param hand robot
+@param hand robot  hand whose DOFs are wanted
 @param options? {dof_order?: string|string[]}  as `apply` takes it
 @return number[] dofs, number[]? pregrasp  [rad or m]
 > #grasp:dofs_for(hand) == #hand.dofs  --> true)"},

@@ -101,7 +101,7 @@ static const Entry grasps_functions[] = {
 A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and
 of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture
 and measures, and `apply` puts them into a world.
-@param path? string
+@param path? string  file of grasps to read; without it the list is empty
 @param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
 @return grasps list, string? format  of the file
 > list = clench.grasps()
@@ -119,14 +119,14 @@ and measures, and `apply` puts them into a world.
 static const Entry grasps_methods[] = {
     {"add", guarded<grasps_add>, R"(
 Adds a grasp at the end: its value as it is now, measures included.
-@param grasp grasp
+@param grasp grasp  grasp to append
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<grasps_save>, R"(
 Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
 `format`; a warning names what a format does not hold. The same list gives the same bytes.
-@param path string
+@param path string  file to write; its ending selects the format
 @param options? {format?: string, notes?: table}  format: as clench.grasps takes it; notes: plain data about the list as such, for the head of JSON lines
 > list = clench.grasps()
 > list:save("grasps.json")  --> error: .json may be several formats
@@ -137,7 +137,7 @@ Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head w
     {"check_save", guarded<grasps_check_save>, R"(
 Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and
 folder may be written. Changes no file.
-@param path string
+@param path string  file that is to be written; its ending selects the format
 @param options? {format?: string}  as of `save`
 @return string format
 > clench.grasps():check_save "build/grasps.csv"  --> csv

@@ -101,7 +101,7 @@ static const Entry measures_methods[] = {
 A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and
 source. Infinite where there is nothing to measure, as the clearance of a hand alone. The world must stand as it did when
 the grasp was measured.
-@param measure string
+@param measure string  name of a quality measure, from clench.measures
 @return number
 > grasp:quality "epsilon" > 0  --> true
 > grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true

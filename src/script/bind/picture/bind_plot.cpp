@@ -176,7 +176,7 @@ Its height [pixels].
 static const Entry plot_methods[] = {
     {"save", guarded<plot_save>, R"(
 Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
-@param path string
+@param path string  file to write, .svg or .png
 > clench.plot{series = {{y = {1, 2}}}}:save "build/line.svg"
 > clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},
 };

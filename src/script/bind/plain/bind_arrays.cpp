@@ -96,7 +96,7 @@ static const Entry arrays_functions[] = {
     {"save_arrays", guarded<save_arrays>, R"(
 Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
 @param path string  .npz
-@param arrays table<string, number[]|number[][]>
+@param arrays table<string, number[]|number[][]>  arrays by name, of one or two dimensions
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}, place = {{1, 2, 3}, {4, 5, 6}}})
 > clench.files.save_arrays("build/arrays.npz", {time = {0, "x"}})  --> error: time[2]: expected a number, got 'x')"},
     {"arrays", guarded<arrays>, R"(

@@ -108,7 +108,7 @@ static const Entry catalog_functions[] = {
     {"file_kind", guarded<kind_of_file>, R"(
 What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
 stand.
-@param path string
+@param path string  file to inspect
 @param options? {confine?: string}
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
 > clench.file_kind "models/objects/flask.iv"  --> body

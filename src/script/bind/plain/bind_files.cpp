@@ -220,14 +220,14 @@ static int glove_poses(lua_State* L) { return push(L, read_with(L, read_glove_po
 static const Entry files_functions[] = {
     {"eigengrasps", guarded<eigengrasps>, R"(
 Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return eigengrasps
 > clench.files.eigengrasps "no.egr"  --> error: no such file: no.egr)"},
     {"virtual_contacts", guarded<virtual_contacts>, R"(
 Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1,
 chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
 > path = os.tmpname() .. ".vgr"
@@ -238,13 +238,13 @@ chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list
     {"object_contacts", guarded<object_contacts>, R"(
 Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the
 points out.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
 > clench.files.object_contacts "no.txt"  --> error: no such file)"},
     {"save_object_contacts", guarded<save_object_contacts>, R"(
 Writes contacts on an object; without `edges` those of a point.
-@param path string
+@param path string  file to write
 @param list {frame: pose, normal: vec3, mu?: number, edges?: number[][]}[]  in the object's frame
 > path = os.tmpname()
 > clench.files.save_object_contacts(path, {{frame = {xyz = {0, 0, 0.1}}, normal = {0, 0, -1}, mu = 0.5}})
@@ -254,7 +254,7 @@ Writes contacts on an object; without `edges` those of a point.
     {"primitives", guarded<primitives>, R"(
 Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in
 primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[]  [m]
 > path = os.tmpname() .. ".iv"
@@ -266,7 +266,7 @@ primitives/<its name>.iv beside it are read instead, when that exists. y is the 
 > list[1].kind, list[1].size  --> box, (0.02, 0.03, 0.04))"},
     {"pregrasps", guarded<pregrasps>, R"(
 Pre-grasps of a planner's list, in the object's frame.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {point: vec3, direction: vec3, thumb: vec3, spread: number}[]  [m, rad]
 > path = os.tmpname()
@@ -276,15 +276,15 @@ Pre-grasps of a planner's list, in the object's frame.
 > list[1].direction, list[1].spread  --> (0, 0, -1), 1.0)"},
     {"save_text", guarded<save_text>, R"(
 Writes a text as a file, whole or not at all: what stood there stays when it cannot be written.
-@param path string
-@param text string
+@param path string  file to write
+@param text string  contents of the file
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
     {"append_text", guarded<append_text>, R"(
 Appends a text on a line of its own, whose end is added, with one call of the system: a process that is killed leaves all of it
 or nothing, and of a full disk no part remains. Creates the file if there is none.
-@param path string
-@param text string
+@param path string  file to append to
+@param text string  text to append
 > path = os.tmpname()
 > clench.files.append_text(path, "one")
 > clench.files.append_text(path, "two")
@@ -295,13 +295,13 @@ or nothing, and of a full disk no part remains. Creates the file if there is non
     {"check_writable", guarded<check_writable_file>, R"(
 Checks that a file could be written there, before long work for instance: its folder exists, both may be written, and it is no
 folder, pipe or device. Changes no file.
-@param path string
+@param path string  file that is to be written
 > clench.files.check_writable "build/note.txt"
 > clench.files.check_writable "build"  --> error: build: expected a file to write, got a folder
 > clench.files.check_writable "/dev/null"  --> error: /dev/null: expected a file to write, got a special file)"},
     {"read_text", guarded<read_whole>, R"(
 The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return string
 > clench.files.save_text("build/note.txt", "held")
@@ -310,7 +310,7 @@ The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are re
     {"csv_records", guarded<csv_records>, R"(
 Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
 @param name string  for errors
-@param text string
+@param text string  contents of a CSV file
 @param separator? string  "," by default, ";" or a tab
 @return table[] records  lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
 > records = clench.files.csv_records("a.csv", 'a,"7"\n1,2')
@@ -318,25 +318,25 @@ Cells of a text of comma-separated values, line by line, as texts; clench.csv re
 > clench.files.csv_records("a.csv", '"a')  --> error: a.csv:1: a quote that is not closed)"},
     {"csv_text", guarded<csv_text>, R"(
 A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
-@param text string
+@param text string  text of the cell
 @param separator? string  "," by default, ";" or a tab
 @return string
 > clench.files.csv_text "mug", clench.files.csv_text "7", clench.files.csv_text "a,b"  --> mug, "7", "a,b")"},
     {"save_pregrasps", guarded<save_pregrasps>, R"(
 Writes pre-grasps as a planner's list.
-@param path string
-@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]
+@param path string  file to write
+@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]  pregrasps in the frame of the object
 > clench.files.save_pregrasps("x.txt", {{point = {0, 0, 0}}})  --> error: list[1]: direction)"},
     {"glove_calibration", guarded<glove_calibration>, R"(
 How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {slopes: number[][], intercepts: number[]}  [rad per count, rad]
 > clench.files.glove_calibration "no.txt"  --> error: no such file)"},
     {"glove_poses", guarded<glove_poses>, R"(
 Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
 `distance` of fingertips that were to meet [m], and the hand's `pose`.
-@param path string
+@param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 > clench.files.glove_poses "no.txt"  --> error: no such file)"},

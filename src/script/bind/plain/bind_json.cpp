@@ -57,7 +57,7 @@ static const Entry json_functions[] = {
     {"encode", guarded<encode>, R"(
 A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay
 integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
-@param value any
+@param value any  plain data: nil, booleans, numbers, strings, lists and tables with names as keys
 @param options? {indent?: integer}  spaces per level; default: all on one line
 @return string
 > clench.json.encode{name = "flask", mass = 0.3, size = {1, 2.0}}  --> {"mass":0.3,"name":"flask","size":[1,2.0]}
@@ -65,7 +65,7 @@ integers. Poses and vectors are written too; functions, NaN and tables that cont
 > clench.json.encode{0 / 0}  --> error: value[1]: expected a finite number)"},
     {"decode", guarded<decode>, R"(
 The value of a JSON text. A null in a list is `clench.json.null`; in an object it is absent.
-@param text string
+@param text string  JSON text
 @return any
 > clench.json.decode '{"links": [1, 2.5, null]}'.links  --> {1, 2.5, null}
 > clench.json.decode '{"a": 1,}'  --> error: line 1, column 9: expected a name in double quotes, got '}')"},

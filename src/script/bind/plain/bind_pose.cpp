@@ -228,8 +228,8 @@ A rigid transform: the pose of one frame in another, within 1e9 m of it. The rot
 > clench.pose{xyz = {0, 0, 1e308}}  --> error: expected a position within 1e+09 m of the origin)"},
     {"look_at", guarded<look_at>, R"(
 The pose of a camera at `eye` that sees `target`: it looks along its -z, with y up, as `world.camera.pose`.
-@param eye vec3
-@param target vec3
+@param eye vec3 [m]  position of the camera
+@param target vec3 [m]  point that it looks at
 @param up? vec3  {0, 0, 1} by default
 @return pose
 > clench.look_at({1, 0, 0}, {0, 0, 0}):rotate{0, 0, -1}  --> (-1, 0, 0)
@@ -266,13 +266,13 @@ The homogeneous matrix.
 > clench.pose{xyz = {1, 2, 3}}:matrix()[1]  --> {1.0, 0.0, 0.0, 1.0})"},
     {"rotate", guarded<rotate>, R"(
 A direction turned by the rotation alone.
-@param direction vec3
+@param direction vec3  direction in the frame of the pose
 @return vec3
 > clench.pose{xyz = {1, 2, 3}, quat = {0, 0, 0, 1}}:rotate{1, 0, 0}  --> (-1, 0, 0))"},
     {"interpolate", guarded<interpolate_to>, R"(
 The pose between this one (t = 0) and another (t = 1): straight line, shortest turn.
-@param other pose
-@param t number
+@param other pose  pose at t = 1
+@param t number  part of the path from this pose to the other
 @return pose
 > clench.pose{}:interpolate(clench.pose{xyz = {4, 0, 0}}, 0.25).position  --> (1, 0, 0))"},
 };

@@ -87,7 +87,7 @@ Shows how far a loop is: a bar on a terminal, with the time that is left; nothin
 it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end,
 or by `close`.
 @param total? integer|any[]  how many steps, or what to go through; without, only the text is shown
-@param text? string
+@param text? string  what is in progress, shown before the bar
 @return progress
 > sum = 0
 > for i, word in clench.progress({"a", "bb"}, "counting") do sum = sum + i * #word end

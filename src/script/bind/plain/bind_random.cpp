@@ -57,7 +57,7 @@ static int rotation(lua_State* L) {
 static const Entry random_functions[] = {
     {"random", guarded<make_random>, R"(
 A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
-@param seed integer
+@param seed integer  seed of the numbers: the same seed gives the same numbers
 @param item? integer  which of many streams, default 0
 @return random
 > clench.random(1):uniform() == clench.random(1):uniform()  --> true
@@ -67,8 +67,8 @@ A stream of random numbers, fixed by a seed and the stream's number, the same on
 static const Entry random_methods[] = {
     {"uniform", guarded<uniform>, R"(
 A number from low (included, default 0) to high (excluded, default 1).
-@param low? number
-@param high? number
+@param low? number = 0  lower bound
+@param high? number = 1  upper bound
 @return number
 > x = clench.random(7):uniform(2, 3)
 > x >= 2 and x < 3  --> true)"},
@@ -78,8 +78,8 @@ A number of the normal distribution with mean 0 and deviation 1.
 > math.abs(clench.random(7):normal()) < 6  --> true)"},
     {"integer", guarded<integer>, R"(
 An integer from low to high, both included, each as likely.
-@param low integer
-@param high integer
+@param low integer  smallest result
+@param high integer  largest result
 @return integer
 > clench.random(7):integer(4, 4)  --> 4
 > clench.random(7):integer(5, 4)  --> error: expected low <= high, got 5 and 4)"},

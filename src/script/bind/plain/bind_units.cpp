@@ -30,23 +30,23 @@ static int type_of(lua_State* L) {
 static const Entry units_functions[] = {
     {"type", guarded<type_of>, R"(
 The type of a value: that of Lua, or the name of its class.
-@param value any
+@param value any  any value
 @return string
 > clench.type(hand), clench.type(clench.vec3(1, 2, 3)), clench.type {}  --> robot, vec3, table)"},
     {"rad", guarded<rad>, R"(
 Degrees to radians.
-@param degrees number
+@param degrees number [degrees]  angle
 @return number  [rad]
 > clench.rad(180) == math.pi  --> true
 > clench.rad "90"  --> error: clench.rad: degrees: expected a number, got '90')"},
     {"deg", guarded<deg>, R"(
 Radians to degrees.
-@param radians number
+@param radians number [rad]  angle
 @return number  [deg]
 > clench.deg(math.pi)  --> 180.0)"},
     {"mm", guarded<mm>, R"(
 Millimetres to metres.
-@param millimetres number
+@param millimetres number [mm]  length
 @return number  [m]
 > clench.mm(25)  --> 0.025)"},
     {"clock", guarded<clock_now>, R"(

@@ -73,9 +73,9 @@ static std::array<double, 3> numbers_of(const Vector3d& v) { return {v.x(), v.y(
 static const Entry vec3_functions[] = {
     {"vec3", guarded<make_vec3>, R"(
 A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
-@param x number[]|number
-@param y? number
-@param z? number
+@param x? number[]|number  first component, or a list of all three; without it all are 0
+@param y? number  second component, when they are given one by one
+@param z? number  third component
 @return vec3
 > clench.vec3(1, 2, 3)  --> (1, 2, 3)
 > clench.vec3{1, 2, 3} * 2 - {1, 1, 1}  --> (1, 3, 5)
@@ -102,12 +102,12 @@ Third coordinate.
 static const Entry vec3_methods[] = {
     {"dot", guarded<dot>, R"(
 Scalar product.
-@param other vec3
+@param other vec3  other factor
 @return number
 > clench.vec3(1, 2, 3):dot{1, 1, 1}  --> 6.0)"},
     {"cross", guarded<cross>, R"(
 Vector product.
-@param other vec3
+@param other vec3  other factor
 @return vec3
 > clench.vec3(1, 0, 0):cross{0, 1, 0}  --> (0, 0, 1))"},
     {"norm", method<[](const Vector3d& x) { return x.stableNorm(); }>, R"(

@@ -217,7 +217,7 @@ A chain of simulated annealing, to be run by hand: what `clench.plan` is made of
 > clench.annealing {hand = hand, object = flask, energy = search.run, limits = {Txx = {0, 1}}}  --> error: no search variable 'Txx')"},
     {"run_annealings", guarded<run_all>, R"(
 Runs several chains at once, each in a world of its own; what they find does not depend on the number of threads.
-@param searches annealing[]
+@param searches annealing[]  searches to advance
 @param steps integer[]  one per chain
 @param threads? integer  1 by default
 @return integer[] taken  fewer than asked where no legal neighbour was found
@@ -267,7 +267,7 @@ their ranges; `stuck`: how often all tries of a step failed.
 static const Entry annealing_methods[] = {
     {"run", guarded<run_search>, R"(
 Takes steps, each to a legal neighbour that is accepted or not.
-@param steps integer
+@param steps integer [>= 0]  steps to take at most
 @return integer taken  fewer where 10,000 tries in a row found no legal neighbour
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:run(3)  --> 3

@@ -371,8 +371,8 @@ Is it made of the engine's terms alone? One with a function of a script runs on 
 static const Entry energy_methods[] = {
     {"within", guarded<within>, R"(
 The same, but never below `low` nor above `high`; nil: no such bound.
-@param low? number
-@param high? number
+@param low? number  lower bound
+@param high? number  upper bound
 @return energy
 > clench.energy.contact {hand = hand, object = flask}:within(nil, 1)() <= 1  --> true)"},
 };

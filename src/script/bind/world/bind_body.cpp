@@ -93,7 +93,7 @@ static int body_in_world(lua_State* L) {
 static const Entry body_methods[] = {
     {"in_world", guarded<body_in_world>, R"(
 The same body in a clone of its world, or in the world of which its own is a clone.
-@param world world
+@param world world  a clone of its world, or the world of which its own is a clone
 @return body
 > copy = world:clone()
 > flask:in_world(copy).world == copy, flask:in_world(copy).name  --> true, flask
@@ -101,7 +101,7 @@ The same body in a clone of its world, or in the world of which its own is a clo
     {"move_to", guarded<body_move_to>, R"(
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
 remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
-@param pose pose
+@param pose pose  target pose in the world
 @return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 > cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})
 > floor = world:add_obstacle(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 7}}})

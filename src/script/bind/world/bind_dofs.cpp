@@ -277,7 +277,7 @@ springs, follow again, but for those that the options name by chain, joint and t
     {"set_posture", guarded<set_posture>, R"(
 Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs stop at their limits. All joints follow
 their DOFs.
-@param pose pose
+@param pose pose  pose of the base in the world
 @param values number[]|table<string, number>  one per DOF, or some by name [rad or m]
 @return integer[]?  DOFs that stopped at a limit; nil: none
 > hand:set_posture(hand.pose, hand.dofs)  --> nil

@@ -203,7 +203,7 @@ Amplitudes of the posture of the set that is nearest to DOF values; without them
     {"dofs", guarded<dofs>, R"(
 DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own
 amplitudes is kept.
-@param amplitudes number[]
+@param amplitudes number[]  one amplitude per eigengrasp
 @param options? {from?: number[]}
 @return number[]  [rad or m]
 > set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
@@ -212,7 +212,7 @@ amplitudes is kept.
 > set:dofs{1}  --> error: expected 2 amplitudes, got 1)"},
     {"save", guarded<eigengrasps_save>, R"(
 Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
-@param path string
+@param path string  file to write; its ending selects the format
 > hand.eigengrasps:save "eigengrasps.doc"  --> error: expected a file of eigengrasps, .egr or .xml, got '.doc')"},
 };
 

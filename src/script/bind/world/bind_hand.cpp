@@ -377,7 +377,7 @@ no effect.
 static const Entry hand_methods[] = {
     {"set_amplitudes", guarded<set_amplitudes>, R"(
 Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
-@param amplitudes number[]
+@param amplitudes number[]  one amplitude per eigengrasp
 @param options? {keep?: boolean, fixed?: integer[]}  keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
 @return integer[] clamped  numbers of the DOFs whose limit was in the way
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
@@ -388,7 +388,7 @@ Takes the posture that amplitudes of its eigengrasps stand for, whatever is in t
 > hand:set_amplitudes{1, 2}  --> error: expected 1 amplitudes, got 2)"},
     {"move_amplitudes", guarded<move_amplitudes>, R"(
 Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
-@param amplitudes number[]
+@param amplitudes number[]  one amplitude per eigengrasp
 @param options? {keep?: boolean, fixed?: integer[], stop_at_contact?: boolean}  keep and fixed as of set_amplitudes
 @return table result  as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
 > hand:move_amplitudes(hand.amplitudes, {keep = true}).moved  --> false)"},
@@ -402,7 +402,7 @@ Marks a place: where it touches now (a contact), or one in the frame of a link (
 > hand:add_virtual_contact{link = "thumb"}  --> error: has no link 'thumb')"},
     {"remove_virtual_contact", guarded<remove_virtual_contact>, R"(
 Takes one out of its list.
-@param number integer
+@param number integer  number of the contact, from 1
 > count = #hand.virtual_contacts
 > hand:remove_virtual_contact(1)
 > #hand.virtual_contacts == count - 1  --> true
@@ -416,7 +416,7 @@ speed along its normal, and one on the palm. Sets nothing.
 > #hand:find_virtual_contacts{count_per_link = 2, palm = false}  --> 24)"},
     {"save_virtual_contacts", guarded<save_virtual_contacts>, R"(
 Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
-@param path string
+@param path string  file to write
 > hand:save_virtual_contacts "sites.doc"  --> error: expected a file of virtual contacts, .vgr or .xml, got '.doc')"},
 };
 

@@ -93,7 +93,7 @@ axes, and a column for each DOF, with those of its joints that follow it.
     {"random_posture", guarded<random_posture>, R"(
 Values for all its DOFs, any within the limits as likely as any other; an endless DOF gets one
 within dof_limits, about where it is. Moves nothing.
-@param random random
+@param random random  source of the random numbers
 @return number[]  [rad or m]
 > hand.dofs = hand:random_posture(clench.random(1))
 > hand.dofs[12] == hand:random_posture(clench.random(1))[12]  --> true)"},

@@ -153,8 +153,8 @@ Does the solid hold a point of the body frame? An open mesh holds none.
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:contains {0.1, 0, 0.4}  --> true)"},
     {"sample", guarded<sample>, R"(
 Points of the surface at random, each piece of it as likely as its area, with the outward normals of their triangles.
-@param random random
-@param count integer
+@param random random  source of the random numbers
+@param count integer [0 to 1000000]  number of points
 @return {point: vec3, normal: vec3, triangle: integer}[]  [m]
 > points = flask.mesh:sample(clench.random(1), 3)
 > #points, flask.mesh:closest_point(points[1].point).distance < 1e-9  --> 3, true)"},

@@ -243,19 +243,19 @@ static int robot_in_world(lua_State* L) {
 static const Entry robot_methods[] = {
     {"in_world", guarded<robot_in_world>, R"(
 The same robot in a clone of its world, or in the world of which its own is a clone.
-@param world world
+@param world world  a clone of its world, or the world of which its own is a clone
 @return robot
 > copy = world:clone()
 > hand:in_world(copy).world == copy, hand:in_world(copy) == hand  --> true, false)"},
     {"link", guarded<link>, R"(
 A link, or the base, by its name, whole or without the robot's.
-@param name string
+@param name string  name of the link
 @return body
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
     {"move_to", guarded<robot_move_to>, R"(
 Moves the whole robot until it first touches something, as a body's move_to.
-@param pose pose
+@param pose pose  target pose of the base in the world
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:move_to(hand.pose).fraction  --> 1.0)"},
     {"approach_object", guarded<approach_object>, R"(
@@ -274,7 +274,7 @@ the way. See `approach`.
 > hand.approach.direction.z  --> -1.0)"},
     {"mount_on", guarded<mount_on>, R"(
 Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
-@param parent robot
+@param parent robot  robot that carries this one
 @param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
     {"dismount", method<[](const RobotHandle& x) { x.world->unmount(x.id); }>, R"(

@@ -217,13 +217,13 @@ File that the world was loaded from; empty when it was made by a script.
 static const Entry world_methods[] = {
     {"body", guarded<body>, R"(
 The body of a name.
-@param name string
+@param name string  name of the body
 @return body
 > world:body(flask.name) == flask  --> true
 > world:body "no such thing"  --> error: no body)"},
     {"robot", guarded<robot>, R"(
 The robot of a name.
-@param name string
+@param name string  name of the robot
 @return robot
 > world:robot(hand.name) == hand  --> true
 > world:robot "no such thing"  --> error: no robot)"},
@@ -238,8 +238,8 @@ give overrides the file.
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
 Adds a body that only stands in the way; as add_object.
-@param body string|mesh|table
-@param options? table
+@param body string|mesh|table  file name, mesh, or vertices and triangles, as world:add_object takes them
+@param options? table  options of world:add_object, apart from those of moving bodies
 @return body
 > world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {pose = {xyz = {0, 0, -2}}}).kind  --> obstacle)"},
     {"add_robot", guarded<add_robot>, R"(
@@ -250,7 +250,7 @@ Adds a robot from a file.
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
 Removes an object, an obstacle or a whole robot. Using it afterwards is an error that names it.
-@param entity body|robot
+@param entity body|robot  body or robot to remove
 > world:remove(flask)
 > flask.pose  --> error: was removed)"},
     {"clone", guarded<clone>, R"(
@@ -261,7 +261,7 @@ An independent copy that shares the meshes. Its bodies and robots are found by n
 > copy:hash() == world:hash()  --> true)"},
     {"become", guarded<become>, R"(
 Makes the world what a clone of it is: state, bodies, robots and settings. Bodies and robots that were removed after the clone was made are back under their old handles.
-@param clone world
+@param clone world  clone of this world whose state is taken
 > before = world:clone()
 > world:remove(flask)
 > world:become(before)
@@ -275,7 +275,7 @@ The state of the world now, exact to the bit.
     {"restore", guarded<restore>, R"(
 Goes back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is
 back, what was added since is gone.
-@param snapshot snapshot
+@param snapshot snapshot  result of world:snapshot
 > before, moment = world:hash(), world:snapshot()
 > hand:open()
 > world:restore(moment)

@@ -101,7 +101,7 @@ static int find_contacts(lua_State* L) {
 static const Entry world_queries_methods[] = {
     {"raycast", guarded<cast>, R"(
 What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
-@param origin vec3
+@param origin vec3 [m]  first point of the ray in the world
 @param direction vec3  of any length
 @param reach? number  how far it goes [m]; as far as there is something by default
 @return table?
@@ -111,22 +111,22 @@ What a ray meets first: `body`, `point`, `normal` out of its surface, `distance`
 > world:raycast({0, 0, 20}, {0, 0, -1}, 10)  --> nil)"},
     {"collides", guarded<collides>, R"(
 Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
-@param entity? body|robot
+@param entity? body|robot  body or robot to test against all others
 @return boolean
 > world:collides(hand)  --> false
 > world:collides()  --> false)"},
     {"colliding", guarded<colliding>, R"(
 Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
-@param a? body|robot
-@param b? body|robot
+@param a? body|robot  one of two
+@param b? body|robot  the other
 @param options? {max?: integer}  max: largest number of pairs, the first ones in creation order; all by default
 @return body[][]  pairs
 > #world:colliding()  --> 0
 > #world:colliding(nil, nil, {max = 10})  --> 0)"},
     {"distance", guarded<measure_distance>, R"(
 Least distance of two things, 0 when they collide, with the closest points in the world frame.
-@param a body|robot
-@param b body|robot
+@param a body|robot  one of two
+@param b body|robot  the other
 @return number distance  [m]; infinite where one has no surface, and from a body to itself
 @return vec3 on_a
 @return vec3 on_b
@@ -135,8 +135,8 @@ Least distance of two things, 0 when they collide, with the closest points in th
 Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the
 world frame. It is at most 1 um + 0.1 % below the true one, and 0 only where the two do not overlap or just touch. Nothing is
 inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite where they cross.
-@param a body|robot
-@param b body|robot
+@param a body|robot  one of two
+@param b body|robot  the other
 @return number depth  [m]
 @return vec3? point  the deepest one; none where nothing overlaps
 > box = world:add_object(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 9}}})
@@ -146,8 +146,8 @@ inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if 
     {"contacts", guarded<find_contacts>, R"(
 Where surfaces touch: everywhere, on one entity, or of `a` on `b`. After a step all that pressed in it are among them; a ball touches
 as a sphere, outside its facets.
-@param a? body|robot
-@param b? body|robot
+@param a? body|robot  only contacts of this one
+@param b? body|robot  only contacts between both
 @return contact[]  on b; without arguments on the object of each pair
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
 };

@@ -217,24 +217,24 @@ Names of its named states, those of its file first; `set_keyframe` goes there.
 static const Entry world_settings_methods[] = {
     {"set_collision", guarded<set_collision>, R"(
 Switches collision on or off: for the whole world, for one entity against everything, or for a pair.
-@param on boolean
-@param a? body|robot
-@param b? body|robot
+@param on boolean  true: collisions count; false: they are ignored
+@param a? body|robot  one of two; without both, the setting is for all
+@param b? body|robot  the other of two; without it, all pairs of the first
 > world:set_collision(false, hand, flask)
 > #world:contacts(hand, flask)  --> 0)"},
     {"set_collision_bits", guarded<set_collision_bits>, R"(
 Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the
 affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair
 collide whatever its bits are.
-@param entity body|robot
+@param entity body|robot  body or robot to set
 @param bits? {type?: integer, affinity?: integer, fixed?: boolean}  type and affinity: 1 by default; fixed: is it fixed to the world? false by default
 > world:set_collision_bits(flask, {type = 2, affinity = 2})
 > world:set_collision_bits(hand, {type = 4})
 > #world:contacts(hand, flask)  --> 0)"},
     {"set_friction", guarded<set_friction>, R"(
 Sets the Coulomb coefficients of a pair of materials; new names become materials.
-@param a string
-@param b string
+@param a string  name of a material
+@param b string  name of the other material, or of the same
 @param friction number|{static: number, kinetic?: number, restitution?: number}  a number is both coefficients; kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
 > world:set_friction("cork", "wood", {static = 0.7})
 > world:set_friction("cork", "cork", 0.6)
@@ -242,15 +242,15 @@ Sets the Coulomb coefficients of a pair of materials; new names become materials
 > world:set_friction("wood", 0.5)  --> error: expected a pair of materials)"},
     {"friction", guarded<friction>, R"(
 The coefficients of a pair of materials.
-@param a string
-@param b string
+@param a string  name of a material
+@param b string  name of the other material, or of the same
 @return number static
 @return number kinetic
 @return number? restitution  where the pair has one of its own
 > world:friction("rubber", "stone")  --> 1.5, 1.4)"},
     {"add_keyframe", guarded<add_keyframe>, R"(
 Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
-@param name string
+@param name string  name of the keyframe
 @param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 > world:add_keyframe "closed"
 > world:add_keyframe("away", {{body = flask, pose = {xyz = {9, 0, 0}}}})
@@ -263,7 +263,7 @@ Gives a name to a state: to that of now, or to one that a list tells. A keyframe
     {"set_keyframe", guarded<set_keyframe>, R"(
 Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a
 robot that is carried stays on its carrier.
-@param name string
+@param name string  name of the keyframe
 > world:add_keyframe "closed"
 > hand:open()
 > world:set_keyframe "closed"
