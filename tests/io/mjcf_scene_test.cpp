@@ -1,6 +1,7 @@
 // Scenes of MJCF as worlds.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
+#include "clench/io/write_mjcf.h"
 #include "support/meshes.h"
 #include "temporary.h"
 #include "told_robot.h"
@@ -396,8 +397,6 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
   CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
-  CHECK(failure("<light/>")
-            .ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
   // what stands there is named
   CHECK(failure("<geom type='hfield' hfield='h'/>") ==
         "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of "
@@ -405,6 +404,58 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
   CHECK(failure("<geom type='sdf'/><body><geom type='hfield'/></body>") ==
         "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of "
         "type hfield, sdf");
+}
+
+TEST_CASE("an empty <worldbody> is an empty world; one of which nothing is read is refused") {
+  CHECK(ToldWorld("").world.bodies.empty());
+  CHECK(ToldWorld("").warnings.empty());
+  CHECK(ToldWorld("", "<option timestep='0.002'/>").world.time_step == 0.002);
+  CHECK(ToldWorld("<light/>").warned("<light> is not used"));
+  for (const char* lost : {"<body name='a'/>", "<flexcomp name='a'/>"})
+    CHECK(failure(lost).ends_with("scene.xml: expected bodies or geoms in <worldbody>, got none"));
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(read_world(folder.write("none.xml", "<mujoco model='m'/>")),
+                       doctest::Contains("expected bodies or geoms in <worldbody>, got none"),
+                       Error);
+}
+
+TEST_CASE("an empty world comes back from MJCF without a warning") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "empty.xml";
+  std::vector<std::string> warnings;
+  WorldSpec written;
+  written.contact_threshold = 0.0003;
+  const auto friction = [](const std::string&, const std::string&) {
+    return std::array<double, 2>{1, 1};
+  };
+  write_mjcf({.world = written, .friction = friction, .name = "empty", .time_step = 0.002}, path);
+  const WorldSpec world =
+      read_world(path, {.warn = [&](const std::string& s) { warnings.push_back(s); }});
+  CHECK(world.bodies.empty());
+  CHECK(world.robots.empty());
+  CHECK(warnings == std::vector<std::string>{});
+  CHECK(world.contact_threshold == 0.0003);
+  CHECK(world.time_step == 0.002);
+}
+
+TEST_CASE("settings of MuJoCo's solver are reported unless they are those that are written here") {
+  const auto told = [](const std::string& step, const std::string& geom,
+                       const std::string& option) {
+    return ToldWorld(mug, "<option timestep='" + step + "' " + option + "/><default><geom " + geom +
+                              "/></default><size njmax='9' nuserdata='3'/>");
+  };
+  const std::string stiff = "margin='0.0002' solref='0.008 1' solimp='0.95 0.99 0.0001'";
+  const auto ours = told("0.002", stiff, "cone='elliptic' impratio='10' integrator='implicit'");
+  CHECK(ours.warnings.size() == 1);
+  CHECK(ours.warned("of <size>, here and further on, not used: nuserdata"));
+  CHECK(ours.world.contact_threshold == 0.0002);
+  // stiff for another time step
+  const auto other = told("0.001", stiff, "cone='pyramidal' impratio='1' integrator='RK4'");
+  CHECK(other.warned("not used: margin, solimp, solref"));
+  CHECK(other.warned("not used: cone, impratio, integrator"));
+  CHECK(!other.world.contact_threshold);
+  CHECK(told("0.002", "margin='1' solref='0.008 1' solimp='0.95 0.99 0.0001'", "")
+            .warned("not used: margin, solimp, solref"));
 }
 
 TEST_CASE("a scene's time step is the world's") {

@@ -7,6 +7,7 @@
 #include "clench/io/mjcf/mjcf_couplings.h"
 #include "clench/io/mjcf/mjcf_expand.h"
 #include "clench/io/mjcf/mjcf_spring_damper.h"
+#include "clench/io/mjcf/solver_settings.h"
 #include "clench/io/tree/tree_robot.h"
 
 namespace clench {
@@ -17,13 +18,17 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
       document_(path, cache),
       geoms_(expand_mjcf(document_, cache), cache, whole == std::string_view("world")),
       contacts_(document_, cache) {
+  accept_written_settings(document_);
   name_ = document_.root().element.attribute("model").value_or("");
   if (name_.empty()) name_ = document_.path().stem().string();
-  std::vector<std::string_view> known = {"compiler", "default",  "asset",  "worldbody",
-                                         "contact",  "equality", "tendon", "actuator"};
+  std::vector<std::string_view> known = {"compiler", "default", "asset",    "worldbody", "contact",
+                                         "equality", "tendon",  "actuator", "size"};
   if (whole == std::string_view("world")) known.insert(known.end(), {"option", "keyframe"});
   for (const auto& node : document_.root().children)
-    if (std::find(known.begin(), known.end(), node.name()) == known.end()) leave_out(node);
+    if (std::find(known.begin(), known.end(), node.name()) == known.end())
+      leave_out(node);
+    else if (node.name() == "size")
+      document_.unused().attributes(node.element, {});
   worldbody_ = read_worldbody(document_, whole);
   names_.add(document_.root());
   for (const MjcfNode* node : document_.section("worldbody")) file_joints_.add(*node);

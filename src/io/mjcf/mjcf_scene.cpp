@@ -11,6 +11,7 @@
 #include "clench/io/mjcf/mjcf_materials.h"
 #include "clench/io/mjcf/mjcf_options.h"
 #include "clench/io/mjcf/mjcf_tree_weight.h"
+#include "clench/io/mjcf/solver_settings.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/spec/plausibility.h"
 
@@ -57,7 +58,7 @@ class SceneReader {
                 const std::vector<MjcfGeom>& geoms, const BodySpec* weighed);
   void dress_things();
   std::vector<OwnFriction> used_frictions(const RobotSpec& robot) const;
-  [[noreturn]] void fail_empty();
+  void check_empty();
   void exclude();
   void set_bits();
   void add_part(PartRef ref, const std::string& name, const std::vector<MjcfGeom>& geoms,
@@ -326,7 +327,13 @@ void SceneReader::set_bits() {
                     apart.by_bits == 1 ? "s" : ""));
 }
 
-void SceneReader::fail_empty() {
+/// Accepts a scene without bodies if its <worldbody> holds none either.
+void SceneReader::check_empty() {
+  const Worldbody& worldbody = model_.worldbody();
+  const auto& sections = model_.document().root().children;
+  const bool is_given = std::ranges::any_of(
+      sections, [](const MjcfNode& node) { return node.name() == "worldbody"; });
+  if (is_given && worldbody.order.empty() && !worldbody.lacks_bodies) return;
   const auto& types = model_.geoms().unused_types();
   fail("{}: expected bodies or geoms in <worldbody>, got {}", model_.document().file(),
        types.empty() ? "none" : "only geoms that are not used, of type " + name_list(types));
@@ -349,7 +356,7 @@ WorldSpec SceneReader::read() {
     else
       add_geom(worldbody.geoms[number]);
   }
-  if (world_.bodies.empty() && world_.robots.empty()) fail_empty();
+  if (world_.bodies.empty() && world_.robots.empty()) check_empty();
   if (trees == 0)
     for (const char* section : {"equality", "tendon", "actuator"})
       for (const MjcfNode* node : model_.document().section(section))
@@ -359,6 +366,7 @@ WorldSpec SceneReader::read() {
   for (PlacedRobot& placed : world_.robots) placed.robot.frictions = used_frictions(placed.robot);
   materials_.tell(cache_);
   read_mjcf_options(model_.document(), cache_, world_);
+  world_.contact_threshold = written_threshold(model_.document());
   std::vector<const std::vector<MjcfGeom>*> geoms;
   for (const ScenePart& part : parts_) geoms.push_back(&part.geoms);
   listed_ = model_.contacts().listed(geoms);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "clench/base/text.h"
+#include "clench/io/mjcf/solver_settings.h"
 #include "clench/io/mjcf/written_actuators.h"
 #include "clench/io/mjcf/written_carriage.h"
 #include "clench/io/mjcf/written_friction.h"
@@ -116,16 +117,17 @@ void SceneWriter::write_head() {
   const bool collides = world.collision ? world.collision->on : world.collision_on;
   line(0, fmt::format("<mujoco{}>", named_as("model", request_.name)));
   line(1, "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
-  line(1, fmt::format("<option timestep=\"{}\" gravity=\"{}\" cone=\"elliptic\" impratio=\"10\" "
-                      "integrator=\"implicit\">",
-                      request_.time_step, triple(gravity)));
+  line(1, fmt::format("<option timestep=\"{}\" gravity=\"{}\" cone=\"{}\" impratio=\"{}\" "
+                      "integrator=\"{}\">",
+                      request_.time_step, triple(gravity), written_cone, written_impratio,
+                      written_integrator));
   line(2, fmt::format("<flag multiccd=\"enable\"{}/>", collides ? "" : " contact=\"disable\""));
   line(1, "</option>");
   line(1, "<size njmax=\"4000\" nconmax=\"1000\"/>");
   // bodies touch at the distance at which they do here; contacts are as stiff as the step allows
-  const std::string stiff =
-      fmt::format("margin=\"{}\" solref=\"{} 1\" solimp=\"0.95 0.99 0.0001\"",
-                  world.contact_threshold.value_or(usual_threshold), 4 * request_.time_step);
+  const std::string stiff = fmt::format("margin=\"{}\" solref=\"{}\" solimp=\"{}\"",
+                                        world.contact_threshold.value_or(usual_threshold),
+                                        written_solref(request_.time_step), written_solimp);
   line(1, "<default>");
   line(2, fmt::format("<geom {}/>", stiff));
   line(2, fmt::format("<pair {}/>", stiff));

@@ -160,7 +160,8 @@ void UnusedXml::element(const XmlElement& element) { ++kind_of(elements_, elemen
 void UnusedXml::attributes(const XmlElement& element,
                            std::initializer_list<std::string_view> used) {
   for (const auto& name : element.attributes())
-    if (std::find(used.begin(), used.end(), name) == used.end())
+    if (std::find(used.begin(), used.end(), name) == used.end() &&
+        !(is_accepted_ && is_accepted_(element, name)))
       ++kind_of(attributes_, element).attributes[name];
   if (std::string text = element ? element.loose_text() : ""; !text.empty())
     if (Kind& kind = kind_of(texts_, element); kind.text.empty()) kind.text = std::move(text);

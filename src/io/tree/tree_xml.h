@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -80,6 +81,10 @@ class UnusedXml {
   void element(const XmlElement& element);
   /// all attributes but these, and text that stands in it
   void attributes(const XmlElement& element, std::initializer_list<std::string_view> used);
+  /// Attributes that `is_accepted` are not reported, whatever a reader uses.
+  void accept(std::function<bool(const XmlElement&, const std::string& name)> is_accepted) {
+    is_accepted_ = std::move(is_accepted);
+  }
   /// "hand.urdf:31: <gazebo> is not used, nor are 11 more"
   std::vector<std::string> sentences() const;
 
@@ -93,6 +98,7 @@ class UnusedXml {
   };
   static Kind& kind_of(std::vector<Kind>& kinds, const XmlElement& element);
   std::vector<Kind> elements_, attributes_, texts_;
+  std::function<bool(const XmlElement&, const std::string&)> is_accepted_;
 };
 
 }  // namespace clench
