@@ -164,8 +164,7 @@ static std::string robot_text(const RobotHandle& robot) {
 }
 
 static const Entry robot_fields[] = {
-    {"fingerprint",
-     getter<[](const RobotHandle& x) {
+    {"fingerprint", getter<[](const RobotHandle& x) {
        return fmt::format("{:016x}", fingerprint(*x.world, x.id));
      }>,
      R"(
