@@ -86,6 +86,8 @@ local writers = {
 -- entries that speak of files, and open none
 local neither = {
   ["clench.render"] = "options of pictures",
+  ["clench.files.csv_records"] = "takes the contents of a file, and its name for errors",
+  ["clench.test.path"] = "writes temporary files of its own only",
   ["clench.catalog"] = "reads the folders of its own models",
   ["clench.shapes.tube"] = "its path is a line in space",
   ["clench.study.compare"] = "grasps that came from files",

@@ -406,7 +406,7 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
         "type hfield, sdf");
 }
 
-TEST_CASE("an empty <worldbody> is an empty world; one of which nothing is read is refused") {
+TEST_CASE("an empty <worldbody> is an empty world, one of which nothing is read is refused") {
   CHECK(ToldWorld("").world.bodies.empty());
   CHECK(ToldWorld("").warnings.empty());
   CHECK(ToldWorld("", "<option timestep='0.002'/>").world.time_step == 0.002);
