@@ -10,8 +10,8 @@ struct TreeFrictionOptions {
   /// Largest residual of a solution [m/s]; rounding is allowed for in addition, as in
   /// FrictionOptions.
   double tolerance = 1e-12;
-  /// Largest residual that is good enough not to try other initial impulses and dampings [m/s]: the
-  /// last digits cost many times the ones before.
+  /// No other initial impulses and dampings are tried at a residual of at most this [m/s]: the last
+  /// digits take many times the iterations of those before.
   double acceptable = 1e-10;
   /// Try other initial impulses and dampings if the first ones fail.
   bool restarts = true;

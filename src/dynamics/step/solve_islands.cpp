@@ -12,8 +12,6 @@ namespace clench {
 // Faults of a solution [m/s]: what is asked of the solver, and above what a step counts as failed:
 // a micrometre in a quarter of an hour.
 static constexpr double tolerance = 1e-12, failed_above = 1e-9;
-// A heap whose fault is below this is not solved again [m/s].
-static constexpr double acceptable = 1e-10;
 // An island that touches something, is slower than this and would gain no more than that under the
 // forces that it had rests: it stops, and its forces stay. That is a millionth of gravity.
 static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
@@ -170,10 +168,9 @@ FrictionSolution IslandSolver::solve_heap(const System& system, const StepProble
                                           const Progress& progress) {
   gather_trees(system, problem, island);
   const bool pushes = std::ranges::any_of(rows_, [&](int row) { return problem.push[row] != 0; });
-  TreeFrictionOptions by_trees{
-      .tolerance = *options.tolerance, .acceptable = acceptable, .restarts = !pushes};
-  const auto is_acceptable = [](const FrictionSolution& s) {
-    return s.solved || s.residual <= acceptable;
+  TreeFrictionOptions by_trees{.tolerance = *options.tolerance, .restarts = !pushes};
+  const auto is_acceptable = [&by_trees](const FrictionSolution& s) {
+    return s.solved || s.residual <= by_trees.acceptable;
   };
   FrictionSolution solution = tree_solver_.solve(trees_, warm_start_, by_trees, progress);
   int iterations = solution.iterations;
