@@ -3,7 +3,7 @@
 #include <cctype>
 
 #include "clench/base/file.h"
-#include "clench/io/mjcf/write_scene.h"
+#include "clench/io/mjcf_write/write_scene.h"
 #include "clench/io/text/confine.h"
 
 namespace clench {

@@ -1,6 +1,6 @@
 // Writes worlds as MJCF scenes: the scene file, and its meshes beside it.
 #pragma once
-#include "clench/io/mjcf/written_scene.h"
+#include "clench/io/mjcf_write/written_scene.h"
 #include "clench/io/write_world.h"
 
 namespace clench {

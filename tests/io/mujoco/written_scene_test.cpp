@@ -6,7 +6,7 @@
 
 #include "clench/base/random.h"
 #include "clench/contact/materials.h"
-#include "clench/io/mjcf/written_keys.h"
+#include "clench/io/mjcf_write/written_keys.h"
 #include "clench/io/read.h"
 #include "clench/io/write_mjcf.h"
 #include "clench/spec/dof_drive.h"

@@ -3,7 +3,7 @@
 
 #include "clench/base/text.h"
 #include "clench/grasp/force/contact_forces.h"
-#include "clench/io/mjcf/written_keys.h"
+#include "clench/io/mjcf_write/written_keys.h"
 #include "clench/io/text/confine.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/grasp/save_grasp.h"

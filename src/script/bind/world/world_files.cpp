@@ -2,7 +2,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
-#include "clench/io/mjcf/written_keys.h"
+#include "clench/io/mjcf_write/written_keys.h"
 #include "clench/io/text/confine.h"
 #include "clench/io/write_mjcf.h"
 #include "clench/io/write_world.h"

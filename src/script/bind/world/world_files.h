@@ -2,7 +2,7 @@
 #pragma once
 #include <lua.hpp>
 
-#include "clench/io/mjcf/written_scene.h"
+#include "clench/io/mjcf_write/written_scene.h"
 #include "clench/io/read.h"
 #include "clench/script/bind/handles.h"
 

@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/written_geoms.h"
+#include "clench/io/mjcf_write/written_geoms.h"
 
 #include <fmt/format.h>
 

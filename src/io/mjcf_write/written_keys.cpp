@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/written_keys.h"
+#include "clench/io/mjcf_write/written_keys.h"
 
 namespace clench {
 

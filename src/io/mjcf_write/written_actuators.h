@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "clench/io/mjcf/written_scene.h"
+#include "clench/io/mjcf_write/written_scene.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/written_carriage.h"
+#include "clench/io/mjcf_write/written_carriage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/written_friction.h"
+#include "clench/io/mjcf_write/written_friction.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/written_scene.h"
+#include "clench/io/mjcf_write/written_scene.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ class ScenePlanner {
   const WorldSpec& world_;
   WrittenScene out_;
   std::vector<std::string> body_names_ = {"world"}, joint_names_;  // "world" is MuJoCo's own
-  std::vector<std::vector<std::string>> names_of_joints_;  // of each robot
+  std::vector<std::vector<std::string>> names_of_joints_;          // of each robot
 };
 
 int ScenePlanner::add(const BodySpec& spec, int parent, const Pose& X_WB) {

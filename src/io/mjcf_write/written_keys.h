@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "clench/io/mjcf/written_actuators.h"
-#include "clench/io/mjcf/written_carriage.h"
+#include "clench/io/mjcf_write/written_actuators.h"
+#include "clench/io/mjcf_write/written_carriage.h"
 
 namespace clench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "clench/geometry/tree/shape.h"
-#include "clench/io/mjcf/written_scene.h"
+#include "clench/io/mjcf_write/written_scene.h"
 
 namespace clench {
 

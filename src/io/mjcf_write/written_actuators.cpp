@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/written_actuators.h"
+#include "clench/io/mjcf_write/written_actuators.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "clench/io/mjcf/write_scene.h"
+#include "clench/io/mjcf_write/write_scene.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 
 #include "clench/base/text.h"
 #include "clench/io/mjcf/solver_settings.h"
-#include "clench/io/mjcf/written_actuators.h"
-#include "clench/io/mjcf/written_carriage.h"
-#include "clench/io/mjcf/written_friction.h"
-#include "clench/io/mjcf/written_geoms.h"
-#include "clench/io/mjcf/written_keys.h"
+#include "clench/io/mjcf_write/written_actuators.h"
+#include "clench/io/mjcf_write/written_carriage.h"
+#include "clench/io/mjcf_write/written_friction.h"
+#include "clench/io/mjcf_write/written_geoms.h"
+#include "clench/io/mjcf_write/written_keys.h"
 #include "clench/io/text/xml.h"
 #include "clench/math/decompositions.h"
 #include "clench/spec/plausibility.h"
