@@ -46,7 +46,8 @@ MechanicalEnergy mechanical_energy(const World& world) {
     for (size_t j = 0; j < robot.joints.size(); ++j) {
       const Joint& joint = robot.joints[j];
       const double q = world.joints(id)[static_cast<int>(j)];
-      // a tendon turns its joints by springs, which rest where it alone would have them
+      // a tendon moves its joints through springs whose rest position is where the tendon alone
+      // would hold them
       const bool pulled = robot.dofs[joint.dof].kind == DofKind::compliant;
       const double stiffness =
           pulled ? tendon_stiffness(world, id, static_cast<int>(j)) : joint.spring;

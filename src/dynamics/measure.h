@@ -1,4 +1,4 @@
-// What moves in a world: momentum and energy.
+// Momentum and energy of a world.
 #pragma once
 #include "clench/model/world.h"
 
@@ -9,12 +9,13 @@ struct Momentum {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< about the world's origin [kg m^2/s]
 };
 
-/// Of everything that moves of its own: objects and the parts of robots.
+/// Sums over all moving bodies: objects and the links of robots.
 Momentum momentum(const World& world);
 
 struct MechanicalEnergy {
-  double kinetic = 0;    ///< [J]
-  double potential = 0;  ///< of gravity, 0 at the world's origin, and of springs [J]
+  double kinetic = 0;  ///< [J]
+  /// gravitational energy, 0 at the world's origin, plus that of springs [J]
+  double potential = 0;
 };
 MechanicalEnergy mechanical_energy(const World& world);
 

@@ -14,12 +14,12 @@
 
 namespace clench {
 
-// Less than this part of a step is no time.
+// A smaller fraction of a step counts as no time.
 static constexpr double rounding = 1e-6;
 
 Stepper::Stepper(World& world) : world_(world) { refresh(); }
 
-// The system follows from the model, the settings, and which joints follow their DOFs.
+// The system depends on the model, the settings, and which joints follow their DOFs.
 void Stepper::refresh() {
   world_.edit_dynamics();
   std::vector<unsigned char> follows;
@@ -43,7 +43,7 @@ void Stepper::refresh() {
 
 namespace {
 
-// A step that fails or is stopped leaves the world as it was when the step began.
+// A step that fails or is stopped leaves the world as it was at the start of the step.
 template <class Change>
 void change_or_restore(World& world, Change change) {
   const std::shared_ptr<const Snapshot> before = world.snapshot();
@@ -94,14 +94,14 @@ double Stepper::move_bodies(double dt) {
   const double passed = move_until_meeting(world_, system_, dt);
   DynamicState& state = world_.edit_dynamics();
   state.time += passed;
-  // the same moments however time is divided: sums of many steps are off by rounding
+  // the same instants however a duration is divided: sums of many steps differ by rounding
   const double step = world_.dynamic_settings().step, whole = std::round(state.time / step) * step;
   if (std::abs(whole - state.time) < rounding * step) state.time = whole;
   state.whole_step = dt;
   return passed;
 }
 
-// The manifolds are those of the bodies where they stand.
+// The manifolds of the bodies at their present poses.
 void Stepper::solve_velocities(double h) {
   carry_welded(world_, system_);
   for (const auto id : world_.robots()) pull_tendons(world_, id, h, world_.edit_dynamics());
@@ -123,8 +123,8 @@ bool Stepper::step(double end) {
   if (!(end - world_.time() > rounding * step)) return false;
   world_.context().progress().check();
   check_stop();
-  // Steps end at multiples of the step, after an impact as well: the same ones however a time is
-  // divided.
+  // Steps end at multiples of the step size, also after an impact: the same instants however a
+  // duration is divided.
   const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
   double left = std::min(next, end) - now;
   if (!(now + left > now))

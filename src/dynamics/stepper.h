@@ -15,15 +15,14 @@ class Stepper {
  public:
   explicit Stepper(World& world);
 
-  /// Moves everything by its velocity until dt has passed [s] or two bodies that approach each
-  /// other touch.
+  /// Moves everything with its velocity until dt has passed [s] or two approaching bodies touch.
   /// returns  the time that has passed, in (0, dt] [s]
   double move(double dt);
-  /// Solves for the velocities that forces, contacts, limits and motors leave after acting for a
-  /// time of h [s].
+  /// Solves for the velocities after forces, contacts, limits and motors have acted for a time of h
+  /// [s].
   void solve(double h);
-  /// One step of a run that ends at a time [s].   returns  false when it is over, and no step was
-  /// made
+  /// One step of a run that ends at a given time [s].
+  /// returns  false if the run has ended and no step was made
   bool step(double end);
   /// Steps until exactly `duration` has passed [s].
   void run(double duration);
@@ -35,8 +34,8 @@ class Stepper {
 
   World& world_;
   System system_;
-  uint64_t stamp_ = 0, settings_stamp_ = 0;  // of the model and the settings that system_ is of
-  std::vector<unsigned char> follows_;       // joints that follow their DOF there
+  uint64_t stamp_ = 0, settings_stamp_ = 0;  // model and settings that system_ was built for
+  std::vector<unsigned char> follows_;       // joints that followed their DOF then
   StepProblem problem_;
   IslandSolver islands_;
 };

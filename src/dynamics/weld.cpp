@@ -23,7 +23,7 @@ static void check_weld(const World& world, Id<Body> object, Id<Body> to) {
 void weld(World& world, Id<Body> object, Id<Body> to) {
   check_weld(world, object, to);
   DynamicState& state = world.edit_dynamics();
-  // the piece that the object was
+  // the rigid piece that the object was
   const System before = find_system(world);
   const Articulation& piece = before.trees[before.place(object).tree];
   TreeDynamics apart;
@@ -47,7 +47,7 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
   auto own = v.segment(tree.first, tree.size());
   const Vector6d root = prescribed_twist(world, tree);
 
-  // an impulse of the size of the momentum that the piece had beyond what it has as a part
+  // an impulse equal to the piece's momentum in excess of what it has as a part of the carrier
   Eigen::VectorXd impulse = Eigen::VectorXd::Zero(tree.size());
   for (size_t i = 0; i < piece.bodies.size(); ++i) {
     const Body& body = world.body(piece.bodies[i].body);

@@ -1,17 +1,18 @@
-// Objects that move with another body as one piece for a time.
+// Objects that move rigidly with another body for a time.
 #pragma once
 #include "clench/model/world.h"
 
 namespace clench {
 
-/// From now on the object, with all that is welded to it, stays as it stands to the other body: in
-/// runs it moves as if it were a part of it. Their momentum stays: what moved differently before
-/// moves together afterwards. Placed by hand, they are welded as they then stand.
+/// Welds the object, with all that is welded to it, to another body at their present relative pose:
+/// runs move it as a part of that body. Momentum is conserved: if they moved differently before,
+/// they move together afterwards. If they are placed from outside, they stay welded at the new
+/// relative pose.
 /// object  a free body that is welded to nothing
-/// to      any other body, which does not hang on the object by welds
+/// to      any other body that is not welded to the object
 /// throws  Error
 void weld(World& world, Id<Body> object, Id<Body> to);
-/// It goes on with the velocity that it had as a part.
+/// Ends the weld; the object keeps the velocity that it had.
 void unweld(World& world, Id<Body> object);
 
 }  // namespace clench

@@ -16,14 +16,14 @@
 namespace clench {
 namespace {
 
-// May a pair that was apart when it was last measured have met on the way to X_AB?
+// Could a pair that was apart when last measured collide on the way to X_AB?
 bool may_have_met(const World& world, const Manifold& m, const Pose& X_AB) {
   // distances are exact up to rounding
   constexpr double certain = 0.999;
   return displacement(m.X_AB, X_AB, *world.body(m.b).shape) >= certain * m.clearance;
 }
 
-// An upper bound of the speed of the points of a body [m/s].
+// Upper bound on the speed of any point of a body [m/s].
 double max_speed(const World& world, Id<Body> id) {
   const Twist& twist = world.dynamics()->twists[id.index];
   const Body& body = world.body(id);
@@ -32,28 +32,28 @@ double max_speed(const World& world, Id<Body> id) {
          twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
 }
 
-// An upper bound of the angle by which a pair turns about each other [rad].
+// Upper bound on the relative rotation of a pair [rad].
 double turn(const World& world, const Manifold& m, double dt) {
   const auto& twists = world.dynamics()->twists;
   return dt * (twists[m.a.index].angular.norm() + twists[m.b.index].angular.norm());
 }
 
-// The least size of a body along its axes [m]: no shorter path leads through it. Of a surface that is
-// open the other body's counts.
+// Smallest extent of a body along its axes [m]: no shorter path passes through it. For an open
+// surface, the other body's extent is used.
 double thickness(const Shape& shape) {
   return shape.closed() ? shape.bounds().size().minCoeff()
                         : std::numeric_limits<double>::infinity();
 }
 
-// Round solids stop where half of the gap between them is left, or half of the rest gap: the point
-// that touches runs far along solids that are nearly parallel, and steps that end just before an
-// overlap would leave no gap to the next one [m].
+// Round solids stop when half of the gap between them, or half of the rest gap, is left: the
+// contact point travels far along solids that are nearly parallel, and steps that end just before
+// an overlap would leave no gap to the next one [m].
 double gap_to_keep(const World& world, const Manifold& m) {
   if (!are_round(*world.body(m.a).shape, *world.body(m.b).shape, RoundIn::motion)) return 0;
   return 0.5 * std::min(m.clearance, rest_gap * world.contact_threshold());
 }
 
-// An upper bound of how far any point of a body moves in dt [m].
+// Upper bound on how far any point of a body moves in dt [m].
 double max_travel(const World& world, double dt) {
   double travel = 0;
   for (const auto id : world.bodies())
@@ -61,20 +61,20 @@ double max_travel(const World& world, double dt) {
   return travel;
 }
 
-// Which pairs may meet while bodies move, and how much time passes until then.
+// Finds the pairs that may collide while bodies move, and the time until the first collision.
 class Meetings {
  public:
   Meetings(World& world, Mover& mover, double dt)
       : world_(world), mover_(mover), dt_(dt), max_time_(dt), overlap_time_(dt) {}
 
-  /// Looks at a pair, with everything placed at dt: either it has arrived without meeting, or it is
-  /// noted how time() follows it.
+  /// Examines a pair with everything placed at dt: either it has arrived without colliding, or it
+  /// is recorded how time() advances it.
   void follow(int manifold);
-  /// How much of dt passes until the first of them meet [s].
+  /// Part of dt that passes until the first collision [s].
   double time();
-  /// Is it shorter than overlaps alone would make it?
+  /// Is it shorter than overlaps alone would require?
   bool cut_short(double time) const { return time < overlap_time_; }
-  /// Measures the manifolds that may have changed, with everything placed at the time that passed.
+  /// Updates the manifolds that may have changed, with everything placed at the end of the travel.
   /// whole  has all of dt passed?
   void measure_changed(bool whole);
 
@@ -87,16 +87,17 @@ class Meetings {
   double dt_;
   std::vector<int> suspects_;  // manifolds that may change
   std::vector<PairBound> watched_;
-  std::vector<std::pair<int, double>> round_;      // manifolds, and bounds of their speeds [m/s]
-  std::vector<std::pair<int, Manifold>> arrived_;  // measured where they arrive
-  // least time that passes: next to none where all start with a gap, as they may meet at any time
+  std::vector<std::pair<int, double>> round_;      // manifolds, and bounds on their speeds [m/s]
+  std::vector<std::pair<int, Manifold>> arrived_;  // measured at the end of the travel
+  // minimum travel time: close to zero if all pairs start with a gap, as they may collide at any
+  // time
   std::optional<double> min_time_;
-  double max_time_;      // largest time that passes
-  double overlap_time_;  // after which bodies that overlap are measured again
+  double max_time_;      // maximum travel time
+  double overlap_time_;  // after which overlapping bodies are measured again
 };
 
 // Conservative advancement (see model/advance.h) of pairs with round pieces: model/advance treats
-// those of RoundIn::motion as triangles.
+// pieces of type RoundIn::motion as triangles.
 // returns  the time until the first of them collide, or `end` [s]
 double Meetings::advance_round(double end) {
   constexpr double aim = 0.2, there = 0.3;
@@ -109,7 +110,7 @@ double Meetings::advance_round(double end) {
       check_stop();
       mover_.place(s);
       const double gap = pair_gap(world_, m, speed * (stop - s) + 2 * threshold);
-      // a pair that separates does not stop
+      // a pair that separates does not end the step
       if (gap <= there * threshold && gap < before && steps > 0) break;
       before = gap;
       s = std::min(stop, s + std::max(gap - aim * threshold, 0.05 * threshold) / speed);
@@ -120,8 +121,8 @@ double Meetings::advance_round(double end) {
   return stop;
 }
 
-// The time until which the gap of a touching pair stays above the margin, found by `looks` queries
-// on its path and a bisection; dt where it always does.
+// Time up to which the gap of a touching pair stays above the margin, found by `looks` queries
+// along its path and a bisection; dt if it always does.
 double Meetings::free_until(const Manifold& m, int looks, double margin) {
   const auto is_free = [&](double s) {
     check_stop();
@@ -142,17 +143,17 @@ double Meetings::free_until(const Manifold& m, int looks, double margin) {
 }
 
 void Meetings::follow(int number) {
-  // Pairs that move farther than this many thresholds in a step are followed along their path;
-  // others are measured where they arrive.
+  // Pairs that move farther than this many thresholds in a step are checked along their path;
+  // others only at its end.
   constexpr double short_path = 10, max_looks = 1000;
   // Pairs that turn by more than the first have a path much longer than its chord; pairs that turn
-  // by more than the second are not followed [rad].
+  // by more than the second are not checked along their path [rad].
   constexpr double far_turn = 0.5, whirl = 20;
   const Manifold& m = world_.dynamics()->manifolds[number];
   const Shape& shape = *world_.body(m.b).shape;
   const Pose &before = m.X_AB_end, X_AB = relative_pose(world_, m.a, m.b);
   const double threshold = world_.contact_threshold(), step = world_.dynamic_settings().step;
-  // the path of a turn is longer than its chord
+  // the path of a rotating pair is longer than its chord
   const double turned = turn(world_, m, dt_);
   const bool far = turned > far_turn;
   const double arc = far ? dt_ * (max_speed(world_, m.a) + max_speed(world_, m.b)) : 0;
@@ -188,8 +189,8 @@ void Meetings::follow(int number) {
     arrived_.emplace_back(number, std::move(there));
     return;
   }
-  // pairs within the threshold move on by a hundredth of a step, but not through each other; by
-  // less where it is known when they meet
+  // pairs within the threshold advance by at least a hundredth of a step, but not through each
+  // other; by less if the time of their collision is known
   const double least = std::min(0.01 * step, dt_ * thin / path);
   if (touching) min_time_ = std::min(min_time_.value_or(dt_), least);
   if (looks)
@@ -206,7 +207,7 @@ double Meetings::time() {
   if (!round_.empty()) passed = advance_round(passed);
   if (!watched_.empty()) {
     int queries = 0;
-    // each pair is measured at first, and some ten times on its path
+    // each pair is measured once at first, and some ten times along its path
     const int max_steps = 1000 + 10 * static_cast<int>(watched_.size());
     const Advance advance = clench::advance(
         world_, watched_, passed, [&](double s) { mover_.place(s); }, queries, max_steps);

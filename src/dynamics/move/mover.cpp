@@ -9,10 +9,10 @@
 
 namespace clench {
 
-// turned by a rotation vector, in world axes
+// rotated by a rotation vector, in world axes
 static Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Eigen::Vector3d& turn) {
   const double angle = turn.norm();
-  // half the sine over the angle; its series where the angle is small
+  // half the sine divided by the angle; its series for small angles
   const double s = angle > 1e-4 ? std::sin(angle / 2) / angle : 0.5 - angle * angle / 48;
   const Eigen::Quaterniond step(std::cos(angle / 2), s * turn.x(), s * turn.y(), s * turn.z());
   return (step * q).normalized();
@@ -60,7 +60,7 @@ Mover::Mover(World& world, const System& system) : world_(world) {
   find_movers(system);
 }
 
-// Records which bodies are placed separately, and which by the bodies that carry them.
+// Records which bodies are placed independently, and which are placed by their carriers.
 void Mover::find_movers(const System& system) {
   part_of_.assign(system.places.size(), stands);
   for (const Articulation& tree : system.trees)
@@ -91,18 +91,19 @@ void Mover::find_floating(const System& system) {
   }
 }
 
-// What turns otherwise than its carrier, by this part of that, rolls on it.
+// If the relative rotation exceeds this part of the carrier's rotation, the body rolls on it.
 static constexpr double turns_along = 0.01;
-// What slips by less than this sticks, and slips that differ by less than that are the same [m/s].
+// Slip below this speed counts as sticking, and slips that differ by less count as equal [m/s].
 static constexpr double stick_speed = 1e-3, same_slip = 1e-6;
 
-// Who presses on whom, and which of these go along with each other.
+// Which bodies press on which, and which of them move along with each other.
 class Mover::Carriers {
  public:
   Carriers(const World& world, const System& system);
-  /// Can any body go along with another?
+  /// Can any body move along with another?
   bool any() const { return turning_ >= 2 || jumps_; }
-  /// Gives a part its carrier, if it has one.   returns  false when all that it is pressed to waits
+  /// Assigns a carrier to a part, if it has one.   returns  false if all bodies that it presses on
+  /// are still undecided
   bool find(Part& part, const std::vector<Part>& waiting);
 
  private:
@@ -111,12 +112,12 @@ class Mover::Carriers {
     Eigen::Vector3d p_W;
     double force;
   };
-  // has somebody given it another velocity than was solved for?
+  // has its velocity been set from outside since the last solution?
   bool changed(Id<Body> id) const { return state_.twists[id.index] != state_.solved[id.index]; }
   bool jumped(Id<Body> id) const;
   Id<Body> whole(Id<Body> id) const;
   Eigen::Vector3d velocity(Id<Body> id, const Eigen::Vector3d& p_W, bool before) const;
-  // the press at which they slip along each other the least, and by how much; null: none
+  // the press with the least slip, and that slip; null: none
   const Press* min_slip(const Part& part, const std::vector<Part>& waiting, bool before,
                         double& slip) const;
 
@@ -124,7 +125,7 @@ class Mover::Carriers {
   const System& system_;
   const DynamicState& state_;
   std::vector<Press> presses_;
-  std::vector<Id<Body>> along_;  // that come along with what has jumped
+  std::vector<Id<Body>> along_;  // that move along with a body whose velocity was set
   long turning_ = 0;
   bool jumps_ = false;
 };
@@ -133,7 +134,7 @@ Mover::Carriers::Carriers(const World& world, const System& system)
     : world_(world), system_(system), state_(*world.dynamics()) {
   jumps_ = state_.twists != state_.solved &&
            std::ranges::any_of(world.bodies(), [&](Id<Body> id) { return jumped(id); });
-  // one that carries and one that goes along
+  // a carrier and a body that it carries
   turning_ = std::ranges::count_if(state_.twists,
                                    [](const Twist& twist) { return !twist.angular.isZero(0); });
   if (!any()) return;
@@ -152,7 +153,7 @@ bool Mover::Carriers::jumped(Id<Body> id) const {
                         changed(system_.trees[tree].root);
 }
 
-// of bodies that are welded together the first
+// the first of the bodies that are welded together
 Id<Body> Mover::Carriers::whole(Id<Body> id) const {
   const int tree = system_.place(id).tree;
   return tree >= 0 && system_.trees[tree].is_free_body() && system_.trees[tree].robots.empty()
@@ -160,7 +161,7 @@ Id<Body> Mover::Carriers::whole(Id<Body> id) const {
              : id;
 }
 
-// before: as it was solved for
+// before: velocities as solved for
 Eigen::Vector3d Mover::Carriers::velocity(Id<Body> id, const Eigen::Vector3d& p_W,
                                           bool before) const {
   const Twist& twist = (before ? state_.solved : state_.twists)[id.index];
@@ -187,7 +188,7 @@ const Mover::Carriers::Press* Mover::Carriers::min_slip(const Part& part,
 }
 
 bool Mover::Carriers::find(Part& part, const std::vector<Part>& waiting) {
-  // before the jump both had the velocities that were solved for
+  // before the change both had the velocities that were solved for
   const bool before = jumps_ && !changed(part.body);
   double slip = 0;
   const Press* const press = min_slip(part, waiting, before, slip);
@@ -206,9 +207,9 @@ bool Mover::Carriers::find(Part& part, const std::vector<Part>& waiting) {
   return true;
 }
 
-// Of all that a free body is pressed to, beginning with what is not free, that along which it slips
-// the least; none where it does not turn along with that, unless somebody has just given that
-// another velocity: what sticks to it comes along, and gets its velocity in the solve.
+// Of all bodies that a free body presses on, prescribed ones first, the one with the least slip.
+// None if the body does not rotate along with it, unless the other's velocity has just been set
+// from outside: a body that sticks to it moves along, and gets its velocity in the solution.
 void Mover::find_carriers(const System& system) {
   Carriers carriers(world_, system);
   if (!carriers.any()) return;
@@ -217,7 +218,7 @@ void Mover::find_carriers(const System& system) {
   while (!waiting.empty()) {
     std::vector<Part> found, rest;
     for (Part& part : waiting) (carriers.find(part, waiting) ? found : rest).push_back(part);
-    // what touches nothing that is held comes last
+    // what touches no prescribed body comes last
     if (found.empty()) found.swap(rest);
     sorted.insert(sorted.end(), found.begin(), found.end());
     waiting.swap(rest);
@@ -225,7 +226,8 @@ void Mover::find_carriers(const System& system) {
   parts_.swap(sorted);
 }
 
-// Along with what carries it, which has been placed, and straight in the frame of that.
+// Moves along with its carrier, which has been placed, and on a straight line in the carrier's
+// frame.
 Pose Mover::carried(const Part& part, double s) const {
   const Pose& X_WC = world_.pose(*part.carrier);
   const Pose X_CB = part.X_WC.inverse() * part.X_WB;
@@ -255,9 +257,9 @@ Mover::Part Mover::free_part(const World& world, const Articulation& tree) {
   return out;
 }
 
-// Euler's equations in the body's axes, by Runge and Kutta's fourth order; in world axes they are
-// stiff for slender bodies. Then what is known to stay is put right: the angular momentum in the
-// world, by a turn of the size of the error.
+// Euler's equations in body axes, by the fourth-order Runge-Kutta method; in world axes they are
+// stiff for slender bodies. Then the known invariant is restored: the angular momentum in the
+// world, by a rotation of the size of the error.
 Pose Mover::moved(const Part& part, double s, Twist& after) const {
   after = part.twist;
   const Eigen::Vector3d& w = part.twist.angular;
@@ -266,7 +268,7 @@ Pose Mover::moved(const Part& part, double s, Twist& after) const {
   if (!part.inertia || turn < no_turn) return moved_rigidly(part.X_WB, part.com, part.twist, s);
   const Eigen::Matrix3d &I = *part.inertia, inverse = I.inverse();
   struct Spin {
-    Eigen::Vector3d momentum;  // in the body's axes
+    Eigen::Vector3d momentum;  // in body axes
     Eigen::Vector4d rotation;
     Spin plus(double h, const Spin& rate) const {
       return {momentum + h * rate.momentum, rotation + h * rate.rotation};
@@ -323,7 +325,7 @@ void Mover::place(double s) {
       joints[j] += s * start.joint_velocities[j];
       const DofSpec& dof = robot.dofs[joint.dof];
       if (dof.kind != DofKind::breakaway) continue;
-      // opening, the DOF picks up what it left behind where it meets it
+      // on opening, the DOF picks up joints that it left behind when it reaches them
       const double closing = (dof.default_velocity < 0 ? -1.0 : 1.0) * (joint.ratio < 0 ? -1 : 1);
       constexpr double met = 1e-5;  // [rad or m]
       if (closing * start.dof_velocities[joint.dof] >= 0 || closing * (followed - joints[j]) > met)
@@ -331,7 +333,7 @@ void Mover::place(double s) {
       joints[j] = followed;
       start.picked_up.push_back(static_cast<int>(j));
     }
-    // a robot that is carried stands where its carrier has put it
+    // a robot that is carried is where its carrier has placed it
     const Pose X_WB = robot.mounting
                           ? world_.pose(robot.base)
                           : moved_rigidly(start.X_WB, world_.body(robot.base).com, start.twist, s);
@@ -374,7 +376,7 @@ void Mover::finish(double s) {
 void Mover::place_welded() {
   for (const Welded& weld : welded_) {
     const Pose& X_WT = world_.pose(weld.to);
-    // what stands stays where it is to the bit
+    // a body at rest stays bit-exactly where it is
     world_.drift(weld.body,
                  X_WT == weld.X_WT ? weld.X_WB : X_WT * (weld.X_WT.inverse() * weld.X_WB));
   }

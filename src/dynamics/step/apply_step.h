@@ -5,7 +5,7 @@
 namespace clench {
 
 /// Sets velocities, the forces of contacts, motors and limits, and the report. Joints of breakaway
-/// DOFs that would transmit more than their clutch does leave their DOF. Loads are used up.
+/// DOFs that would transmit more than their clutch allows leave their DOF. Loads are consumed.
 void apply_step(World& world, const System& system, StepProblem& problem,
                 const StepSolution& solution);
 

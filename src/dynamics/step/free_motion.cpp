@@ -5,7 +5,7 @@
 namespace clench {
 namespace {
 
-/// The free motion of one tree.
+/// Free motion of one tree.
 class FreeMotion {
  public:
   FreeMotion(const World& world, const Articulation& tree, int number, StepProblem& problem)
@@ -33,16 +33,17 @@ class FreeMotion {
   const Vector6d root_;
 };
 
-// Do joints, or a floating base, turn by more than half a radian in the step? Forces that such
-// velocities cause would grow from step to step.
+// Do joints, or a floating base, turn by more than half a radian in the step? Velocity-dependent
+// forces of such velocities would grow from step to step.
 bool FreeMotion::whirls() {
   constexpr double max_turn = 0.5;  // [rad]
   return !tree_.is_free_body() && velocities().cwiseAbs().maxCoeff() * problem_.h > max_turn;
 }
 
-// Forces that velocities cause are quadratic in them. Taken at the velocities of the middle of the
-// step, not of its beginning: with the latter a double pendulum gains a twentieth of its energy.
-// c(v + d) = c(v) + (c(v + d) - c(v - d)) / 2 up to terms quadratic in d, half the change.
+// Velocity-dependent forces are quadratic in the velocities. They are evaluated at the velocities
+// of the middle of the step, not of its beginning: with the latter a double pendulum gains a
+// twentieth of its energy. c(v + d) = c(v) + (c(v + d) - c(v - d)) / 2 up to terms quadratic in d,
+// half the change.
 void FreeMotion::add_mean_bias(Eigen::VectorXd& change) {
   auto v = velocities();
   constexpr double slow = 1e-3;  // below it the correction is negligible [m/s, rad/s]
@@ -67,7 +68,7 @@ void FreeMotion::solve() {
   const int n = tree_.size();
   dynamics_.place(world_, tree_);
   if (n == 0) return;
-  // forces that velocities cause are left out there
+  // velocity-dependent forces are omitted there
   const Eigen::VectorXd still =
       whirls() ? Eigen::VectorXd::Zero(problem_.v_free.size()) : Eigen::VectorXd();
   Eigen::VectorXd efforts =

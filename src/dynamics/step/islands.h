@@ -1,4 +1,4 @@
-// Which bodies of a step act on each other.
+// Islands of a step: groups of bodies that act on each other.
 #pragma once
 #include "clench/dynamics/step/step_problem.h"
 

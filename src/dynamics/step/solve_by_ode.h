@@ -4,10 +4,11 @@
 
 namespace clench {
 
-/// The same contacts, motors and limits, with velocities and impulses that ODE finds; see
+/// Solves the same contacts, motors and limits for the velocities and impulses of ODE; see
 /// ode/ode_step.h.
-/// throws  Error when ODE refuses a body or gives what is no number, and for more than 1,000 contact
-///         points: nothing can stop Dantzig's method, whose time grows with the cube of their number
+/// throws  Error if ODE rejects a body or returns a value that is not finite, and for more than
+///         1,000 contact points: nothing can interrupt Dantzig's method, whose time grows with the
+///         cube of their number
 StepSolution solve_by_ode(const World& world, const System& system, const StepProblem& problem);
 
 }  // namespace clench

@@ -9,17 +9,19 @@
 
 namespace clench {
 
-// Faults of a solution [m/s]: what is asked of the solver, and above what a step counts as failed:
-// a micrometre in a quarter of an hour.
+// Residuals of a solution [m/s]: the one requested from the solver, and the one above which a step
+// counts as failed: a micrometer in a quarter of an hour.
 static constexpr double tolerance = 1e-12, failed_above = 1e-9;
-// An island that touches something, is slower than this and would gain no more than that under the
-// forces that it had rests: it stops, and its forces stay. That is a millionth of gravity.
+// An island that has contacts, moves slower than this and would gain no more than this under its
+// present forces is at rest: it stops, and its forces are kept. The limit of acceleration is a
+// millionth of gravity.
 static constexpr double rest_speed = 1e-7;         // [m/s, rad/s]
 static constexpr double rest_acceleration = 1e-5;  // [m/s^2, rad/s^2]
 
-// Islands of at least heap_trees and heap_rows are solved by their trees; others by the matrix of
-// their rows, whose memory grows with the square of the rows and whose time with the cube. Islands
-// of up to max_dense_rows that the first method fails to solve are solved by the second.
+// Islands of at least heap_trees and heap_rows are solved in the coordinates of their trees; others
+// by the matrix of their rows, whose memory grows with the square of the number of rows and whose
+// time with the cube. Islands of up to max_dense_rows that the first method fails to solve are
+// solved by the second.
 static constexpr size_t heap_trees = 6;
 static constexpr Eigen::Index heap_rows = 60, max_dense_rows = 240;
 
@@ -31,7 +33,7 @@ bool IslandSolver::rests(const System& system, const StepProblem& problem,
   });
 }
 
-// The blocks, velocities and warm start of an island, its rows renumbered.
+// Blocks, velocities and warm start of an island, with its rows renumbered.
 void IslandSolver::gather(const StepProblem& problem, const Island& island) {
   problem_.blocks.clear();
   rows_.clear();
@@ -52,8 +54,8 @@ void IslandSolver::gather(const StepProblem& problem, const Island& island) {
   }
 }
 
-// Do the forces of the last step hold what rests? Answered by the velocities that they leave,
-// without the matrix of the problem.
+// Do the forces of the last step keep the island at rest? Decided from the velocities that they
+// leave, without the matrix of the problem.
 bool IslandSolver::holds(const StepProblem& problem, const Island& island,
                          const FrictionOptions& options, FrictionSolution& solution) {
   const Eigen::Index count = warm_start_.size();
@@ -136,8 +138,8 @@ void IslandSolver::gather_trees(const System& system, const StepProblem& problem
   trees_.finish();
 }
 
-// Removes from q the velocities that stabilization asks for: they may contradict limits and locks,
-// whereas not approaching never does.
+// Removes the stabilization velocities from q: they may contradict limits and locks, whereas not
+// approaching never does.
 // returns  were there any?
 bool IslandSolver::leave_out_push(const StepProblem& problem) {
   bool any = false;
@@ -161,8 +163,8 @@ FrictionSolution IslandSolver::solve_dense(const StepProblem& problem, const Isl
   return solution;
 }
 
-// In heaps, the velocities that stabilization asks for often contradict each other: they are left
-// out before any other start is tried.
+// In heaps, stabilization velocities often contradict each other: they are omitted before any other
+// starting point is tried.
 FrictionSolution IslandSolver::solve_heap(const System& system, const StepProblem& problem,
                                           const Island& island, const FrictionOptions& options,
                                           const Progress& progress) {

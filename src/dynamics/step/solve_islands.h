@@ -7,10 +7,11 @@
 namespace clench {
 
 /// Small islands are solved by the matrix of their rows, large ones in the coordinates of their
-/// trees. Keeps only scratch memory from step to step: the same problem gives the same bits.
+/// trees. Keeps only scratch memory between steps: the same problem gives the same bits.
 class IslandSolver {
  public:
-  /// An island at rest keeps its forces as long as they hold it, and is then bit-exactly at rest.
+  /// An island at rest keeps its forces as long as they balance it, and is then bit-exactly at
+  /// rest.
   /// throws  Stopped
   StepSolution solve(const System& system, const StepProblem& problem,
                      const DynamicSettings& settings, const Progress& progress);

@@ -14,26 +14,27 @@
 namespace clench {
 namespace {
 
-// Surfaces that move faster than this along each other when a step begins have kinetic friction
-// [m/s], if it is also faster than gravity makes them in a step: a body that comes to rest from
-// next to no height sticks.
+// Surfaces whose relative sliding speed at the start of a step exceeds this have kinetic friction
+// [m/s], if it also exceeds the speed that gravity adds in a step: a body that comes to rest after
+// a tiny fall sticks.
 constexpr double sliding_speed = 1e-3;
-// Gaps within this part of the contact threshold below the rest gap count as the rest gap: so the
-// points of a pair that has come to rest ask for nothing and share its force, where the least
-// difference between their targets would put all of it on a few.
+// Gaps within this fraction of the contact threshold below the rest gap count as the rest gap: so
+// the points of a pair that has come to rest have no target velocity and share its force; the
+// smallest difference between their targets would put all of it on a few points.
 constexpr double rest_band = 1e-3;
-// Of what is missing to the rest gap, this part is opened in a step, at most at this speed [m/s]:
-// so slowly that bodies that are pushed apart press on each other as if they rested.
+// This fraction of the missing rest gap is opened per step, at most at this speed [m/s]: slowly
+// enough that bodies that are pushed apart press on each other as if at rest.
 constexpr double pushed_part = 0.02, max_push = 0.1;
-// Bodies that turn while they slide come nearer as they do; they are pushed apart by more, up to a
-// part of the speed of sliding.
+// Bodies that turn while they slide come closer; they are pushed apart by more, up to a fraction of
+// the sliding speed.
 constexpr double pushed_part_sliding = 0.5, pushed_of_slip = 0.1;
-// Bodies that approach each other faster than the one meet; slower than the other, nothing bounces
+// Bodies that approach each other faster than the first collide; below the second, nothing bounces
 // [m/s].
 constexpr double meeting_speed = 1e-6, min_bounce_speed = 0.01;
-// A contact is blocked where every coordinate moves its point at right angles to the normal, within
-// this angle [rad]: effective masses along it are rounding. What all coordinates move within the
-// other angle is pushed apart more slowly, as little of their motion opens the gap.
+// A contact is blocked if every coordinate moves its point at right angles to the normal, within
+// this angle [rad]: effective masses along it are only rounding errors. Contacts that all
+// coordinates move within the other angle are pushed apart more slowly, as little of their motion
+// opens the gap.
 constexpr double blocked_angle = 1e-6, narrow_angle = 0.1;
 
 class RowBuilder {
@@ -74,7 +75,7 @@ int RowBuilder::add_columns(int tree, int count) {
   return first;
 }
 
-// The normal and two tangents, as columns. Points of one normal share their frame.
+// The normal and two tangents, as columns. Points with equal normals share their frame.
 Eigen::Matrix3d RowBuilder::frame_of(const Manifold& m, int manifold,
                                      const ManifoldPoint& p) const {
   const TouchingPoint* last = problem_.touches.empty() ? nullptr : &problem_.touches.back();
@@ -87,9 +88,9 @@ Eigen::Matrix3d RowBuilder::frame_of(const Manifold& m, int manifold,
   return frame;
 }
 
-// How well coordinates move b's point against a's along the normal: the largest sine, of any
-// coordinate, of the angle between the point's motion and the tangent plane. 1 for free bodies; 0
-// where nothing moves.
+// How well coordinates move b's point relative to a's along the normal: the largest sine, over all
+// coordinates, of the angle between the point's motion and the tangent plane. 1 for free bodies; 0
+// if nothing moves.
 double RowBuilder::mobility(const TouchingPoint& touch) const {
   constexpr double at_axis = 1e-12;  // points this near to a joint's axis do not move [m/rad]
   const System::Place a = system_.place(touch.a), b = system_.place(touch.b);
@@ -111,7 +112,7 @@ double RowBuilder::mobility(const TouchingPoint& touch) const {
   return most;
 }
 
-// How each tree moves the point, on b against on a.
+// Motion of the point that each tree causes, on b relative to a.
 void RowBuilder::add_contact_columns(const TouchingPoint& touch, StepBlock& block) {
   const std::array<Id<Body>, 2> bodies = {touch.a, touch.b};
   const Eigen::Vector3d normal = touch.frame.col(0);
@@ -137,7 +138,7 @@ void RowBuilder::add_contact_columns(const TouchingPoint& touch, StepBlock& bloc
 }
 
 // Adds the velocities of the contact's rows without contacts to q.
-// returns  those when the step begins
+// returns  those at the start of the step
 std::array<double, 4> RowBuilder::add_free_velocities(const TouchingPoint& touch,
                                                       const StepBlock& block) {
   const auto prescribed = [&](Id<Body> body) {
@@ -181,7 +182,7 @@ void RowBuilder::add_contact(int manifold, int point) {
     problem_.touches.push_back(touch);
     return;
   }
-  // a surface runs along itself
+  // a surface that runs along itself
   const Eigen::Vector3d normal = touch.frame.col(0),
                         belt = belt_velocity(world_, touch.b) - belt_velocity(world_, touch.a);
   touch.belt_W = belt - belt.dot(normal) * normal;
@@ -195,7 +196,7 @@ void RowBuilder::add_contact(int manifold, int point) {
   add_contact_columns(touch, block);
   const std::array<double, 4> before = add_free_velocities(touch, block);
 
-  // what touches comes no nearer, and what is too near parts
+  // touching bodies come no closer, and bodies that are too close separate
   const double h = problem_.h, step = std::max(world_.dynamic_settings().step, h);
   const double threshold = world_.contact_threshold();
   const double missing =
@@ -210,13 +211,13 @@ void RowBuilder::add_contact(int manifold, int point) {
     target =
         std::max(target, std::min(pushed_part_sliding * missing / step, pushed_of_slip * slip));
   target = std::min(target, max_push) * std::min(1.0, moves / narrow_angle);
-  // what rolls moves on over its surface; above the rest gap it may come down as it does, and it is
-  // lifted by no more than the rest gap in a step, as more would give it energy
+  // a rolling body keeps moving over its surface; above the rest gap it may approach at its present
+  // speed, and it is lifted by no more than the rest gap in a step, as more would add energy
   const double rolled = rolled_gap(world_, m, p, step), rest = rest_gap * threshold;
   target -= std::clamp(rolled, -rest, std::max(p.gap - rest, 0.0)) / step;
-  // Newton's law of impact, where the free motion would press. Bodies move with the velocity that
-  // they had when a step began: what gravity or a motor draws together arrives by half a step's
-  // gain too fast, and would bounce by as much too far
+  // Newton's law of impact, if the free motion would press. Bodies move with the velocity that they
+  // had at the start of the step: what gravity or a motor accelerates arrives half a step's gain
+  // too fast, and would bounce by as much too far
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double& q_normal = problem_.q[block.law.row];
   if (q_normal < target && before[0] < -min_bounce_speed) {
@@ -273,7 +274,7 @@ void RowBuilder::add_row(int number) {
       last != all.end() && key(*last) == wanted)
     warm = problem_.h * last->force;
   problem_.warm_start.push_back(std::clamp(warm, row.low, row.high));
-  // a limit that is exceeded asks for a velocity back
+  // an exceeded limit adds a velocity that corrects it
   const bool lower = row.kind == RowKind::low_limit || row.kind == RowKind::tendon_low;
   const bool upper = row.kind == RowKind::high_limit || row.kind == RowKind::tendon_high;
   problem_.push.push_back((lower && row.target > 0) || (upper && row.target < 0) ? row.target : 0);
@@ -302,8 +303,8 @@ void RowBuilder::half_solve() {
       problem_.trees[t].half_solve(problem_.columns[t].Y.leftCols(count));
 }
 
-// An impulse of bodies that meet at the end of a step cut short, and of all that touches them, is
-// no force of that short time.
+// The impulse of bodies that collide at the end of a shortened step, and of all that touches them,
+// is not a force of that short duration.
 void find_times(const World& world, StepProblem& problem) {
   const double h = problem.h, whole = std::max(h, world.dynamics()->whole_step);
   problem.tree_times.assign(problem.trees.size(), h);

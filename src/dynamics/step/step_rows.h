@@ -4,8 +4,8 @@
 
 namespace clench {
 
-/// Adds what the world's manifolds and the settings of its robots ask for, given the free motion:
-/// sets everything of the problem that find_free_motion does not.
+/// Adds the rows that the world's manifolds and the settings of its robots require, given the free
+/// motion: sets everything of the problem that find_free_motion does not.
 /// source  Anitescu & Hart (2004), A constraint-stabilized time-stepping approach for rigid
 ///         multibody dynamics with joints, contact and friction, for gaps in the right-hand side
 void find_rows(const World& world, const System& system, StepProblem& problem);

@@ -1,6 +1,6 @@
 // Which bodies move together: robots with all that they carry, and free bodies with what is welded
-// to them, each as a tree of joints with coordinates of its own. Joints cannot drift apart, since
-// nothing but the coordinates is integrated.
+// to them, each as a tree of joints with its own coordinates. Joints cannot drift apart, since only
+// the coordinates are integrated.
 #pragma once
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace clench {
 
-/// A joint of the tree. Its velocity is ratio times that of a coordinate: joints that one DOF turns
-/// share one.
+/// A joint of the tree. Its velocity is ratio times that of a coordinate: joints driven by one DOF
+/// share a coordinate.
 struct ArticulationJoint {
   Id<Robot> robot;
   int joint = 0;       ///< of the robot
@@ -21,7 +21,7 @@ struct ArticulationJoint {
 
 struct TreeBody {
   Id<Body> body;
-  int joint = -1;  ///< that moves it, with all before; -1: it is fixed to the root
+  int joint = -1;  ///< the joint that moves it, after all earlier ones; -1: it is fixed to the root
   bool welded = false;
 };
 
@@ -29,19 +29,19 @@ struct TreeBody {
 struct Coordinate {
   Id<Robot> robot;
   int dof = -1;                           ///< of the robot
-  int joint = -1;                         ///< of the robot; -1: the DOF's
+  int joint = -1;                         ///< of the robot; -1: the velocity is the DOF's
   size_t dof_index = 0, joint_index = 0;  ///< in the state's arrays
 };
 
 struct Articulation {
-  /// six coordinates first: the root's velocity at centre(), and its turning
+  /// six coordinates first: the linear velocity of the root at centre(), and its angular velocity
   bool floating = false;
-  Id<Body> root;  ///< a free body or the base of a robot that nobody carries
+  Id<Body> root;  ///< a free body, or the base of a robot that nothing carries
   std::vector<ArticulationJoint> joints;
   std::vector<TreeBody> bodies;         ///< the root first
-  std::vector<Coordinate> coordinates;  ///< without the six
+  std::vector<Coordinate> coordinates;  ///< without the six of the root
   std::vector<Id<Robot>> robots;
-  int first = 0;  ///< of its coordinates, in the system's vectors
+  int first = 0;  ///< index of its first coordinate in the system's vectors
 
   int root_size() const { return floating ? 6 : 0; }
   int size() const { return root_size() + static_cast<int>(coordinates.size()); }
@@ -49,15 +49,15 @@ struct Articulation {
   bool is_free_body() const { return floating && joints.empty(); }
 };
 
-/// All that can move of its own in a world; obstacles and standing bases are the ground.
+/// All bodies that can move in a world; obstacles and fixed bases belong to the ground.
 struct System {
   std::vector<Articulation> trees;
   struct Place {
-    int tree = -1;  ///< -1: the ground, which moves as it is told
+    int tree = -1;  ///< -1: the ground, whose motion is prescribed
     int body = -1;  ///< of the tree
   };
   std::vector<Place> places;  ///< by the index of the body's id
-  /// objects and what carries them, carriers first
+  /// objects and their carriers, carriers first
   std::vector<std::pair<Id<Body>, Id<Body>>> welds;
   int size = 0;
 
@@ -66,22 +66,23 @@ struct System {
 
 System find_system(const World& world);
 
-/// The point of the root whose velocity counts: its centre of mass; that of all that is welded to
-/// it, where nothing has joints [m].
+/// Reference point of the root: its center of mass; that of the complete rigid piece if the tree
+/// has no joints [m].
 Eigen::Vector3d centre(const World& world, const Articulation& tree);
 
-/// How the six coordinates of a root that floats move the origin of its frame, and turn it:
+/// How the six coordinates of a floating root move the origin of its frame, and rotate it:
 /// (velocity, angular velocity) = J v, in world axes.
 Eigen::Matrix<double, 6, 6> free_motion(const World& world, const Articulation& tree);
 
-/// Of a root that moves as prescribed, at centre() [m/s, rad/s]; 0 of one that floats, whose
-/// velocity is in the coordinates.
+/// Velocity of a root with prescribed motion, at centre() [m/s, rad/s]; 0 for a floating root,
+/// whose velocity is in the coordinates.
 Vector6d prescribed_twist(const World& world, const Articulation& tree);
 
-/// Velocities of all coordinates, as the world's state has them.
+/// Velocities of all coordinates, read from the world's state.
 void gather_velocities(const System& system, const World& world, const DynamicState& state,
                        Eigen::VectorXd& v);
-/// The other way round; joints that follow a DOF get theirs.
+/// The inverse: writes them to the state; joints that follow a DOF get its velocity times their
+/// ratio.
 void scatter_velocities(const System& system, const World& world, const Eigen::VectorXd& v,
                         DynamicState& state);
 

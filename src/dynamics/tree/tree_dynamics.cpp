@@ -108,7 +108,7 @@ void TreeDynamics::find_mass_matrix() {
   for (int k = 0; k < 6; ++k) M_.block<6, 1>(0, k) = all_[0] * (unit.setZero(), unit[k] = 1, unit);
 }
 
-// by joint + 1: what must act on what the joint carries directly
+// by joint + 1: wrench required on what the joint carries directly
 void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* change,
                                const Vector6d& root_twist, const Eigen::Vector3d& gravity) {
   const auto& joints = tree_->joints;
@@ -117,8 +117,8 @@ void TreeDynamics::find_forces(const Eigen::VectorXd& v, const Eigen::VectorXd* 
   force_.resize(joints.size() + 1);
   velocity_[0] = tree_->floating ? Vector6d(v.segment<6>(tree_->first)) : root_twist;
   acceleration_[0].setZero();
-  // of the root's centre of mass; seen from a point that stands, its surroundings accelerate
-  // against it
+  // acceleration of the root's center of mass; seen from a fixed point, its surroundings accelerate
+  // in the opposite direction
   if (tree_->floating && change) acceleration_[0] = change->segment<6>(tree_->first);
   acceleration_[0].head<3>() -= velocity_[0].tail<3>().cross(velocity_[0].head<3>());
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -174,8 +174,8 @@ void TreeDynamics::add_bias(const Eigen::VectorXd& v, const Vector6d& root_twist
   if (tree_->floating) bias_.head<6>() += force_[0];
 }
 
-// Of a root whose tree keeps its momentum while its joints keep their velocities.
-// bias  that velocities cause on the root
+// Acceleration of a root whose tree conserves momentum while its joints keep their velocities.
+// bias  velocity-dependent forces on the root
 Vector6d TreeDynamics::coasting_acceleration(const Vector6d& bias) const {
   return root_velocity(-bias, Eigen::VectorXd::Zero(tree_->size()));
 }
@@ -252,11 +252,11 @@ void TreeDynamics::factor(const Eigen::VectorXd& added, const Eigen::MatrixXd& a
   L_.diagonal() += added;
   root_is_coupled_ = added_to_root.size() > 0;
   if (root_is_coupled_) L_.topLeftCorner<6, 6>() += added_to_root;
-  // the textbook's, by columns: n is some ten
+  // the textbook algorithm, by columns: n is about ten
   for (int j = 0; j < n; ++j) {
     for (int k = 0; k < j; ++k)
       if (const double x = L_(j, k); x != 0) L_.col(j).tail(n - j) -= x * L_.col(k).tail(n - j);
-    // what has next to no mass moves as if it had some
+    // a coordinate with nearly no mass moves as if it had some
     const double pivot = std::max(L_(j, j), 1e-13 * std::max(M_(j, j), 1e-3));
     L_.col(j).tail(n - j) /= std::sqrt(pivot);
     L_(j, j) = std::sqrt(pivot);

@@ -1,4 +1,4 @@
-// Masses and forces of an articulated system as its coordinates feel them.
+// Masses and forces of an articulated system in its coordinates.
 // source  Featherstone (2008), Rigid Body Dynamics Algorithms: recursive Newton-Euler (5.3),
 //         composite rigid bodies (6.2). All spatial vectors are (linear, angular) in world axes
 //         about one point, so nothing is transformed on the way
@@ -10,10 +10,10 @@
 
 namespace clench {
 
-/// Of a rigid body or several, about a point, in world axes.
+/// Inertia of one or several rigid bodies, about a point, in world axes.
 struct SpatialInertia {
   double mass = 0;
-  /// mass times the centre of mass from the point [kg m]
+  /// mass times the vector from the point to the center of mass [kg m]
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();  ///< about the point [kg m^2]
 
@@ -23,27 +23,28 @@ struct SpatialInertia {
     moment += other.moment;
     turning += other.turning;
   }
-  /// momentum of a motion
+  /// momentum of a twist
   Vector6d operator*(const Vector6d& motion) const;
 };
 
-/// One tree as it stands; kept from step to step so that nothing is allocated.
+/// One tree at its present pose; kept between steps so that nothing is allocated.
 class TreeDynamics {
  public:
-  /// Where joints and masses are, and the mass matrix.
+  /// Computes poses of joints and masses, and the mass matrix.
   void place(const World& world, const Articulation& tree);
-  /// Forces that velocities and gravity cause, on each coordinate: M dv/dt = efforts - bias. A root
-  /// that floats is taken to keep the momentum of its tree while it moves (see root_velocity): its
-  /// bias is weight alone, and dv/dt lacks the acceleration of the root that this causes.
-  /// root_twist  of a root that moves as prescribed, at the point about() [m/s, rad/s]
+  /// Velocity-dependent and gravitational forces on each coordinate: M dv/dt = efforts - bias. A
+  /// floating root is assumed to conserve the momentum of its tree while it moves (see
+  /// root_velocity): its bias is weight alone, and dv/dt lacks the acceleration of the root that
+  /// this causes.
+  /// root_twist  of a root with prescribed motion, at the point about() [m/s, rad/s]
   /// gravity     [m/s^2]
   /// returns     bias, one per coordinate [N or N m]
   const Eigen::VectorXd& find_bias(const Eigen::VectorXd& v, const Vector6d& root_twist,
                                    const Eigen::Vector3d& gravity);
-  /// The acceleration of a root that floats which the last find_bias left out; else 0.
+  /// Acceleration of a floating root that the last find_bias omitted; otherwise 0.
   const Vector6d& root_acceleration() const { return coasting_; }
-  /// What must act on each joint, beside what acts on bodies, so that velocities change as they do.
-  /// Recursive Newton and Euler.
+  /// Efforts on each joint, in addition to forces on bodies, that produce given changes of
+  /// velocity. Recursive Newton-Euler.
   /// change  of the coordinates' velocities, as find_bias has them [m/s^2, rad/s^2]
   /// loads   on the bodies, (force, torque about about()), by the tree's bodies; or none
   /// returns one per joint of the tree, for its own unit [N m or N]
@@ -52,22 +53,21 @@ class TreeDynamics {
                                               const Vector6d& root_twist,
                                               const Eigen::Vector3d& gravity,
                                               const std::vector<Vector6d>& loads);
-  /// What on each coordinate carries the weight of all that it moves, less what is welded to it [N
-  /// m or N].
+  /// Efforts on each coordinate that carry the weight of all that it moves, minus the weight of
+  /// welded objects [N m or N].
   Eigen::VectorXd weight(const World& world) const;
-  /// Impulses on the coordinates when the velocity of a base that moves as prescribed changes at
-  /// once.
+  /// Impulses on the coordinates when the velocity of a base with prescribed motion jumps.
   Eigen::VectorXd base_impulse(const Vector6d& change_of_root) const;
-  /// Of a tree whose root floats: linear momentum, and angular momentum about about() [N s, N m s].
+  /// Momentum of a tree with a floating root: linear, and angular about about() [N s, N m s].
   /// v  of its coordinates alone
   Vector6d momentum(const Eigen::Ref<const Eigen::VectorXd>& v) const;
-  /// The velocity of a root that floats that gives its tree a momentum.
+  /// Velocity of a floating root that gives its tree a momentum.
   /// v  of its coordinates alone; those of the root are not used
   Vector6d root_velocity(const Vector6d& momentum,
                          const Eigen::Ref<const Eigen::VectorXd>& v) const;
-  /// Adds to the diagonal what acts like mass (armature; damping h d and springs h^2 k, taken at
-  /// the step's end), and factors.
-  /// added_to_root  6 x 6, likewise of a root that floats; or empty
+  /// Adds mass-like terms to the diagonal (armature; damping h d and springs h^2 k, taken at the
+  /// end of the step), and factors the matrix.
+  /// added_to_root  6 x 6, likewise for a floating root; or empty
   void factor(const Eigen::VectorXd& added_to_diagonal, const Eigen::MatrixXd& added_to_root = {});
 
   const Eigen::MatrixXd& mass_matrix() const { return M_; }
@@ -77,13 +77,13 @@ class TreeDynamics {
   /// x = L^-T x, in place
   void other_half_solve(Eigen::Ref<Eigen::VectorXd> x) const;
 
-  /// How coordinates move a point of a body: adds sign * direction . velocity to a column, and that
-  /// of turning about it.
+  /// How coordinates move a point of a body: adds sign * direction . velocity to a column; the
+  /// second function adds the body's angular velocity.
   void add_linear(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction,
                   double sign, Eigen::Ref<Eigen::VectorXd> column) const;
   void add_angular(int body, const Eigen::Vector3d& direction, double sign,
                    Eigen::Ref<Eigen::VectorXd> column) const;
-  /// Of its centre of mass.
+  /// Velocity of its center of mass.
   Twist twist(int body, const Eigen::Ref<const Eigen::VectorXd>& v,
               const Vector6d& root_twist) const;
   const Eigen::Vector3d& com(int body) const { return com_[body]; }
@@ -105,12 +105,13 @@ class TreeDynamics {
   std::vector<Vector6d> S_;           // by joint, for its own unit speed
   std::vector<Eigen::Vector3d> com_;  // by body
   std::vector<SpatialInertia> own_,
-      all_;  // by joint + 1, the root first: of what it carries directly, and with all beyond
+      all_;  // by joint + 1, the root first: of what it carries directly, and of everything beyond
   std::vector<Vector6d> velocity_, acceleration_, force_;
   std::vector<double> joint_efforts_;
   Eigen::MatrixXd M_, L_;
-  bool root_is_coupled_ = false;  // does a free body's added mass couple its velocity and turning?
-  std::vector<SpatialInertia> carried_;  // as own_, of the weight that is left out; or empty
+  // does a free body's added mass couple its linear and angular velocity?
+  bool root_is_coupled_ = false;
+  std::vector<SpatialInertia> carried_;  // as own_, for the weight that is left out; or empty
   Eigen::VectorXd bias_;
   Vector6d coasting_ = Vector6d::Zero();
   RobotFrames frames_;
