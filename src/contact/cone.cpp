@@ -12,7 +12,8 @@ namespace clench {
 
 namespace {
 
-constexpr double unit_length = 1e-6;  // what a normal's length may be off: it passed through files
+// tolerance on the length of a normal, which may have been rounded in a file
+constexpr double unit_length = 1e-6;
 
 void check_cone(const PointContact& contact, const ConeOptions& options) {
   if (!contact.p_O.allFinite()) fail("contact cone: the point must be finite");

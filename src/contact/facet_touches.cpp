@@ -11,7 +11,7 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// cracks are narrower than this part of the merge radius
+// cracks are narrower than this fraction of the merge radius
 static constexpr double crack_part = 0.1;
 
 void check(const TouchOptions& options) {
@@ -24,8 +24,8 @@ void check(const TouchOptions& options) {
     fail("contact set: max_per_patch must be >= 1, got {}", options.max_per_patch);
 }
 
-// Are both surfaces seen from outside where they are nearest? The triangle that looks most squarely
-// along the gap decides; one that sees nothing says no. Open surfaces have no inside.
+// Do both surfaces face outwards at their nearest points? The triangle whose normal is most nearly
+// along the gap decides; if none is, the answer is no. Open surfaces have no inside.
 static bool clearly_apart(const Shape& a, const Shape& b, const Pose& X_AB,
                           const std::vector<TrianglePair>& pairs, double rounding) {
   double least = pairs[0].distance;
@@ -49,7 +49,7 @@ static bool clearly_apart(const Shape& a, const Shape& b, const Pose& X_AB,
 }
 
 double merge_radius(const Shape& a, const Shape& b, const TouchOptions& options) {
-  // of the smaller shape's radius: the largest merge radius
+  // largest merge radius, as a fraction of the smaller shape's radius
   constexpr double merge_part = 0.1;
   return std::min(options.merge_radius, merge_part * std::min(a.radius(), b.radius()));
 }

@@ -1,5 +1,5 @@
-// Where triangle meshes touch: the points of all near triangle pairs, reduced to the outline of
-// each patch.
+// Contact points of triangle meshes: the points of all near triangle pairs, reduced to the outline
+// of each patch.
 #pragma once
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace clench {
 /// Distance below which two points of a patch are merged [m].
 double merge_radius(const Shape& a, const Shape& b, const TouchOptions& options);
 
-/// throws  Error when an option is negative or not finite, or max_per_patch < 1
+/// throws  Error if an option is negative or not finite, or max_per_patch < 1
 void check(const TouchOptions& options);
 
 /// contact_set() of the triangles; round pieces are ignored.

@@ -31,7 +31,7 @@ FrictionEdges friction_edges(double torsion_radius, int directions, double even_
   FrictionEdges edges = FrictionEdges::Zero(6, count);
   int next = 0;
   for (const auto& [latitude, around] : all) {
-    // from the unit sphere out to the ellipsoid, in the same direction
+    // projects from the unit sphere to the ellipsoid along the same direction
     const bool pole = soft && std::abs(latitude) == pi / 2;
     const double across = pole ? 0 : std::cos(latitude), along = std::sin(latitude);
     const double length = soft ? std::hypot(across, along * (even_in / torsion_radius)) : 1;

@@ -9,7 +9,7 @@
 
 namespace clench {
 
-// coefficients of sticking, in the order of the names; sliding is 0.1 less
+// static coefficients, in the order of the names; kinetic ones are 0.1 less
 constexpr double static_friction[material_names.size()][material_names.size()] = {
     {0, 0, 0, 0, 0, 0, 0},              // frictionless
     {0, 0.2, 0.2, 0.2, 0.3, 1.0, 0.3},  // glass
@@ -20,7 +20,7 @@ constexpr double static_friction[material_names.size()][material_names.size()] =
     {0, 0.3, 0.4, 0.4, 0.6, 1.5, 0.7},  // stone
 };
 
-static constexpr size_t max_materials = 500;  // the table holds every pair
+static constexpr size_t max_materials = 500;  // the table covers every pair
 
 MaterialTable::MaterialTable() : names_(material_names.begin(), material_names.end()) {
   for (size_t i = 0; i < names_.size(); ++i)
@@ -58,7 +58,7 @@ bool MaterialTable::knows(std::string_view name) const {
 void MaterialTable::add(const OwnFriction& own) {
   const std::string name = material_name(own);
   if (const auto found = std::find(names_.begin(), names_.end(), name); found != names_.end()) {
-    // a saved world has the material already, with the friction of its pairs
+    // a saved world already has the material, with the friction of its pairs
     own_[found - names_.begin()] = own;
     return;
   }

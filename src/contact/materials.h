@@ -15,7 +15,7 @@ namespace clench {
 struct Friction {
   double statics = 0;  ///< while sticking
   double kinetic = 0;  ///< while sliding
-  /// speed after a blow by that before, in [0, 1]; absent: the larger of the two bodies'
+  /// coefficient of restitution, in [0, 1]; absent: the larger of the two bodies'
   std::optional<double> restitution = {};
 };
 
@@ -26,18 +26,18 @@ class MaterialTable {
  public:
   MaterialTable();
 
-  /// throws Error with a near name when there is no such material
+  /// throws Error that suggests a similar name if there is no such material
   int index(std::string_view name) const;
   const std::string& name(int material) const { return names_[material]; }
   const std::vector<std::string>& names() const { return names_; }
   Friction friction(int a, int b) const { return table_[place(a, b)]; }
 
-  /// Adds the names it does not know, frictionless against all others until told otherwise.
-  /// throws Error when a coefficient is negative or not finite, or kinetic exceeds statics
+  /// Adds the unknown names, frictionless against all others until set otherwise.
+  /// throws Error if a coefficient is negative or not finite, or kinetic exceeds statics
   void set_friction(std::string_view a, std::string_view b, Friction friction);
-  /// Adds a material with a friction of its own, unless its name is known. With another such
-  /// material it has the combined friction; with any other material that is not frictionless, the
-  /// larger of its own coefficient and that of the other on itself.
+  /// Adds a material with its own coefficient of friction, unless its name is known. Paired with
+  /// another such material it has the combined friction; paired with any other material that is not
+  /// frictionless, the larger of its own coefficient and that of the other material on itself.
   void add(const OwnFriction& own);
   bool knows(std::string_view name) const;
 

@@ -12,8 +12,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// below this multiple of rounding the difference of two points is no direction: there it is off
-// by 1e-6
+// below this multiple of rounding the difference of two points defines no direction: at this length
+// the direction is off by 1e-6
 static constexpr double direction_floor = 1e6;
 
 double coordinate_rounding(const Shape& a, const Shape& b, const Pose& X_AB) {
@@ -27,10 +27,10 @@ Vector3d face_normal(const Corners& c) {
 
 namespace {
 
-// a negative volume says that the triangles face inwards
+// a negative volume means that the triangles face inwards
 double facing(const Shape& shape) { return shape.closed() && shape.solid().volume < 0 ? -1 : 1; }
 
-// near crossed edges, and the pair of triangles where they were seen
+// near crossed edges, and the pair of triangles in which they were found
 struct Crossing {
   int edge_a, edge_b, pair;
   Vector3d p_a, p_b;
@@ -66,7 +66,7 @@ class Collector {
     add_lost_regions();
     for (NearPoint& point : points_) {
       point.region = regions_.find(point.region);
-      point.gap = std::max(point.gap, points_[0].gap);  // nearer by rounding only
+      point.gap = std::max(point.gap, points_[0].gap);  // closer by rounding only
     }
     return std::move(points_);
   }
@@ -80,8 +80,8 @@ class Collector {
     return out;
   }
 
-  // From a into b: along the gap where it is wide enough to tell, else along `face`, a normal in
-  // either sense, else between the triangles' normals.
+  // From a into b: along the gap if it is wide enough to define a direction, otherwise along
+  // `face`, a normal in either sense, otherwise between the triangles' normals.
   Vector3d normal(const Vector3d& p_a, const Vector3d& p_b, double gap, int i, int j,
                   const Vector3d& face) const {
     if (gap > direction_floor * rounding_) return (p_b - p_a).normalized();
@@ -112,8 +112,8 @@ class Collector {
     if (closest->distance <= direction_floor * rounding_) take_normal_of_faces();
   }
 
-  // Where the gap tells no direction, rounding alone says which pair is the closest: two of faces
-  // that lie on each other, if there are any, tell it.
+  // If the gap defines no direction, only rounding decides which pair is the closest: two faces
+  // that lie on each other, if there are any, define it.
   void take_normal_of_faces() {
     NearPoint& closest = points_.front();
     for (const TrianglePair& p : pairs_) {
@@ -134,7 +134,7 @@ class Collector {
     const Closest c = point_triangle(p, b_.corners(j_));
     if (!(c.distance < threshold_)) return;
     meet(seen_a_[corner], pair);
-    // the first triangle at the corner speaks for all
+    // the first triangle at the corner represents all
     const auto slots = a_.at_corner(corner);
     if (slots[0] != 3 * i_ + k) return;
     const Vector3d n = normal(p, c.q, c.distance, i_, j_, face_normal(b_.corners(j_)));
@@ -164,7 +164,7 @@ class Collector {
     regions_.join(seen, pair);
   }
 
-  // edges whose nearest points lie inside both; ends are corners
+  // edges whose nearest points are interior to both; ends are corners
   void edges(int pair, int k, int l) {
     const Corners &ca = a_.corners(i_), &cb = b_.corners(j_);
     const Vector3d &a0 = ca[k], &a1 = ca[(k + 1) % 3], &b0 = cb[l], &b1 = cb[(l + 1) % 3];
@@ -207,7 +207,7 @@ class Collector {
           {c.p_a, c.p_b, n, c.gap, a_.edge_feature(c.edge_a), b_.edge_feature(c.edge_b), c.pair});
   }
 
-  // every region has its closest pair at least
+  // every region has at least its closest pair
   void add_lost_regions() {
     std::vector<char> found(pairs_.size(), 0);
     for (const NearPoint& point : points_) found[regions_.find(point.region)] = 1;
@@ -224,10 +224,10 @@ class Collector {
   double threshold_, rounding_, facing_a_, facing_b_;
   NearSurface a_, b_;
   DisjointSets regions_;              // of pairs that share a near corner or near crossed edges
-  std::vector<int> seen_a_, seen_b_;  // first pair where a corner was near
+  std::vector<int> seen_a_, seen_b_;  // first pair in which a corner was near
   std::vector<Crossing> crossings_;
   std::vector<NearPoint> points_;
-  int i_ = 0, j_ = 0;  // the pair's triangles, as the near surfaces number them
+  int i_ = 0, j_ = 0;  // the pair's triangles, by their numbers in the near surfaces
 };
 
 }  // namespace

@@ -8,8 +8,9 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-static constexpr double max_slope = 1.0 / 30;  // forgiven by is_summit
-static constexpr double on_boundary = 1e-9;    // of a triangle's size: nearer is on its edge
+static constexpr double max_slope = 1.0 / 30;  // slope tolerated by is_summit
+// fraction of a triangle's size: points nearer to an edge count as on the edge
+static constexpr double on_boundary = 1e-9;
 
 // members of the groups 0 to count - 1, in the order of the slots
 NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
@@ -25,7 +26,7 @@ NearSurface::Groups NearSurface::group(std::vector<int> of, int count) {
   return groups;
 }
 
-// Sorted numbers without duplicates, all below `limit`. Many of them are marked in a table.
+// Sorted numbers without duplicates, all below `limit`. Large sets are marked in a table.
 static std::vector<int> distinct_numbers(const std::vector<int>& numbers, int limit) {
   constexpr size_t many = 8;
   if (many * numbers.size() < static_cast<size_t>(limit)) {
@@ -42,8 +43,8 @@ static std::vector<int> distinct_numbers(const std::vector<int>& numbers, int li
   return out;
 }
 
-// Vertices by slot -> numbers of their positions, as these stand in order. Few vertices are
-// compared by place, those that differ by index.
+// Vertices by slot -> numbers of their positions, in order of appearance. Few vertices are compared
+// by position, those that differ by index.
 static int number_positions(const std::vector<Vector3d>& vertices, std::vector<int>& slots) {
   const std::vector<int> distinct = distinct_numbers(slots, static_cast<int>(vertices.size()));
   std::vector<int> order(distinct.size()), number(distinct.size());
@@ -147,7 +148,7 @@ Feature NearSurface::feature(int triangle, const Vector3d& p) const {
 bool NearSurface::is_summit(std::span<const int> slots, const Vector3d& p,
                             const Vector3d& direction, double reach, double rounding) const {
   for (const int slot : slots) {
-    // a step off the surface, short enough to see the slope and not the triangle's end
+    // a step off the surface, short enough to measure the slope and to stay on the triangle
     const Corners& c = corners_[slot / 3];
     double step = reach;
     for (int k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// The near triangles of one shape, and which of them meet at a corner or an edge.
+// The near triangles of one shape, and which of them share a corner or an edge.
 #pragma once
 #include <span>
 #include <utility>
@@ -11,15 +11,15 @@
 
 namespace clench {
 
-/// Corners and edges are numbered by position, so that triangles which share one find each other
-/// even when the mesh repeats its vertices. A slot is 3 * triangle + corner; edge k runs from
-/// corner k to k + 1.
+/// Corners and edges are numbered by position, so that adjacent triangles are found even if the
+/// mesh repeats its vertices. A slot is 3 * triangle + corner; edge k runs from corner k to k + 1.
 class NearSurface {
  public:
-  /// triangles  indices into the mesh, which outlives this, ascending; `X` moves the corners
+  /// triangles  indices into the mesh, which must outlive this object, ascending; `X` transforms
+  ///            the corners
   NearSurface(const Mesh& mesh, std::vector<int> triangles, const Pose& X);
 
-  int find(int mesh_triangle) const;  ///< its number among the near ones
+  int find(int mesh_triangle) const;  ///< its number among the near triangles
   const Corners& corners(int triangle) const { return corners_[triangle]; }
   int corner(int triangle, int k) const { return by_corner_.of[3 * triangle + k]; }
   int edge(int triangle, int k) const { return by_edge_.of[3 * triangle + k]; }
@@ -29,19 +29,20 @@ class NearSurface {
   std::span<const int> at_corner(int corner) const { return by_corner_.members(corner); }
   std::span<const int> at_edge(int edge) const { return by_edge_.members(edge); }
 
-  /// Slots of the triangles around p, a point of `triangle`: those at its corner or edge; none
+  /// Slots of the triangles around p, a point of `triangle`: those at its corner or edge; empty
   /// inside the face.
   std::span<const int> around(int triangle, const Eigen::Vector3d& p) const;
 
-  /// What of the mesh a point of `triangle` lies on: the least that holds it.
+  /// The feature of the mesh on which a point of `triangle` lies: the lowest-dimensional one that
+  /// contains it.
   Feature feature(int triangle, const Eigen::Vector3d& p) const;
   Feature vertex_feature(int corner) const;
   Feature edge_feature(int edge) const;
 
-  /// Is p the point of these triangles that comes nearest to what lies along `direction` (unit)
-  /// from it? A slope of 1/30 towards it is forgiven.
+  /// Is p the point of these triangles that is farthest along `direction` (unit)? A slope of 1/30
+  /// is tolerated.
   ///
-  /// reach     how far it may lie, > 0 [m]
+  /// reach     largest distance of the triangles considered, > 0 [m]
   /// rounding  of coordinates [m]
   bool is_summit(std::span<const int> slots, const Eigen::Vector3d& p,
                  const Eigen::Vector3d& direction, double reach, double rounding) const;
@@ -56,7 +57,7 @@ class NearSurface {
     }
   };
   static Groups group(std::vector<int> of, int count);
-  // where on its border a point of a triangle lies: corner k, edge k, or neither
+  // position of a point on the border of its triangle: corner k, edge k, or neither
   enum class Border { corner, edge, none };
   std::pair<Border, int> border(int triangle, const Eigen::Vector3d& p) const;
 

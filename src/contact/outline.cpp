@@ -13,7 +13,7 @@ using Points = std::vector<Vector2d>;
 
 static double cross(const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
 
-// the whole convex hull, counter-clockwise from the leftmost point
+// the complete convex hull, counter-clockwise from the leftmost point
 static std::vector<int> hull(const Points& points) {
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -43,7 +43,7 @@ static std::vector<int> hull(const Points& points) {
   return chain;
 }
 
-// the place in a polygon that is farthest from p; of equals the first
+// index of the polygon's point farthest from p; the first of equals
 static size_t farthest(const Points& points, const std::vector<int>& polygon, const Vector2d& p) {
   size_t best = 0;
   double far = -1;
@@ -59,7 +59,8 @@ static double height(const Vector2d& p, const Vector2d& from, const Vector2d& to
   return length > 0 ? std::abs(cross(to - from, p - from)) / length : (p - from).norm();
 }
 
-// keeps of polygon[from..to] what stands out from its chord by more than `flat`; both ends stay
+// keeps those points of polygon[from..to] that are farther than `flat` from its chord; both ends
+// stay
 static void keep_corners(const Points& points, const std::vector<int>& polygon, size_t from,
                          size_t to, double flat, std::vector<char>& keep) {
   std::vector<std::pair<size_t, size_t>> open = {{from, to}};
@@ -105,7 +106,7 @@ std::vector<int> outline(const Points& points, double flat) {
 
 std::vector<int> spread(const Points& points, int first, const std::vector<int>& others,
                         double radius, int most) {
-  // what differs by less is a tie that rounding must not decide
+  // smaller differences are ties that rounding must not decide
   constexpr double tie = 1 + 1e-9;
   std::vector<int> chosen = {first};
   std::vector<double> nearest(others.size(), std::numeric_limits<double>::infinity());

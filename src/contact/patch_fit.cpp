@@ -17,10 +17,10 @@ namespace {
 
 constexpr int max_fit_rounds = 40;
 constexpr double settled = 1e-12;  // change of curvatures times the scale
-// Of the mean of squared columns, which are about 0.1: what no point tells stays flat, what the
-// points tell changes by 1e-10 of itself.
+// Relative to the mean of squared columns, which are about 0.1: directions without data stay flat,
+// determined ones change by a relative 1e-10.
 constexpr double ridge = 1e-12;
-// z - m/2 z^2 must rise with z
+// z - m/2 z^2 must increase with z
 constexpr double max_bend = 0.9;
 constexpr double tiny = 1e-300;
 
@@ -43,13 +43,13 @@ Principal principal(double k11, double k12, double k22) {
 
 using Column = Eigen::ArrayXd;
 
-// points by coordinates, which the sums are quicker over
+// points by coordinate, which makes sums faster
 struct Columns {
   explicit Columns(size_t count) : x(count), y(count), z(count) {}
   Column x, y, z;
 };
 
-// weights, 1 where there are none
+// weights, 1 if none are given
 Column weight_column(std::span<const double> weights, size_t count) {
   if (weights.empty()) return Column::Ones(static_cast<Eigen::Index>(count));
   return Eigen::Map<const Column>(weights.data(), static_cast<Eigen::Index>(count));
@@ -68,8 +68,8 @@ void move_into(const Matrix3d& axes, const Vector3d& origin, double scale, Point
   out.x = along(0), out.y = along(1), out.z = along(2);
 }
 
-// What circles add to parabolas: m/2 z^2, where m is the mean of the principal curvatures, weighted
-// by what each adds to the height.
+// Correction for circular profiles: m/2 z^2, where m is the mean of the principal curvatures,
+// weighted by their contributions to the height.
 Column rounding_up(const Principal& k, const Columns& at) {
   const double highest = at.z.abs().maxCoeff();
   const double most = highest > 0 ? max_bend / highest : 0;
@@ -77,7 +77,7 @@ Column rounding_up(const Principal& k, const Columns& at) {
       std::abs(k.values[0]) * (k.vectors(0, 0) * at.x + k.vectors(1, 0) * at.y).square();
   const Column second =
       std::abs(k.values[1]) * (k.vectors(0, 1) * at.x + k.vectors(1, 1) * at.y).square();
-  // 0 / 0 where neither adds
+  // 0 / 0 if neither contributes
   const Column m = (first * k.values[0] + second * k.values[1]) / (first + second).max(tiny);
   return 0.5 * m.max(-most).min(most) * at.z.square();
 }

@@ -1,32 +1,32 @@
-// The curvature of a surface at a contact, from points of it.
+// Curvature of a surface at a contact, fitted to points of it.
 #pragma once
 #include <Eigen/Core>
 #include <span>
 
 namespace clench {
 
-/// How a surface bends where it is touched; in the frame of its points, whose +z goes into the
+/// Local shape of a surface at a contact, in the frame of its points, whose +z points into the
 /// body.
 struct SurfaceFit {
-  /// principal curvatures, descending; positive where the surface falls away from what touches it,
-  /// as a ball's, negative where it rises, as a socket's [1/m]
+  /// principal curvatures, descending; positive for a convex surface such as a ball, negative for a
+  /// concave one such as a socket [1/m]
   Eigen::Vector2d curvatures = Eigen::Vector2d::Zero();
   /// unit, one per column, orthogonal to each other and to the normal
   Eigen::Matrix<double, 3, 2> directions = Eigen::Matrix<double, 3, 2>::Identity();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, into the body
-  double residual = 0;  ///< how far the points lie from the fit, root of the mean square [m]
-  /// how far they lie from their mean height over the tangent plane, likewise [m]
+  double residual = 0;  ///< root mean square distance of the points from the fit [m]
+  /// root mean square distance of the points from their mean height over the tangent plane [m]
   double relief = 0;
 };
 
 enum class PatchFit {
-  quadric,  ///< our own
+  quadric,  ///< least squares, see fit_quadric
   jet       ///< CGAL's Monge_via_jet_fitting, in builds with CLENCH_CGAL
 };
 
 /// Least squares of z = c + Dx + Ey + Ax^2 + By^2 + Cxy + m/2 z^2, in the tangent plane: the frame
-/// is turned until D and E vanish, so that a tilt is no curvature. m is the curvature found in the
-/// point's direction: profiles are circles, so balls and cylinders of any size are exact.
+/// is rotated until D and E vanish, so that a tilt does not count as curvature. m is the curvature
+/// in the point's direction: profiles are circles, so balls and cylinders of any size are exact.
 ///
 /// points   surface points around (0, 0), at least 3, +z into the body [m]
 /// scale    of their distances, > 0 [m]
@@ -42,7 +42,7 @@ SurfaceFit fit_quadric(std::span<const Eigen::Vector3d> points, double scale,
 ///         osculating jets
 SurfaceFit fit_jet(std::span<const Eigen::Vector3d> points, double scale);
 
-/// Is fit_jet there?
+/// Is fit_jet available in this build?
 bool has_fit_jet();
 
 /// residual and relief of points in the frame of a fit's directions and normal, about `origin`

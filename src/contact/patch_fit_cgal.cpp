@@ -19,7 +19,7 @@ SurfaceFit fit_jet(std::span<const Eigen::Vector3d> points, double scale) {
   if (points.size() < coefficients)
     fail("contact patch: a jet needs {} points at least, got {}", coefficients, points.size());
 
-  // it fits at its first point: the one nearest to the contact
+  // the fit is at its first point: the one nearest to the contact
   size_t nearest = 0;
   for (size_t i = 1; i < points.size(); ++i)
     if (points[i].head<2>().squaredNorm() < points[nearest].head<2>().squaredNorm()) nearest = i;

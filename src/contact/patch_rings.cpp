@@ -15,13 +15,13 @@ using Eigen::Vector3d;
 
 static constexpr double nowhere = std::numeric_limits<double>::infinity();
 static constexpr double whole_turn = 2 * std::numbers::pi;
-static constexpr double full_facing = 0.7;  // cosine: what leans less counts wholly
-static constexpr double min_width = 1e-6;   // of the radius: rings narrower than this are none
+static constexpr double full_facing = 0.7;  // cosine: surfaces that lean less have full weight
+static constexpr double min_width = 1e-6;   // fraction of the radius: narrower rings are omitted
 static constexpr double longest_piece = whole_turn / 8, shortest_piece = 0.02;
 
 namespace {
 
-// of Gauss and Legendre, on [0, 1]
+// nodes and weights of Gauss-Legendre quadrature on [0, 1]
 struct Nodes {
   std::vector<double> at, weight;
 };
@@ -35,7 +35,7 @@ const Nodes& radial_nodes() {
   return nodes;
 }
 
-// of an arc: the shorter, the fewer
+// number of nodes on an arc: shorter arcs have fewer
 const Nodes& arc_nodes(double length) {
   static const Nodes two = {{0.21132486540518712, 0.78867513459481288}, {0.5, 0.5}};
   static const Nodes three = {{0.11270166537925831, 0.5, 0.88729833462074169},
@@ -47,13 +47,13 @@ const Nodes& arc_nodes(double length) {
   return length < 0.03 ? two : length < 0.1 ? three : five;
 }
 
-// where a circle runs over a triangle; from < to
+// part of a circle over a triangle; from < to
 struct RingArc {
   double from, to;  // [rad]
   int triangle;
 };
 
-// a body as the other one sees the plane
+// a body's surface seen from the plane
 struct SeenSheet {
   PatchSheet& sheet;
   double mirror;  // of y: 1 or -1
@@ -62,9 +62,9 @@ struct SeenSheet {
   Vector2d own(const Vector2d& place) const { return {place.x(), mirror * place.y()}; }
 };
 
-// a place on a triangle
+// a position on a triangle
 struct PatchHit {
-  int triangle = -1;  // -1: on none
+  int triangle = -1;  // -1: no triangle
   Vector3d weights = Vector3d::Zero();
 };
 
@@ -78,7 +78,7 @@ static double plane_cross(const Vector2d& u, const Vector2d& v) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
-// barycentric weights of a triangle's point over a place; below 0 where it stands upright
+// barycentric weights of a triangle's point over a position; below 0 for a vertical triangle
 static Vector3d weights_over(const Corners& c, const Vector2d& place) {
   const Vector2d a = c[0].head<2>() - place, b = c[1].head<2>() - place, d = c[2].head<2>() - place;
   const Vector3d weights(plane_cross(b, d), plane_cross(d, a), plane_cross(a, b));
@@ -140,7 +140,7 @@ static void add_arcs(const SeenSheet& side, int triangle, double radius,
   }
 }
 
-// cut at one angle, from where all lie within a turn, in order
+// cut at one angle, so that all lie within a turn, in order
 static std::vector<RingArc> unrolled(const std::vector<RingArc>& arcs, double start) {
   std::vector<RingArc> out;
   for (RingArc arc : arcs) {
@@ -157,13 +157,13 @@ static std::vector<RingArc> unrolled(const std::vector<RingArc>& arcs, double st
 
 namespace {
 
-// the arcs over one angle after the other
+// the arcs at successive angles
 class ArcSweep {
  public:
   ArcSweep(const SeenSheet& side, const std::vector<RingArc>& arcs, double start)
       : side_(side), arcs_(unrolled(arcs, start)) {}
 
-  /// the triangle over a place: where the sheet lies over itself the one nearer to the tangent
+  /// the triangle over a position: where the sheet overlaps itself, the one nearer to the tangent
   /// plane
   int triangle_at(double angle, const Vector2d& place) {
     for (; next_ < arcs_.size() && arcs_[next_].from <= angle; ++next_)
@@ -205,9 +205,9 @@ static void add_point(const SeenSheet& side, int triangle, const Vector3d& point
 
 namespace {
 
-// a piece of a circle that runs over one triangle of each body
+// a piece of a circle over one triangle of each body
 struct RingPiece {
-  double radius, width;  // of the ring that it stands for
+  double radius, width;  // of the ring that it represents
   int in_a, in_b;
   // a piece along which the gap widens by more than twice this, and by a half, is halved
   double depth;
@@ -215,7 +215,7 @@ struct RingPiece {
 
 }  // namespace
 
-// shorter ones where the gap widens fast
+// shorter pieces where the gap widens fast
 static void add_piece(const SeenSheet& a, const SeenSheet& b, const RingPiece& piece, double from,
                       double length, PatchRings& out) {
   const Nodes& nodes = arc_nodes(length);
@@ -268,8 +268,8 @@ static void add_circle(const SeenSheet& a, const SeenSheet& b, RingPiece piece, 
   }
 }
 
-// Where circles begin to leave a sheet and where they have left it: smooth between, up to the
-// radius.
+// Radii at which circles begin to leave a sheet and have left it completely; smoothed between, up
+// to the radius.
 static std::vector<double> radial_cuts(const PatchSheet& a, const PatchSheet& b, double radius) {
   std::vector<double> out = {radius};
   for (const PatchSheet* sheet : {&a, &b}) {
@@ -298,7 +298,7 @@ PatchRings patch_rings(PatchSheet& a, PatchSheet& b, double radius, double depth
   for (const double to : cuts) {
     const double width = to - from;
     for (size_t i = 0; i < nodes.at.size(); ++i) {
-      // from the middle on by squares
+      // from the middle outwards, quadratically spaced
       const double t = nodes.at[i], w = nodes.weight[i];
       const double r = from == 0 ? t * t * width : from + t * width;
       add_circle({a, -1}, {b, 1}, {r, (from == 0 ? 2 * t * w : w) * width, -1, -1, depth}, out);
@@ -355,7 +355,7 @@ double depth_of(const std::vector<GapPlace>& gap, double volume) {
   for (const GapPlace& g : gap)
     if (g.gap < nowhere) area += g.area, highest = std::max(highest, g.gap);
   if (!(area > 0 && volume > 0)) return 0;
-  // below all gaps the volume grows by the area
+  // below all gaps the volume grows in proportion to the area
   const double full = volume_at(highest);
   if (volume >= full) return highest + (volume - full) / area;
   double low = 0, high = highest;

@@ -9,7 +9,7 @@ namespace clench {
 
 using Eigen::Vector2d;
 
-// of a width: so nearly across an axis that it counts as that
+// fraction of a width: an angle to an axis that is so small counts as zero
 static constexpr double across_slack = 1e-6;
 
 PatchRoom patch_room(const PatchSheet& sheet, bool is_a) {

@@ -15,15 +15,17 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 static const double min_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbours
-static const double min_round = std::cos(60 * std::numbers::pi / 180);  // around a corner: no spike
-// Of two neighbours, one that goes on so much farther from their edge is flat beside a rounded
+// around a corner: not a spike
+static const double min_round = std::cos(60 * std::numbers::pi / 180);
+// Of two neighbors, one that extends this much farther from their edge is flat beside a rounded
 // edge, not a chord of a curve.
 static constexpr double max_height_ratio = 3;
-static constexpr double seed_distance = 1e-3;  // of the radius: triangles as near as the nearest
+// fraction of the radius: triangles within it of the nearest distance count as nearest
+static constexpr double seed_distance = 1e-3;
 
 namespace {
 
-// what is near the sites, and how far around each it is all there is
+// triangles near the sites, and the radius around each within which they are complete
 struct Neighbourhood {
   std::vector<int> triangles, seeds;  // ascending
   std::vector<double> reaches;
@@ -91,7 +93,7 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
   fans_.resize(near_.corner_count());
   touching_ = 1e-9 * (shape.radius() + shape.centre().norm());
 
-  // from the seeds on, across corners
+  // from the seeds across corners
   std::vector<char> inside(count, 0);
   const auto take = [&](int t) {
     if (inside[t] || facing(t) <= min_facing) return;
@@ -139,7 +141,7 @@ std::vector<PatchSheet::Blade> PatchSheet::blades_at(int triangle, int k) const 
   return out;
 }
 
-// the same where the mesh is to be asked
+// the same, found by a query of the mesh
 std::vector<PatchSheet::Blade> PatchSheet::far_blades_at(int triangle, int k) const {
   check_stop();
   const Vector3d centre = shape_.mesh().corners(known_[triangle])[k];
@@ -168,7 +170,7 @@ std::vector<PatchSheet::Blade> PatchSheet::far_blades_at(int triangle, int k) co
   return out;
 }
 
-// beside triangles of one edge the areas are as the heights over it
+// triangles that share an edge have areas in proportion to their heights over it
 bool PatchSheet::linked(const Blade& a, const Blade& b) const {
   const double cosine = a.normal.dot(b.normal);
   const bool beside = a.ends[0] == b.ends[0] || a.ends[0] == b.ends[1] || a.ends[1] == b.ends[0] ||
@@ -178,8 +180,8 @@ bool PatchSheet::linked(const Blade& a, const Blade& b) const {
          max_height_ratio * b.twice_area > a.twice_area;
 }
 
-// Weighted over the triangles that one comes to from this one around the corner, across edges that
-// are none.
+// Weighted over the triangles that are reached from this one around the corner, across smooth
+// edges.
 Vector3d PatchSheet::make_corner_normal(int triangle, int k) {
   auto& [blades, links] = fans_[near_.corner(triangle, k)];
   if (blades.empty()) {
@@ -204,14 +206,14 @@ Vector3d PatchSheet::make_corner_normal(int triangle, int k) {
   }
   Vector3d sum = Vector3d::Zero();
   for (const Blade& blade : blades) {
-    // open surfaces have two outsides
+    // open surfaces have two outer sides
     const double sense = !shape_.closed() && blade.normal.dot(normal) < 0 ? -1 : 1;
     if (blade.reached) sum += sense * blade.weight * blade.normal;
   }
   return sum.isZero() ? normal : sum.normalized();
 }
 
-// of the smooth surface at a corner, in either sense
+// normal of the smooth surface at a corner, in either sense
 const Vector3d& PatchSheet::corner_normal(int triangle, int k) {
   Vector3d& n = corner_normals_[3 * triangle + k];
   if (n.isZero()) n = make_corner_normal(triangle, k);
@@ -243,13 +245,13 @@ std::vector<std::array<Vector3d, 2>> PatchSheet::rim() const {
   return out;
 }
 
-// of a segment near the origin, as crease_length counts
+// length of a segment near the origin, weighted as in crease_length
 static double length_near(const Vector2d& from, const Vector2d& to, double radius) {
   constexpr int samples = 16;
   const Vector2d along = to - from;
   const double length = along.norm();
   if (length == 0) return 0;
-  // the chord within the radius
+  // part of the chord within the radius
   const double foot = -from.dot(along) / length;
   const double room = radius * radius - from.squaredNorm() + foot * foot;
   if (room <= 0) return 0;

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Indices = std::vector<int>;
 
-// a corner this near, in merge radii, to the line between its neighbours is left out
+// a corner this near, in merge radii, to the line between its neighbors is omitted
 static constexpr double flat_corner = 0.01;
 
 void join_neighbours(std::vector<NearPoint>& points, double reach) {
@@ -24,7 +24,7 @@ void join_neighbours(std::vector<NearPoint>& points, double reach) {
                                [&](const NearPoint& p) { return p.region == points[0].region; });
   if (one || !(reach > 0)) return;
 
-  // points by the cube of space that they lie in
+  // points by the cube of space that contains them
   using Cell = std::array<double, 3>;
   const auto cell = [&](const Vector3d& p) {
     return Cell{std::floor(p.x() / reach), std::floor(p.y() / reach), std::floor(p.z() / reach)};
@@ -37,7 +37,7 @@ void join_neighbours(std::vector<NearPoint>& points, double reach) {
   }
   std::sort(sorted.begin(), sorted.end());
 
-  // the least region of all that are linked stands for them
+  // the lowest of all linked regions represents them
   DisjointSets linked(regions);
   StopCheck check(4096);
   for (const auto& [home, i] : sorted)
@@ -55,7 +55,8 @@ void join_neighbours(std::vector<NearPoint>& points, double reach) {
   for (NearPoint& point : points) point.region = linked.find(point.region);
 }
 
-// Within a region the closest point takes all those whose normals agree with its own, and so on.
+// Within a region the closest point collects all those whose normals agree with its own; then the
+// closest of the rest, and so on.
 static std::vector<Indices> find_patches(const std::vector<NearPoint>& points) {
   Indices order(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -78,8 +79,8 @@ static std::vector<Indices> find_patches(const std::vector<NearPoint>& points) {
   return patches;
 }
 
-// The outline of a patch, thinned; with the closest point, which leads the patch. Where the gap is
-// the same all over, up to rounding, a corner is as close as any.
+// The outline of a patch, thinned, with the closest point first. If the gap is constant up to
+// rounding, a corner is as close as any other point.
 static Indices reduce(std::vector<NearPoint>& points, const Indices& patch, double merge, int most,
                       double rounding) {
   const NearPoint& closest = points[patch[0]];
@@ -95,7 +96,7 @@ static Indices reduce(std::vector<NearPoint>& points, const Indices& patch, doub
   int first = 0;
   for (const int corner : corners) {
     if (points[patch[corner]].gap > closest.gap + rounding) continue;
-    // the same point, seen from another triangle: the closest pair itself stays
+    // the same point, found from another triangle: the closest pair itself is kept
     if ((flat[corner] - flat[0]).norm() <= same_place) {
       first = 0;
       break;
@@ -107,7 +108,7 @@ static Indices reduce(std::vector<NearPoint>& points, const Indices& patch, doub
   Indices kept;
   for (const int k : spread(flat, first, corners, merge, most)) {
     // where edges lie above each other several points share that corner, and some of their gaps run
-    // aslant from edge to edge: the smallest gap counts
+    // obliquely from edge to edge: the smallest gap is used
     int nearest = k;
     for (int i = 0; i < static_cast<int>(flat.size()); ++i)
       if (points[patch[i]].gap < points[patch[nearest]].gap - rounding &&

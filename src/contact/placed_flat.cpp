@@ -8,8 +8,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// Smallest cosine of the angle between a segment and a line that counts as abreast of it, and the
-// one from which on all of the near part is kept.
+// Smallest cosine of the angle at which a line still counts as parallel to a segment, and the one
+// above which the complete near part is kept.
 static constexpr double abreast = 0.5, well_abreast = 0.75;
 
 PlacedFlat::PlacedFlat(const PlacedRound& round, const Vector3d& direction, double slack)

@@ -117,7 +117,7 @@ class MeshPoints {
     const NearPlace place = nearest_on_segment(round_, p, p + way);
     if (!is_near(place.distance)) return;
     const Vector3d normal = -place.normal, along = way / length;
-    // the solid must lie over the edge, not over a face beside it
+    // the solid must be over the edge, not over a face beside it
     constexpr double level = 1e-9;
     for (const int slot : slots) {
       const Corners& t = surface_.corners(slot / 3);

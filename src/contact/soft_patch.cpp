@@ -17,10 +17,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-static const double one_side = std::cos(40 * std::numbers::pi / 180);  // normals of one site
-static constexpr double alike = 0.05;  // difference of curvatures over their mean: as of a ball
-static constexpr double min_relief = 1e-4;  // of the radius: flat, whatever noise there is
-static constexpr double min_share = 0.07;   // of the disc: with less of a surface there is no fit
+// largest angle between normals of one site
+static const double one_side = std::cos(40 * std::numbers::pi / 180);
+// difference of curvatures relative to their mean: equal below it, as of a ball
+static constexpr double alike = 0.05;
+// fraction of the radius: below it the surface is flat, whatever the noise
+static constexpr double min_relief = 1e-4;
+// fraction of the disc: with less of a surface there is no fit
+static constexpr double min_share = 0.07;
 
 double neighbourhood_radius(double modulus) {
   const double radius = 0.4 / std::cbrt(modulus);
@@ -58,7 +62,7 @@ std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const 
     std::vector<int> members;
     for (int i = first; i < count; ++i)
       if (groups.find(i) == first) members.push_back(i), out[i] = site;
-    // sums in an order of their own: that of the touches must not matter
+    // summed in a canonical order: the order of the touches must not matter
     std::sort(members.begin(), members.end(), [&](int i, int j) {
       const Vector3d &p = points[i], &q = points[j];
       return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
@@ -84,17 +88,17 @@ static void check(const PatchOptions& options) {
   length("max_radius", options.max_radius);
 }
 
-// 0 to 1 between two values, either of which may be the larger
+// smooth step from 0 to 1 between two values, either of which may be the larger
 static double ramp(double x, double zero, double one) {
   return std::clamp((x - zero) / (one - zero), 0.0, 1.0);
 }
 
 namespace {
 
-// the tangent plane as each of the bodies sees it
+// the tangent plane in each body's view
 struct PatchFrames {
   explicit PatchFrames(const SoftSite& site) : axes(contact_frame(site.normal_A)) {
-    // the plane's axes come from the frame of a, so that where the bodies are together does not
+    // the plane's axes come from the frame of a, so that the common pose of the bodies does not
     // matter
     Matrix3d axes_a = axes;
     axes_a.rightCols<2>() *= -1;
@@ -104,9 +108,9 @@ struct PatchFrames {
   }
   Eigen::Matrix<double, 3, 2> plane() const { return axes.leftCols<2>(); }
 
-  Matrix3d axes;             // as b sees it
-  std::array<Pose, 2> X_AP;  // as a and as b see it
-  double spread = 0;         // how far from the centre contacts are
+  Matrix3d axes;             // in b's view
+  std::array<Pose, 2> X_AP;  // in a's and b's view
+  double spread = 0;         // largest distance of contacts from the center
 };
 
 }  // namespace
@@ -126,7 +130,7 @@ static double crease_of(const PatchSheet& sheet, const SurfaceFit& fit, double r
                   ramp(sheet.crease_length() / radius, 0.2, 0.6));
 }
 
-// curvatures as a form on the plane across `normal`, whose axes are `plane`
+// curvatures as a quadratic form on the plane across `normal`, whose axes are `plane`
 static Matrix2d curvature_form(const SurfaceFit& fit, const Vector3d& normal,
                                const Eigen::Matrix<double, 3, 2>& plane) {
   const Matrix3d turn = shortest_rotation(fit.normal, normal).toRotationMatrix();
@@ -140,7 +144,7 @@ static SurfaceFit turned(SurfaceFit fit, const Pose& X) {
   return fit;
 }
 
-// beyond flattest_radius none is left by and by: that of flat surfaces stands for it
+// beyond flattest_radius the curvature fades out: the radius of flat surfaces replaces it
 static double relative_radius(double curvature, double max_radius) {
   const double flatness = ramp(curvature * flattest_radius, 1, 0.5);
   if (flatness == 0) return 1 / curvature;
@@ -149,15 +153,15 @@ static double relative_radius(double curvature, double max_radius) {
 
 namespace {
 
-// what meets at a depth
+// contact region at a given depth
 struct Meeting {
   Matrix2d moments;   // along the patch's directions [m^2]
-  double unlike = 0;  // 0: an ellipse as the radii have it, 1: not at all
+  double unlike = 0;  // 0: an ellipse that agrees with the radii, 1: not an ellipse at all
 };
 
 }  // namespace
 
-// columns, in the plane as b sees it
+// columns, in b's view of the plane
 static Matrix2d directions_in_plane(const SoftPatch& patch) {
   return contact_frame(patch.normal_A).leftCols<2>().transpose() * patch.directions;
 }
@@ -173,8 +177,8 @@ static Meeting meeting(const SoftPatch& patch, double depth) {
   return {axes.transpose() * there * axes, std::max(patch.crease, ramp(part, 0.85, 0.65))};
 }
 
-// Less deep the facets of a mesh would tell: from there on the shape stays. A flat ellipse then is
-// some 0.7 of the radius wide.
+// At smaller depths the facets of a mesh would show: from there on the shape is constant. A flat
+// ellipse then has about 0.7 of the radius as its width.
 static double shallowest(const SoftPatch& patch) {
   return patch.radius * patch.radius / (4 * patch.max_radius);
 }
@@ -194,7 +198,7 @@ static void set_radii(const std::array<double, 2>& curvatures, SoftPatch& patch)
   patch.relative_radii[1] = std::max(patch.relative_radii[0], patch.relative_radii[1]);
 }
 
-// the principal axis of a form, and whether there is one
+// the principal axis of a quadratic form, and whether it is defined
 static double main_axis(const Matrix2d& form) {
   return 0.5 * std::atan2(2 * form(0, 1), form(0, 0) - form(1, 1));
 }
@@ -205,7 +209,8 @@ static bool same_all_round(const Matrix2d& form, double min_mean) {
          alike * std::max(mean, min_mean);
 }
 
-// Leaves the fits of both surfaces.   returns how the gap between them bends, the sum of both
+// Stores the fits of both surfaces.
+// returns  curvature of the gap between them, the sum of both
 static Matrix2d fit_surfaces(const std::array<PatchSheet, 2>& sheets, const PatchRings& rings,
                              const PatchFrames& frames, double radius, PatchFit kind,
                              SoftPatch& patch) {
@@ -273,7 +278,7 @@ static std::array<double, 2> within_room(const SoftPatch& patch,
     return make_room(room, axes, semi_axes, patch.directed);
   };
   if (room_on(patch.rooms[0] + patch.rooms[1]) == semi_axes) return semi_axes;
-  // perhaps no more is known: across to the other side, but no body is wider than its sphere
+  // perhaps no more is known: a bound from the opposite side, as no body is wider than its sphere
   const SoftSite& site = patch.site;
   const PatchFrames frames(site);
   const double widest = 2.2 * std::max(semi_axes[0], semi_axes[1]);
@@ -282,7 +287,7 @@ static std::array<double, 2> within_room(const SoftPatch& patch,
   const auto wide_room = [&](int body) {
     return patch_room(sheet_of(site, frames, body, radius), body == 0);
   };
-  // the smaller mesh first: if it is the narrower one, the widths known of the other are enough
+  // the smaller mesh first: if it is the narrower one, the known widths of the other are sufficient
   const int small = site.a->mesh().triangles.size() <= site.b->mesh().triangles.size() ? 0 : 1;
   const PatchRoom first = wide_room(small);
   const auto alone = room_on(first);
@@ -303,7 +308,7 @@ static double compliance(const SoftPatch& patch, ModulusRule rule) {
   return sum;
 }
 
-// of what gives way [m]
+// height of the soft layers [m]
 static double soft_height(const SoftPatch& patch, ModulusRule rule) {
   const Elasticity &a = patch.elastic_a, &b = patch.elastic_b;
   if (rule == ModulusRule::larger)
@@ -311,7 +316,7 @@ static double soft_height(const SoftPatch& patch, ModulusRule rule) {
   return (a.modulus ? a.layer : 0) + (b.modulus ? b.layer : 0);
 }
 
-// what the surfaces make of the ellipse that the radii tell
+// the ellipse given by the radii, limited by the surfaces
 static void press_sharp(const SoftPatch& patch, double force, double c, ContactEllipse& out) {
   const auto room = within_room(patch, out.semi_axes);
   if (room != out.semi_axes) {
@@ -319,13 +324,13 @@ static void press_sharp(const SoftPatch& patch, double force, double c, ContactE
     const double area = std::numbers::pi * room[0] * room[1];
     if (area > 0) out.indentation = 2 * force * c / area;
   }
-  // what is sure to touch, and is within the neighbourhood
+  // the region of certain contact within the neighborhood
   const double flat = std::sqrt(force * c / (std::numbers::pi * patch.max_radius));
   const double depth = std::max(flat, shallowest(patch));
   const auto [moments, unlike] = meeting(patch, depth);
   if (unlike == 0) return;
   const double to_axes = std::sqrt(4 * std::sqrt(std::numbers::pi) * flat / depth);
-  // one that lies across the directions is not as wide as it is long along both
+  // an ellipse across the directions is not as wide as it is long along both
   const double product = moments(0, 0) * moments(1, 1);
   const double narrow =
       product > 0 ? std::pow(std::max(0.0, moments.determinant()) / product, 0.25) : 0;
@@ -334,7 +339,7 @@ static void press_sharp(const SoftPatch& patch, double force, double c, ContactE
     const double sure = std::min(patch.radius, to_axes * narrow * std::sqrt(moments(i, i)));
     a = std::pow(a, 1 - unlike) * std::pow(std::min(a, sure), unlike);
   }
-  // where the springs under the gap as it is make up the force
+  // depth at which the springs under the actual gap sum to the force
   if (const double deep = depth_of(patch.gap, force * c); deep > 0)
     out.indentation = std::pow(out.indentation, 1 - unlike) * std::pow(deep, unlike);
 }
