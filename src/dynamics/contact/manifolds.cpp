@@ -16,7 +16,7 @@ namespace clench {
 double displacement(const Pose& X_AB, const Pose& other, const Shape& b) {
   if (X_AB == other) return 0;
   const Eigen::Vector3d moved = other * b.centre() - X_AB * b.centre();
-  // the chord of the turn: 2 sin(angle / 2)
+  // chord of the rotation: 2 sin(angle / 2)
   const double turned = 2 * (X_AB.rotation.conjugate() * other.rotation).vec().norm();
   return moved.norm() + turned * b.radius();
 }
@@ -41,7 +41,7 @@ void update_gaps(const World& world, Manifold& manifold) {
   for (ManifoldPoint& point : manifold.points) point.gap = gap_of(point, X_AB);
 }
 
-// The patch of a point is fitted when its torsion is first needed; until then it holds only its
+// The patch of a point is fitted when its torsion is first needed; until then it stores only its
 // site, and its radius is 0. Points of one site share it.
 static std::shared_ptr<const SoftPatch> unfitted(const SoftSite& site) {
   SoftPatch patch;
@@ -70,13 +70,13 @@ void update_torsion(std::vector<ManifoldPoint>& points) {
   }
 }
 
-// Points on round pieces do not follow the bodies: what rolls leaves them behind.
+// Points on round pieces do not follow the bodies: a rolling body leaves them behind.
 static bool is_on_round(const ManifoldPoint& p) {
   return p.feature_a.kind == Feature::round || p.feature_b.kind == Feature::round;
 }
 
-// the one on the same features, else the nearest that no other has taken, within the radius in
-// which contacts are one
+// the one on the same features, otherwise the nearest that is not matched yet, within the merge
+// radius of contacts
 static void inherit(std::vector<ManifoldPoint>& points, const std::vector<ManifoldPoint>& before) {
   constexpr double same = 1e-3;
   std::vector<bool> taken(before.size());
@@ -88,7 +88,7 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
     points[i].torsion_radius = before[k].torsion_radius;
     points[i].torsion_force = before[k].torsion_force;
   };
-  // where a round piece touches along a line, both ends of the line lie on the same features: of
+  // if a round piece touches along a line, both ends of the line lie on the same features: of
   // several points on the same features the nearest is taken
   for (size_t i = 0; i < points.size(); ++i) {
     size_t nearest = before.size();
@@ -112,14 +112,14 @@ static void inherit(std::vector<ManifoldPoint>& points, const std::vector<Manifo
   }
 }
 
-// Points that press and stick, and whose two sides still lie opposite each other, are taken out of
-// those of before and stay points: of a facet that rocks from one corner to the next both count,
-// though among fresh points the nearest stands for all within 1 mm.
-// mu  kinetic friction; what is near it slides
+// Removes from the old points those that press and stick, and whose two sides are still opposite
+// each other, and keeps them as points: if a facet rocks from one corner to the next both are
+// needed, whereas among the new points the nearest represents all within 1 mm.
+// mu  kinetic friction; points near its limit count as sliding
 static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& before,
                                                 const Pose& X_AB, double threshold, double mu,
                                                 const std::vector<ManifoldPoint>& fresh) {
-  constexpr double opposite = 0.2;  // of the threshold
+  constexpr double opposite = 0.2;  // fraction of the threshold
   std::vector<ManifoldPoint> out;
   std::erase_if(before, [&](ManifoldPoint& p) {
     const double pressing = p.force.dot(p.normal);
@@ -139,13 +139,14 @@ static std::vector<ManifoldPoint> take_pressing(std::vector<ManifoldPoint>& befo
   return out;
 }
 
-// The same of bodies that overlap: points that still lie deep beside the fresh ones, which are
-// those of the shortest way out alone. What is squeezed askew would rock from one end to the other,
-// and get deeper at each.
+// The same for overlapping bodies: keeps old points that are still deep in addition to the new
+// ones, which are only those of the shortest displacement that separates the bodies. A body that is
+// squeezed obliquely would otherwise rock from one end to the other, and penetrate deeper each
+// time.
 static std::vector<ManifoldPoint> take_deep(const std::vector<ManifoldPoint>& before,
                                             const Pose& X_AB, double threshold,
                                             const std::vector<ManifoldPoint>& fresh) {
-  constexpr double beside = 1e-3, opposite = 10;  // [m], of the threshold
+  constexpr double beside = 1e-3, opposite = 10;  // [m], fraction of the threshold
   constexpr size_t most = 4;
   std::vector<ManifoldPoint> out;
   for (ManifoldPoint p : before) {
@@ -167,7 +168,7 @@ static Elasticity elasticity(const Body& body) {
   return {.modulus = body.elastic_modulus, .layer = body.soft_layer, .poisson = body.poisson_ratio};
 }
 
-// points whose bodies are soft there transmit torsion
+// points between soft bodies transmit torsion
 static void find_patches(const World& world, const Manifold& m,
                          std::vector<ManifoldPoint>& points) {
   const Body &a = world.body(m.a), &b = world.body(m.b);
@@ -184,12 +185,12 @@ static void find_patches(const World& world, const Manifold& m,
   }
 }
 
-// Directions whose cosine is larger are taken for one: to 4.5e-5 rad.
+// Directions with a larger cosine are treated as equal: 4.5e-5 rad.
 static constexpr double one_direction = 1 - 1e-9;
 
-// Where a point lies within a face the direction is that face's normal: taken from there all points
-// of the face have the same one to the bit, while the way between two points a gap apart rounds to
-// some 1e-11.
+// For a point inside a face the direction is that face's normal: so all points of the face have the
+// bit-exactly same direction, whereas the direction between two points a gap apart has rounding
+// errors of about 1e-11.
 static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_AB,
                                  const Touch& touch) {
   const auto face = [](const Shape& shape, const Feature& at) {
@@ -203,10 +204,11 @@ static Eigen::Vector3d normal_of(const Shape& a, const Shape& b, const Pose& X_A
   return normal.dot(touch.normal_b) > one_direction ? normal : touch.normal_b;
 }
 
-// Faces that lie on each other are parallel but for a tiny tilt, and touch along the one's normal
-// here, along the other's there; at edges that lie above each other the way between them is all but
-// theirs. Sliding by v along one direction opens what touches along another by v times the tilt,
-// which rigid bodies can follow at few of the points only: one normal serves all.
+// Faces that lie on each other are parallel up to a tiny tilt, and touch along one face's normal at
+// some points and along the other's at others; between edges that lie above each other the
+// direction differs slightly from both. Sliding by v along one direction opens contacts along
+// another by v times the tilt, which rigid bodies can follow at few of the points only: one normal
+// is used for all.
 static void share_normals(std::vector<ManifoldPoint>& points) {
   const auto share = [&](size_t i, const auto& may_lend) {
     for (size_t k = 0; k < points.size(); ++k)
@@ -224,13 +226,13 @@ static void share_normals(std::vector<ManifoldPoint>& points) {
   for (size_t i = 1; i < points.size(); ++i) share(i, [&](size_t k) { return k < i; });
 }
 
-// Its links may be made so that they overlap.
+// Its links may be built so that they overlap.
 static bool are_of_one_robot(const World& world, const Manifold& m) {
   return world.body(m.a).robot && world.body(m.a).robot == world.body(m.b).robot;
 }
 
-// The contact of a round piece whose centre lies inside the other body: it pushes the piece back to
-// the point of the surface that is nearest to the centre.
+// Contact of a round piece whose center lies inside the other body: it pushes the piece back to the
+// surface point nearest to the center.
 static std::vector<Touch> push_back_touches(const Shape& a, const Shape& b, const Pose& X_AB) {
   std::vector<Touch> out;
   const auto add = [&](const Shape& mesh, const Shape& piece_of, size_t number, const Pose& X_MP,
@@ -259,7 +261,8 @@ static std::vector<Touch> push_back_touches(const Shape& a, const Shape& b, cons
   return out;
 }
 
-// Sets the clearance.   returns  false: the present points stay in use
+// Sets the clearance.
+// returns  false: the present points stay in use
 static bool find_points(World& world, Manifold& m, double limit,
                         std::vector<ManifoldPoint>& points) {
   const Shape &a = *world.body(m.a).shape, &b = *world.body(m.b).shape;
@@ -275,13 +278,13 @@ static bool find_points(World& world, Manifold& m, double limit,
   if (gap != 0) {
     touches = contact_set(a, b, X_AT, {.threshold = threshold}, RoundIn::motion);
   } else {
-    // points serve for a short way, and while one of them lies where bodies overlap
+    // points are reused over a short travel, and as long as one of them overlaps
     const auto inside = [&](const ManifoldPoint& p) { return gap_of(p, m.X_AB) < 0; };
     if (std::ranges::any_of(m.points, inside) && displacement(before, m.X_AB, b) <= threshold) {
       m.X_AB = before;
       return false;
     }
-    // bodies placed into each other touch where they would on the way out
+    // bodies placed into each other touch where they would on separating
     if (const auto out = moved_out(a, b, m.X_AB, threshold))
       touches = contact_set(a, b, X_AT = *out, {.threshold = threshold}, RoundIn::motion);
     else if (are_round(a, b, RoundIn::motion))
@@ -330,8 +333,8 @@ static bool is_prescribed(const System& system, System::Place place) {
   return place.tree < 0 || system.trees[place.tree].size() == 0;
 }
 
-// Two bodies on one joint of a tree never come nearer to each other, and two that move as
-// prescribed, whatever they meet.
+// Two bodies on one joint of a tree never approach each other; two bodies with prescribed motion
+// are not stopped by contacts.
 static bool needs_no_contact(const System& system, Id<Body> a, Id<Body> b) {
   const auto p = system.place(a), q = system.place(b);
   if (is_prescribed(system, p) && is_prescribed(system, q)) return true;
@@ -356,7 +359,7 @@ void find_manifolds(World& world, const System& system, double travel) {
   DynamicState& state = world.edit_dynamics();
   if (sweep_is_old(world, state, travel)) {
     state.sweep_reach = std::max(manifold_reach, 8 * travel);
-    // what was measured holds no longer
+    // the measurement is outdated
     const bool changed = state.sweep_model != world.model().stamp ||
                          state.sweep_threshold != world.contact_threshold();
     std::vector<Manifold> before = std::move(state.manifolds);
@@ -390,7 +393,7 @@ void find_manifolds(World& world, const System& system, double travel) {
   for (Manifold& m : state.manifolds) {
     const Pose X_AB = relative_pose(world, m.a, m.b);
     if (X_AB == m.X_AB_end) continue;
-    // placed elsewhere: what was there is no warm start
+    // placed elsewhere: its old forces are no warm start
     m.points.clear();
     measure(world, m);
     m.X_AB_end = X_AB;

@@ -26,7 +26,7 @@ std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, 
     for (const Eigen::Vector3d& way : ways) {
       double here = s, gap = gap_at(at(way, here), 2 * s + threshold);
       if (!(gap > 0)) continue;
-      // back by what is sure to leave a gap
+      // moved back by an amount that surely leaves a gap
       for (int i = 0; i < 20 && gap > 0.8 * threshold; ++i) {
         here -= gap - threshold / 2;
         gap = gap_at(at(way, here), 2 * s + threshold);

@@ -7,11 +7,11 @@
 namespace clench {
 
 inline constexpr double deepest_parted =
-    128;  ///< contact thresholds: bodies deeper in each other are left as they are
+    128;  ///< in contact thresholds: bodies that penetrate deeper are not separated
 
-/// Where b would stand if it were moved straight out of a, on a short way along an axis of either
-/// or away from a's centre, until less than the threshold is between them; none where no such way
-/// of up to deepest_parted thresholds leads out. Round pieces count by their formulas.
+/// Pose of b after a translation out of a, on a short path along an axis of either or away from a's
+/// center, until their gap is below the threshold; none if no such path of up to deepest_parted
+/// thresholds separates them. Round pieces are measured by closed formulas.
 /// threshold  > 0 [m]
 std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, double threshold);
 

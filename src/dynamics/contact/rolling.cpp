@@ -10,8 +10,8 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// The point farthest along a unit direction of what rolls at p: the ball at the end of a capsule
-// or along it, the circle of a cylinder at that height, or all of an ellipsoid.
+// Farthest point along a unit direction of the part that rolls at p: the ball at the end of a
+// capsule or along it, the circle of a cylinder at that height, or the complete ellipsoid.
 static Vector3d farthest_at(const Round& solid, const Vector3d& p, const Vector3d& direction) {
   if (solid.kind == Round::ellipsoid) return support(solid, direction);
   const Vector3d middle(0, 0, std::clamp(p.z(), -solid.half, solid.half));
@@ -28,7 +28,7 @@ static Eigen::Quaterniond turned_in(const Vector3d& spin, double h) {
 
 namespace {
 
-// One of the two bodies at a point where they touch, in world axes relative to its com.
+// One of the two bodies at a contact point, in world axes relative to its com.
 struct TouchingSide {
   TouchingSide(const World& world, const Manifold& m, const ManifoldPoint& point, bool is_b,
                const Vector3d& outward, double h)
@@ -58,12 +58,12 @@ struct TouchingSide {
   Vector3d arm() const { return turn * (p - body.com); }
 
   const Body& body;
-  Eigen::Quaterniond turn;  // of the body in the world
+  Eigen::Quaterniond turn;  // velocity of the body in the world
   const Twist& twist;
-  Eigen::Quaterniond later;           // turn after h
+  Eigen::Quaterniond later;           // rotation after h
   Vector3d p;                         // the point, in the frame of the body
-  const RoundPiece* piece = nullptr;  // that rolls there; null: p stays where it is on the body
-  bool is_face = false;               // does the direction of the contact turn with the body?
+  const RoundPiece* piece = nullptr;  // the part that rolls there; null: p is fixed on the body
+  bool is_face = false;               // does the direction of the contact rotate with the body?
 };
 
 }  // namespace
@@ -81,7 +81,8 @@ double rolled_gap(const World& world, const Manifold& m, const ManifoldPoint& po
     later = a.later * (a.turn.conjugate() * n);
   else if (b.is_face)
     later = b.later * (b.turn.conjugate() * n);
-  // of b's com from a's, as far as the direction turns; the velocities along n are not rolling
+  // velocity of b's com relative to a's, as far as the direction rotates; the velocities along n
+  // are not due to rolling
   const Vector3d apart = a.arm() + point.gap * n - b.arm();
   double change = (later - n).dot(apart + h * (b.twist.linear - a.twist.linear));
   for (const TouchingSide* side : {&a, &b}) {

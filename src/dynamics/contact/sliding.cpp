@@ -22,7 +22,7 @@ bool follow_sliding(const World& world, Manifold& m) {
   const Body &a = world.body(m.a), &b = world.body(m.b);
   const bool face_of_a = m.points[0].feature_a.kind == Feature::triangle;
   const Shape &face = *(face_of_a ? a : b).shape, &other = *(face_of_a ? b : a).shape;
-  constexpr size_t max_vertices = 4096;  // all are looked at in every step
+  constexpr size_t max_vertices = 4096;  // all are examined in every step
   if (are_round(*a.shape, *b.shape, RoundIn::motion) || !face.convex() ||
       other.mesh().vertices.size() > max_vertices || a.elastic_modulus || b.elastic_modulus)
     return false;
@@ -53,7 +53,7 @@ bool follow_sliding(const World& world, Manifold& m) {
     const double gap = normal.dot(corner) - offset;
     if (!(gap > 0 && gap <= threshold) || !is_inside(corner, corners, normal)) return false;
   }
-  // of the others none is near
+  // none of the other corners is near
   const Vector3d down = X_FV.rotation.conjugate() * normal;
   const double near = offset + threshold - normal.dot(X_FV.position);
   for (const Vector3d& v : vertices)

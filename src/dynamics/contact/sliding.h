@@ -1,13 +1,13 @@
-// Corners that slide over a flat face: where they touch follows without a search.
+// Corners that slide over a flat face: their contact points are updated without a search.
 #pragma once
 #include "clench/model/world.h"
 
 namespace clench {
 
-/// Brings the points and the clearance of a manifold to where its bodies are now, as measuring it
-/// would, up to rounding, when all its points are corners of one body over one face of the other,
-/// which is convex, and no further corner has come near.
-/// returns  false, and leaves all as it was, where it is not so, and between soft bodies
+/// Updates the points and the clearance of a manifold to the present poses of its bodies, with the
+/// same result as a measurement up to rounding, if all its points are corners of one body over one
+/// face of the other, which is convex, and no other corner has come near.
+/// returns  false, and changes nothing, if this does not apply, and for soft bodies
 bool follow_sliding(const World& world, Manifold& manifold);
 
 }  // namespace clench

@@ -14,7 +14,7 @@ void send_dof(World& world, Id<Robot> id, int dof, double target, double velocit
   DynamicState& state = world.edit_dynamics();
   const size_t index = robot.first_dof + static_cast<size_t>(dof);
   const double q = world.dofs(id)[dof];
-  // at half its time a way of the fifth degree is 15/8 as fast as on the average
+  // the maximum speed of a quintic trajectory, at half its time, is 15/8 of the mean
   constexpr double peak = 15.0 / 8;
   DofControl& control = state.controls[index];
   control.mode = ControlMode::position;
@@ -31,8 +31,7 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
   if (!std::isfinite(speed) || speed == 0)
     fail("closing '{}' by its motors: expected a speed that is not 0, got {}", excerpt(robot.name),
          speed);
-  // default velocities tell how fast DOFs are beside each other; some files count in millimetres a
-  // second
+  // default velocities are relative speeds of DOFs; some files give them in millimeters per second
   constexpr double longest = 3;  // [s]
   std::vector<double> ends(robot.dofs.size()), rates(robot.dofs.size());
   std::vector<std::string> without_motor;
@@ -59,7 +58,7 @@ void close_by_motors(World& world, Id<Robot> id, double speed) {
       send_dof(world, id, static_cast<int>(d), ends[d], faster * std::abs(rates[d]));
 }
 
-// the original's test: each chain's last link touches something, or its last joint is within 0.03
+// GraspIt!'s criterion: each chain's last link touches something, or its last joint is within 0.03
 // of its limit
 bool has_closed(const World& world, Id<Robot> id) {
   constexpr double near = 0.03, still = 1e-3;  // [rad or m], [rad/s or m/s]

@@ -18,7 +18,7 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   const auto tree = std::ranges::find_if(system.trees, moves);
   if (tree == system.trees.end()) return out;
 
-  // a state that has all that one of a run has
+  // a state with all that a run's state has
   World copy = world;
   const DynamicState& state = copy.edit_dynamics();
   Eigen::VectorXd v;
@@ -28,7 +28,7 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   dynamics.place(world, *tree);
   Eigen::VectorXd bias = dynamics.find_bias(v, root, world.gravity());
   JointForces forces;
-  // damping of an endless short step
+  // damping in the limit of short steps
   constexpr double h = 1e-9;
   find_joint_forces(world, *tree, dynamics, h, state, forces);
   const Eigen::VectorXd own = v.segment(tree->first, tree->size());

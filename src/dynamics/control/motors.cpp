@@ -11,9 +11,10 @@ namespace clench {
 
 static constexpr double no_bound = std::numeric_limits<double>::infinity();
 static constexpr double natural_frequency = 60;  // of motors without gains [rad/s]
-// a limit is a row when it is as near as this many steps at the present speed, or as this
+// a limit becomes a row when its distance is at most this many steps at the present speed, or at
+// most this distance
 static constexpr double steps_ahead = 8, always_near = 0.05;
-// of what a joint is beyond its limit, this part is taken back in a step, but not faster than so
+// this fraction of a joint's excess over its limit is corrected per step, but no faster than this
 // [rad/s or m/s]
 static constexpr double returned_part = 0.2, returned_at_most = 1;
 
@@ -44,7 +45,7 @@ double tendon_stiffness(const World& world, Id<Robot> id, int joint) {
   for (const Joint& other : robot.joints)
     if (other.dof == dof) sprung = sprung && other.spring > 0, sum += other.ratio * other.ratio;
   if (sprung) return robot.joints[joint].spring;
-  // all alike, together as stiff as the motor
+  // all equal, together as stiff as the motor
   const double kp = robot.dofs[dof].kp;
   return (kp > 0 ? kp : 1) / std::max(sum, 1e-12);
 }
@@ -101,14 +102,14 @@ double feedforward_effort(const World& world, const Coordinate& c, const Dynamic
   if (c.joint >= 0) return 0;
   const DofControl& control = state.controls[c.dof_index];
   EffortRange range = effort_limits(world, c.robot, c.dof);
-  // in this mode the effort of a servo comes from its control alone
+  // in this mode the effort of a servo depends only on its control
   if (control.mode == ControlMode::effort && drive_at(world, c).has_servo())
     range = effort_range(world, c.robot, c.dof);
   return std::clamp(control.effort, range.low, range.high);
 }
 
-// Excess of a servo's effort, without velocity feedback, over the efforts of all controls in its range.
-// Gains of a script replace the law of the servo, its control included.
+// Excess of a servo's effort, without velocity feedback, over the efforts of all controls in its
+// range. Gains set by a script replace the law of the servo, its control included.
 // rounding  of the effort [N m or N]
 static double beyond_control(const World& world, const Coordinate& c, double effort,
                              double rounding) {
@@ -123,7 +124,7 @@ static double beyond_control(const World& world, const Coordinate& c, double eff
 
 void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& state) {
   const Robot& robot = world.robot(id);
-  // the next move may last a whole step, however short this one was
+  // the next move may last a full step, however short this one was
   const double step = std::max(world.dynamic_settings().step, h);
   for (size_t d = 0; d < robot.dofs.size(); ++d) {
     const DofSpec& dof = robot.dofs[d];
@@ -184,7 +185,7 @@ class RowMaker {
     const std::array<double, 2> range =
         alone ? std::array{robot.joints[c.joint].min, robot.joints[c.joint].max}
               : robot.limits[c.dof];
-    // joints by themselves are numbered apart from DOFs
+    // joints without a DOF are numbered separately from DOFs
     const int index = alone ? -1 - static_cast<int>(c.joint_index) : static_cast<int>(c.dof_index);
     const double step = std::max(world_.dynamic_settings().step, h_);
     const bool endless = alone ? robot.joints[c.joint].endless : robot.endless[c.dof];

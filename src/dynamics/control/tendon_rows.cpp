@@ -52,7 +52,7 @@ class TendonRows {
   const std::vector<std::pair<int, double>>* arms_ = nullptr;
 };
 
-/// Index of a DOF among the coordinates of the tree; -1 if it is not one.
+/// Index of a DOF among the coordinates of the tree; -1 if it is not one of them.
 int coordinate_of(const Articulation& tree, Id<Robot> robot, int dof) {
   for (size_t i = 0; i < tree.coordinates.size(); ++i) {
     const Coordinate& c = tree.coordinates[i];

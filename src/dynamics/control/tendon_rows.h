@@ -6,12 +6,12 @@
 namespace clench {
 
 /// Limits, springs with dampers, and dry friction of the joint tendons of a tree's robots. Springs
-/// act as they are when the step ends.
+/// are evaluated at the end of the step.
 /// number  of the tree; h  length of the step [s]
 void add_tendon_rows(const World& world, const Articulation& tree, int number, double h,
                      const DynamicState& state, std::vector<CoordinateRow>& out);
 
-/// Dry resistance of a root that floats: along the axes of the world, and about its own.
+/// Dry resistance of a floating root: along the world's axes, and about its own.
 void add_free_friction_rows(const World& world, const Articulation& tree, int number, double h,
                             std::vector<CoordinateRow>& out);
 

@@ -11,7 +11,7 @@ namespace clench {
 
 static thread_local int warnings = 0;
 
-// ODE ends the program when this returns
+// ODE terminates the program if this returns
 [[noreturn]] static void throw_fault(int, const char* message, va_list arguments) {
   char text[512];
   std::vsnprintf(text, sizeof text, message, arguments);
@@ -23,7 +23,7 @@ static void count_warning(int, const char*, va_list) { ++warnings; }
 void start_ode() {
   static const bool started = [] {
     if (dInitODE2(0) == 0) return false;
-    // a host that uses ODE itself may have its own
+    // a host that uses ODE itself may have its own handlers
     if (!dGetErrorHandler()) dSetErrorHandler(throw_fault);
     if (!dGetDebugHandler()) dSetDebugHandler(throw_fault);
     if (!dGetMessageHandler()) dSetMessageHandler(count_warning);

@@ -1,15 +1,15 @@
-// ODE as a library: started once for the process, made ready in each thread, and kept from printing
-// or ending the program.
+// ODE as a library: initialized once per process and in each thread, and kept from printing or
+// terminating the program.
 #pragma once
 
 namespace clench {
 
-/// To be called before anything else of ODE is, in each thread.
-/// throws  Error (internal) when ODE has no memory; so does any call of ODE that meets a fault
-///         afterwards
+/// Must be called before any other function of ODE, in each thread.
+/// throws  Error (internal) if ODE runs out of memory; later calls of ODE throw it for internal
+///         faults
 void start_ode();
 
-/// Warnings of ODE in this thread since it was last asked, such as "LCP internal error".
+/// Warnings of ODE in this thread since the last call, such as "LCP internal error".
 int take_ode_warnings();
 
 }  // namespace clench

@@ -1,4 +1,4 @@
-// What ODE's joints are target for beside holding together, contacts, and what both gave.
+// Rows of a step as ODE's motors, stops and contacts, and their solution.
 #include <algorithm>
 #include <cmath>
 
@@ -6,8 +6,8 @@
 
 namespace clench {
 
-// Stops let joints pass by so much, each by more than the one before [rad/s, m/s]: Dantzig's method
-// breaks off at ties, and a joint that stands at its stop is one.
+// Tolerance by which joints may pass their stops, larger for each than for the one before [rad/s,
+// m/s]: Dantzig's method fails at ties, and a joint at its stop is one.
 static constexpr double stop_slack = 1e-12;
 
 static Eigen::Vector3d vector_of(const dReal* x) { return {x[0], x[1], x[2]}; }
@@ -56,7 +56,7 @@ void OdeScene::add_row(const CoordinateRow& row) {
   made.ratio = problem_.system.trees[row.tree].joints[lead].ratio;
   *made.feedback = {};
   if (row.kind != RowKind::low_limit && row.kind != RowKind::high_limit) {
-    // ODE bounds a motor alike in both directions: by what it has in that of its target
+    // ODE bounds a motor symmetrically: by the bound in the direction of its target
     const double bound = row.target < 0   ? -row.low
                          : row.target > 0 ? row.high
                                           : std::min(-row.low, row.high);
@@ -66,8 +66,8 @@ void OdeScene::add_row(const CoordinateRow& row) {
                                      h_ * made.ratio * made.ratio * row.compliance, most);
     return dJointSetFeedback(motor, made.feedback.get());
   }
-  // the error of a stop times its ERP is the velocity that it asks for: an error of one, and an ERP
-  // that gives ours
+  // the error of a stop times its ERP is its target velocity: an error of one, and an ERP equal to
+  // ours
   made.stop = true;
   const bool low = (row.kind == RowKind::low_limit) == (made.ratio > 0);
   const double target = made.ratio * row.target;
@@ -79,7 +79,7 @@ void OdeScene::add_row(const CoordinateRow& row) {
     return joint.slides ? dJointGetSliderParam(joint.joint, parameter)
                         : dJointGetHingeParam(joint.joint, parameter);
   };
-  // ODE stops a joint on one side at a time: the one that is nearer
+  // ODE stops a joint on one side at a time: the nearer one
   if (get(low ? dParamHiStop : dParamLoStop) == (low ? -1 : 1)) {
     if (std::abs(get(dParamStopERP)) < std::abs(target * h_)) return;
     set(low ? dParamHiStop : dParamLoStop, low ? dInfinity : -dInfinity);
@@ -105,7 +105,7 @@ void OdeScene::add_contact(const OdeContact& contact) {
   const OdeNode *a = node_of(contact.a), *b = node_of(contact.b);
   const bool a_free = a && a->free, b_free = b && b->free;
   if (a == b || (!a_free && !b_free)) return;
-  // the first body is there; the normal points into it
+  // the first body; the normal points into it
   touch.turned = !b;
   const double side = touch.turned ? -1 : 1;
   const Eigen::Vector3d normal = contact.frame.col(0);
@@ -152,7 +152,7 @@ double OdeScene::row_impulse(int number) const {
   const OdeTree& tree = trees_[row.tree];
   const OdeJoint& joint = tree.joints[row.joint];
   const Eigen::Vector3d f = vector_of(row.feedback->f1), t = vector_of(row.feedback->t1);
-  // a hinge's own force has an arm
+  // the force of a hinge has a lever arm
   const Eigen::Vector3d arm = joint.origin - tree.nodes[joint.child].com;
   double effort = joint.axis.dot(joint.slides ? f : t);
   if (row.stop && !joint.slides) effort -= joint.axis.dot(arm.cross(f));

@@ -10,10 +10,10 @@
 
 namespace clench {
 
-// Between joints in a row there is no body; ODE wants one. This part of those beside it weighs next
-// to nothing.
+// There is no body between successive joints; ODE requires one. Its mass is this fraction of the
+// adjacent ones: nearly zero.
 static constexpr double ghost = 1e-6;
-// Joints give way by this part of what an impulse does to a body.
+// Compliance of joints, as a fraction of an impulse's effect on a body.
 static constexpr double soft_joint = 1e-9;
 
 static void add_mass(const Body& body, const Pose& X_WB, OdeNode& node) {
@@ -75,7 +75,7 @@ void OdeScene::add_tree(const Articulation& tree, int number) {
   out.nodes.resize(tree.joints.size() + 1);
   for (const TreeBody& part : tree.bodies)
     add_mass(world_.body(part.body), world_.pose(part.body), out.nodes[part.joint + 1]);
-  // joints in a row: what is between them stands where the next body does
+  // successive joints: the body between them has the pose of the next body
   for (size_t i = tree.joints.size(); i-- > 0;) {
     OdeNode &node = out.nodes[i + 1], &before = out.nodes[tree.joints[i].parent + 1];
     if (tree.joints[i].parent < 0 || before.mass > 0) continue;
@@ -120,11 +120,11 @@ void OdeScene::add_joint(const ArticulationJoint& joint, const Eigen::Vector3d& 
   out.joints.push_back(made);
 }
 
-// velocities, and the accelerations that they cause, outwards
+// velocities, and the accelerations that they cause, outwards from the root
 void OdeScene::find_motion(const Articulation& tree, int number) {
   OdeTree& out = trees_[number];
   OdeNode& root = out.nodes[0];
-  // the group's centre of mass is elsewhere where something is fixed to the root
+  // the group's center of mass is elsewhere if something is fixed to the root
   const Eigen::Vector3d arm = root.com - centre(world_, tree);
   Twist twist = world_.twist(tree.root);
   if (tree.floating)
@@ -165,7 +165,7 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
   }
 }
 
-// what hangs on a base whose velocity changes at once moves on as it did
+// what hangs on a base whose velocity jumps keeps its own velocity
 void OdeScene::base_impulse(const Articulation& tree, int number) {
   if (tree.floating) return;
   OdeTree& out = trees_[number];
@@ -184,7 +184,7 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
   for (size_t i = 0; i < out.nodes.size(); ++i) {
     OdeNode& node = out.nodes[i];
     if (!node.free) continue;
-    // a free body's turning keeps its momentum on the way: see Mover
+    // the rotation of a free body conserves its momentum: see Mover
     if (!tree.is_free_body()) {
       node.force = -node.mass * node.acceleration;
       const Eigen::Vector3d spin = node.inertia * node.w;
@@ -203,7 +203,7 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
     node.torque += load.torque + (world_.pose(part.body) * body.com - node.com).cross(force);
   }
   damp_root(tree, number);
-  // springs and what motors are told to give; armature and dampers as motors that give way
+  // springs and the prescribed efforts of motors; armature and dampers as compliant motors
   const JointForces& forces = problem_.forces[number];
   if (tree.floating && !tree.is_free_body()) {
     OdeNode& root = out.nodes[0];
@@ -229,7 +229,7 @@ void OdeScene::damp_root(const Articulation& tree, int number) {
   const Eigen::MatrixXd& damped = problem_.forces[number].root_velocity_part;
   if (damped.size() == 0) return;
   OdeNode& root = trees_[number].nodes[0];
-  // from the centre of the coordinates to that of the node
+  // from the center of the coordinates to that of the node
   const Eigen::Vector3d arm = root.com - centre(world_, tree);
   Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Identity() * root.mass, J = M;
   M.bottomRightCorner<3, 3>() = root.inertia;
@@ -249,7 +249,7 @@ void OdeScene::push(int tree, int number, double effort) {
   OdeNode &child = t.nodes[joint.child], &parent = t.nodes[joint.parent];
   const Eigen::Vector3d e = effort * joint.axis;
   if (joint.slides) {
-    // along one line, which goes through the child's centre of mass
+    // along one line through the child's center of mass
     child.force += e;
     parent.force -= e;
     parent.torque -= (child.com - parent.com).cross(e);

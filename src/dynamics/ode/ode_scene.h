@@ -1,5 +1,5 @@
-// A world as ODE has it: one of its bodies for all bodies that a joint moves together, its hinges
-// and sliders, and contacts.
+// A world for ODE: one of its bodies for all bodies that a joint moves together, its hinges and
+// sliders, and contacts.
 #pragma once
 #include <ode/ode.h>
 
@@ -13,16 +13,16 @@ struct OdeDelete {
   void operator()(dWorldID world) const { dWorldDestroy(world); }
 };
 
-/// What moves as one, with axes parallel to the world's.
+/// A rigid group, with axes parallel to the world's.
 struct OdeNode {
-  dBodyID body = nullptr;  ///< null: it stands
-  bool free = false;       ///< does it obey forces? else it moves as told
+  dBodyID body = nullptr;  ///< null: fixed
+  bool free = false;       ///< is it moved by forces? otherwise its motion is prescribed
   double mass = 0;
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();                         ///< about com [kg m^2]
   Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();  ///< before the step
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero(),
-                  turning = Eigen::Vector3d::Zero();  ///< that joints at constant speed cause
+                  turning = Eigen::Vector3d::Zero();  ///< caused by joints at constant speed
   Eigen::Vector3d force = Eigen::Vector3d::Zero(),
                   torque = Eigen::Vector3d::Zero();  ///< in the step
 };
@@ -38,30 +38,30 @@ struct OdeJoint {
 struct OdeTree {
   std::vector<OdeNode> nodes;  ///< the root first, then by joint
   std::vector<OdeJoint> joints;
-  /// by coordinate: the joint that stands for it; -1: one of the six, or none
+  /// by coordinate: the joint that represents it; -1: one of the six, or none
   std::vector<int> lead;
 };
 
 class OdeScene {
  public:
-  /// softness  contacts give way by this part of what an impulse does to a body: four corners carry
-  ///           a box in many ways
+  /// softness  compliance of contacts, as a fraction of an impulse's effect on a body: the forces
+  ///           at four corners that carry a box are not unique
   OdeScene(const World& world, const OdeProblem& problem, double h, double softness);
 
   void add_row(const CoordinateRow& row);
   void add_contact(const OdeContact& contact);
-  /// A torque about, or a force along, a joint's axis in the next steps.
+  /// A torque about, or a force along, a joint's axis in the following steps.
   void push(int tree, int joint, double effort);
-  /// Steps from where the world is, whatever steps were taken before.
+  /// Steps from the world's state, independent of earlier steps.
   void step();
-  /// Later steps are those of dWorldQuickStep, which iterates (projected successive overrelaxation)
-  /// and never breaks off, instead of dWorldStep.
+  /// Makes the following steps by dWorldQuickStep, which iterates (projected successive
+  /// overrelaxation) and never fails, instead of dWorldStep.
   void iterate() { iterates_ = true; }
 
   double joint_velocity(int tree, int joint) const;
   double row_impulse(int row) const;
   void read_contact(const OdeContact& contact, int number, OdeSolution& out) const;
-  Twist root_twist(int tree) const;  ///< of a floating root, at its centre of mass
+  Twist root_twist(int tree) const;  ///< of a floating root, at its center of mass
   const std::vector<OdeTree>& trees() const { return trees_; }
 
  private:
@@ -72,7 +72,7 @@ class OdeScene {
     bool stop;  // a limit: its torque is the joint's own
   };
   struct TouchFeedback {
-    bool made = false, turned = false;  // turned: a is ODE's first body
+    bool made = false, turned = false;  // reversed: a is ODE's first body
     std::unique_ptr<dJointFeedback> feedback;
   };
 

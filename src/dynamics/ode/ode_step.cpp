@@ -14,7 +14,7 @@ namespace clench {
 
 namespace {
 
-/// A joint that turns in a ratio to the one that stands for their DOF.
+/// A joint coupled by a ratio to the joint that represents their DOF.
 struct Coupling {
   int tree, joint, lead;
   double share;  // speed of the joint per that of the lead
@@ -34,7 +34,7 @@ std::vector<Coupling> couplings_of(const System& system, const OdeScene& scene) 
   return out;
 }
 
-// Torques that keep couplings, by Newton's method: ODE's velocities are pieces of linear functions
+// Torques that keep couplings, by Newton's method: ODE's velocities are piecewise linear functions
 // of them.
 class Coupler {
  public:
@@ -51,7 +51,7 @@ class Coupler {
       const Eigen::VectorXd way = least_squares(slopes(torques, g), -g);
       double step = 1;
       Eigen::VectorXd next_g;
-      // shorter where a contact opens or begins to slide on the way
+      // shorter if a contact opens or begins to slide within the step
       for (int cut = 0; cut < 8; ++cut, step /= 2) {
         next_g = faults(torques + step * way);
         if (next_g.cwiseAbs().maxCoeff() < fault) break;
@@ -62,7 +62,7 @@ class Coupler {
       g = next_g;
       fault = next;
     }
-    faults(torques);  // the step that is kept
+    faults(torques);  // the accepted step
     out_.residual = std::max(out_.residual, fault);
     out_.solved = out_.solved && fault <= 1e-6;
   }
@@ -92,7 +92,7 @@ class Coupler {
   Eigen::MatrixXd slopes(const Eigen::VectorXd& torques, const Eigen::VectorXd& g) {
     Eigen::MatrixXd J(size(), size());
     for (Eigen::Index i = 0; i < size(); ++i) {
-      // as much as moves the joint by about so much
+      // torque that moves the joint by about this much
       constexpr double moved = 1e-5;
       double d = 1e-6;
       Eigen::VectorXd change;
@@ -118,10 +118,10 @@ class Coupler {
 
 }  // namespace
 
-// Dantzig's method breaks off where contacts are redundant, unless they give way; where it does all
-// the same, ODE iterates.
+// Dantzig's method fails for redundant contacts unless they are compliant; if it fails
+// nevertheless, ODE iterates.
 static constexpr double softness[] = {1e-7, 1e-6, 1e-5, 1e-4};
-static constexpr double max_fault = 1e-5;  // of contacts after iterations [m/s]
+static constexpr double max_fault = 1e-5;  // tolerance of contacts after iterations [m/s]
 
 OdeSolution step_ode(const World& world, const OdeProblem& problem, double h) {
   OdeSolution out;

@@ -6,7 +6,7 @@
 namespace clench {
 namespace {
 
-// eigenvalues onto the diagonal of A, eigenvectors into the columns of V, by Jacobi's rotations
+// eigenvalues onto the diagonal of A, eigenvectors into the columns of V, by Jacobi rotations
 void diagonalise(int n, double A[3][3], double* V) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) V[n * j + i] = i == j;
@@ -82,7 +82,7 @@ void ContactBlock::solve(const double* q, double* r) const {
   }
   double low = 0, below = excess(0, normal, c, y, r[0]);
   if (below > 0) {
-    // a bracket of the root, then false position after Illinois
+    // a bracket of the root, then the Illinois variant of false position
     double high = *std::max_element(a_, a_ + tangents_), above = 0;
     for (int i = 0; i < 1000; ++i, high *= 4) {
       above = excess(high, normal, c, y, r[0]);
@@ -107,7 +107,7 @@ void ContactBlock::solve(const double* q, double* r) const {
     square += r[1 + i] * r[1 + i];
   }
   r[0] = std::max(r[0], 0.0);
-  // no rounding takes it out of the cone
+  // rounding cannot move it out of the cone
   const double length = std::sqrt(square);
   if (length > mu_ * r[0])
     for (int i = 1; i <= tangents_; ++i) r[i] *= mu_ * r[0] / length;

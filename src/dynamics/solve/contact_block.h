@@ -1,4 +1,4 @@
-// One contact by itself: its impulse when all others are known.
+// One contact solved with all other impulses known.
 #pragma once
 #include <Eigen/Core>
 
@@ -6,8 +6,8 @@ namespace clench {
 
 /// Solves u = W r + q with Coulomb's law for the 1 + tangents rows of one contact. A sliding
 /// contact has u_t = -lambda r_t with lambda > 0, so that (A + lambda) r_t = b with the normal
-/// eliminated from A and b: one equation for lambda, |r_t| = mu r_n, which always has a root when
-/// the contact neither opens nor sticks.
+/// eliminated from A and b: one equation for lambda, |r_t| = mu r_n, which always has a root if the
+/// contact neither opens nor sticks.
 ///
 /// source  Bonnefon & Daviet (2011), Quartic formulation of Coulomb 3D frictional contact, for the
 ///         reduction
@@ -16,7 +16,7 @@ class ContactBlock {
   /// W   its diagonal block, symmetric and positive definite, its first row at `W`, rows `stride`
   ///     apart
   void set(double mu, int tangents, const double* W, int stride, double added_to_diagonal);
-  /// r   1 + tangents rows, written
+  /// r   1 + tangents rows, output
   void solve(const double* q, double* r) const;
 
  private:

@@ -59,7 +59,7 @@ void FrictionNewton::decide(const ScaledFriction& problem, VectorXd& r) {
         across.t[0] = -t[1], across.t[1] = t[0];
         directions_.push_back(across);
       } else if (tangents == 3) {
-        // two directions across, at a right angle
+        // two orthogonal directions across it
         const int smallest = std::abs(t[0]) < std::abs(t[1])
                                  ? (std::abs(t[0]) < std::abs(t[2]) ? 0 : 2)
                                  : (std::abs(t[1]) < std::abs(t[2]) ? 1 : 2);
@@ -88,7 +88,7 @@ bool FrictionNewton::factor(const ScaledFriction& problem, double damping) {
     const Direction& by = directions_[l];
     const double* column = problem.S.col(by.row).data();
     if (by.tangents > 0) {
-      // the velocities that this combination of a contact's rows causes
+      // velocities caused by this combination of a contact's rows
       symmetric_ = false;
       if (by.across)
         columns_.col(0).setZero();
@@ -184,7 +184,7 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const V
     velocities(next_, u_next_);
     double next_merit = classify(problem, next_, u_next_);
     const bool linear = states_ == before && !slides();
-    // with sliding, the step to come is about the square of this one
+    // with sliding, the size of the next step is about the square of this one's
     const double size_of_all = size + q.lpNorm<Eigen::Infinity>();
     const bool near = length <= 1e-5 * size && std::sqrt(next_merit) <= 1e-12 * size_of_all;
     if (std::isfinite(next_merit) && (linear || near)) {
@@ -192,7 +192,7 @@ FrictionNewton::End FrictionNewton::solve(const ScaledFriction& problem, const V
       end.converged = true;
       return end;
     }
-    // shorter steps while the full one makes it worse
+    // shorter steps while the full one increases the residual
     double fraction = 1;
     if (!(next_merit < merit * (1 - 1e-4))) {
       right_ = next_;

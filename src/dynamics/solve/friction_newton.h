@@ -1,4 +1,5 @@
-// Newton's method for contacts with friction: which open, stick, slide, and what follows.
+// Newton's method for contacts with friction: determines which contacts are open, stick or slide,
+// and their impulses.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -10,10 +11,10 @@
 
 namespace clench {
 
-/// Solves a scaled problem with `damping * weights` added to the diagonal of S, so that redundant
-/// contacts share their load in one way. Given which blocks are open, sticking or sliding (and
-/// where to), at a bound or between, all impulses follow from one linear system of the rows that
-/// are free; they say what each block is next.
+/// Solves a scaled problem with `damping * weights` added to the diagonal of S, so that the load of
+/// redundant contacts is shared uniquely. Given which blocks are open, sticking or sliding (and in
+/// which direction), at a bound or between bounds, all impulses follow from one linear system of
+/// the free rows; they determine the next state of each block.
 ///
 /// source  Alart & Curnier (1991), A mixed formulation for frictional contact problems prone to
 ///         Newton like solution methods
@@ -23,65 +24,68 @@ class FrictionNewton {
     bool converged = false;
     int iterations = 0;
   };
-  /// q    instead of the problem's
-  /// rho  the natural map's weight of velocities, by which states are told; one of them may lead
-  ///      where another does not
-  /// r    from there on; the result, or where there is none the least fault met
+  /// q    replaces the problem's
+  /// rho  the natural map's weight of velocities, by which states are chosen; one value may
+  ///      converge where another does not
+  /// r    in: initial impulses; out: the solution, or the impulses with the least residual if it
+  ///      does not converge
   End solve(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping, double rho,
             int max_iterations, Eigen::VectorXd& r);
-  /// From impulses whose states are nearly the right ones, such as those of the step before: they
-  /// solve a problem of other q, and while q goes over into the one given, states change one after
-  /// another where the path meets their bounds. No state is guessed, so that redundant contacts at
-  /// the boundary of their cones do not lead astray.
+  /// Starts from impulses whose states are nearly the right ones, such as those of the last step:
+  /// they solve a problem with another q, and while q is moved continuously to the given one,
+  /// states change one after another where the path reaches their bounds. No state is guessed, so
+  /// that redundant contacts at the boundary of their cones cause no wrong choice.
   ///
-  /// r       from there on; the result only where it converged
+  /// r       in: initial impulses; out: the solution, only if it converged
   /// source  Robinson (1992), Normal maps induced by linear transformations, for r and u as one
   ///         unknown, P(z) and d (P(z) - z); Dirkse & Ferris (1995), The PATH solver, for the path
   ///         from piece to piece
   End follow(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping,
              int max_iterations, Eigen::VectorXd& r);
-  /// One step towards a solution of the problem without damping, which only keeps what S leaves
-  /// open as it is.
+  /// One step towards a solution of the undamped problem, which keeps as it is what S leaves
+  /// undetermined.
   /// u        S r + q
   /// returns  false: the matrix is singular
   bool refine(const ScaledFriction& problem, double damping, const Eigen::VectorXd& u,
               Eigen::VectorXd& r);
-  /// What follows may be stopped by it, with Stopped.
+  /// Progress that may stop the following calls, with Stopped.
   void watch(const Progress& progress) { progress_ = progress; }
 
  private:
   using State = BlockState;
-  /// A free direction of impulses and its equation: of a row, u = 0; along the normal of a sliding
-  /// contact, whose friction follows, the same; across the sliding, factor t.u + diagonal t.r = 0.
+  /// A free direction of impulses and its equation: for a row, u = 0; along the normal of a sliding
+  /// contact, whose friction is proportional, the same; across the sliding direction, factor t.u +
+  /// diagonal t.r = 0.
   struct Direction {
     int row = 0;
-    int tangents = 0;  // 0: the row alone
+    int tangents = 0;  // 0: only the row
     bool across = false;
     double factor = 1, diagonal = 0, t[3] = {};
   };
-  /// Half the square of the natural map; sets states.
+  /// Half the squared norm of the natural map; sets states.
   double classify(const ScaledFriction& problem, const Eigen::VectorXd& r,
                   const Eigen::VectorXd& u);
-  /// What is decided of r by the states alone, and the directions that are not.
+  /// The part of r that the states alone determine, and the directions that remain.
   void decide(const ScaledFriction& problem, Eigen::VectorXd& r);
   bool factor(const ScaledFriction& problem, double damping);
   /// next  the solution of the linear system of the states at r
-  /// keep  the last matrix serves again if the states are the same
+  /// keep  reuse the last matrix if the states are the same
   bool step(const ScaledFriction& problem, double damping, const Eigen::VectorXd& r,
             const Eigen::VectorXd& u, bool keep, Eigen::VectorXd& next);
   bool slides() const;
-  /// follow: states and z = r - u / d of impulses r, where they do not solve the problem so that
-  /// they do.
+  /// follow: states and z = r - u / d of impulses r, adjusted so that they solve the problem.
   void begin_path(const ScaledFriction& problem, const Eigen::VectorXd& r,
                   const Eigen::VectorXd& u);
   void find_slides(const ScaledFriction& problem);
-  /// Where a block leaves its state along z + alpha by, at most `most`, and into which.
+  /// Where a block leaves its state along z + alpha by, for alpha up to `most`, and the state it
+  /// enters.
   double leaves(const ScaledFriction::ScaledBlock& block, State state, const double* z,
                 const double* by, double most, State& next) const;
 
   std::vector<State> states_, factored_;
   std::vector<double>
-      slide_;  // four per block: of what the friction changes as the normal does not, and where to
+      // four per block: change of the friction per change of the normal impulse, and its direction
+      slide_;
   std::vector<Direction> directions_;
   Eigen::VectorXd u_, next_, u_next_, best_, right_, along_, shift_, z_, change_;
   Eigen::MatrixXd columns_;

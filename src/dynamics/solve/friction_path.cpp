@@ -1,4 +1,4 @@
-// FrictionNewton::follow: from the solution of a near problem, state by state.
+// FrictionNewton::follow: continuation from the solution of a nearby problem, state by state.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// a path that goes back for longer than this seldom returns
+// a path that turns back for longer than this seldom recovers
 constexpr int max_back = 6;
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -21,12 +21,12 @@ double meets_cone(double mu, int tangents, const double* z, const double* by, do
   double a = -mu * mu * by[0] * by[0], b = -mu * mu * z[0] * by[0], c = -mu * mu * z[0] * z[0];
   for (int k = 1; k <= tangents; ++k) a += by[k] * by[k], b += z[k] * by[k], c += z[k] * z[k];
   a *= sign, b *= sign, c *= sign;
-  // it is at or beyond the boundary: does it go on?
+  // it is at or beyond the boundary: does it move on outwards?
   if (c >= 0) {
     if (b > 0) return 0;
     c = 0;
   }
-  // a alpha^2 + 2 b alpha + c rises through 0, c <= 0
+  // a alpha^2 + 2 b alpha + c increases through 0, c <= 0
   const double root = b * b - a * c;
   if (root < 0) return never;
   const double alpha = b > 0    ? -c / (b + std::sqrt(root))
@@ -152,7 +152,7 @@ FrictionNewton::End FrictionNewton::follow(const ScaledFriction& problem, const 
     if (!change_.allFinite()) break;
     change_ *= sense;
     State into = State::fixed, of = State::fixed;
-    // a path that turned back follows q the other way round for a while
+    // a path that turned back follows q in the opposite direction for a while
     if (changed >= 0) {
       const auto& block = problem.blocks[changed];
       if (leaves(block, states_[changed], &z_[block.row], &change_[block.row], 1e-14, into) == 0)

@@ -43,14 +43,14 @@ MatrixXd pyramid_directions(int tangents, int edges) {
 
 namespace {
 
-/// r = start + rows x; w = M x + q, with unknowns for lambda and for the upper bounds of rows as
-/// well.
+/// r = start + rows x; w = M x + q, with additional unknowns for lambda and for the upper bounds of
+/// rows.
 struct Complementarity {
   MatrixXd rows;  // r by x
   VectorXd start;
-  MatrixXd coupling;  // of M, beside rows^T S rows
-  VectorXd offset;    // of q, beside rows^T (S start + q)
-  VectorXd units;     // one of a w is so many velocities of the problem
+  MatrixXd coupling;  // of M, in addition to rows^T S rows
+  VectorXd offset;    // of q, in addition to rows^T (S start + q)
+  VectorXd units;     // unit of a w in velocities of the problem
 };
 
 int count_unknowns(const ScaledFriction& problem, const std::vector<MatrixXd>& edges) {
@@ -104,8 +104,7 @@ Complementarity put_together(const ScaledFriction& problem, const std::vector<Ma
   return c;
 }
 
-// What is above 0 stays so, and its velocities become 0 in steps that change it as little as can
-// be.
+// Positive unknowns stay positive, and their velocities are reduced to 0 by steps of minimum norm.
 template <typename Velocities>
 void take_damping_away(const MatrixXd& damped, const Velocities& velocities, VectorXd& z) {
   std::vector<int> above;
@@ -125,7 +124,7 @@ void take_damping_away(const MatrixXd& damped, const Velocities& velocities, Vec
 std::vector<FrictionProblem::Block> inscribed_cones(std::vector<FrictionProblem::Block> blocks,
                                                     int edges) {
   const double polygon = std::cos(std::numbers::pi / edges);
-  // the equator with the two poles is a double pyramid, which the other directions only widen
+  // the equator with the two poles is a double pyramid, which the other directions only enlarge
   const double with_torsion = polygon / std::sqrt(1 + polygon * polygon);
   for (auto& block : blocks)
     if (block.tangents > 0) block.mu *= block.tangents == 2 ? polygon : with_torsion;
@@ -146,7 +145,7 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   MatrixXd S = problem.S;
   S.diagonal() += damping * problem.weights;
   const VectorXd pulled = problem.q - damping * problem.weights.cwiseProduct(centre);
-  // rows without bounds are equations: r there follows from the others, as u is 0
+  // rows without bounds are equations: their r follows from the others, as u is 0
   std::vector<int> free;
   for (const auto& block : problem.blocks)
     if (!block.is_contact() && block.moves && std::isinf(block.low) && std::isinf(block.high))

@@ -32,7 +32,7 @@ double block_fault(const FrictionProblem::Block& block, double d, const double* 
                    const double* u) {
   if (!block.is_contact()) {
     const double dr = d * r[0];
-    // an infinite bound stays one where d is 0
+    // an infinite bound stays infinite where d is 0
     const double low = std::isinf(block.low) ? block.low : d * block.low;
     const double high = std::isinf(block.high) ? block.high : d * block.high;
     return std::abs(dr - std::clamp(dr - u[0], low, high));
@@ -51,11 +51,11 @@ double block_admittance(const FrictionProblem& problem, const FrictionProblem::B
   return problem.W.diagonal().segment(block.row, block.size()).mean();
 }
 
-// admittance  returns that of a block
+// admittance  of a block
 template <class Problem, class Admittance>
 static FrictionFault fault_of(const Problem& problem, const Eigen::VectorXd& r,
                               const Eigen::VectorXd& u, double tolerance, Admittance admittance) {
-  // |W_ij| <= sqrt(W_ii W_jj): what the sums of u are sums of
+  // |W_ij| <= sqrt(W_ii W_jj): bounds the terms of the sums in u
   double size = 0;
   for (const auto& block : problem.blocks) {
     double sum = 0;
@@ -66,7 +66,7 @@ static FrictionFault fault_of(const Problem& problem, const Eigen::VectorXd& r,
   for (const auto& block : problem.blocks) {
     const double d = admittance(block);
     const double fault = block_fault(block, d, &r[block.row], &u[block.row]);
-    // 0, or no number
+    // 0, or not a number
     double none = 0 * d;
     for (int k = 0; k < block.size(); ++k) none += 0 * (r[block.row + k] + u[block.row + k]);
     if (!valid(block) || !std::isfinite(fault + none)) {

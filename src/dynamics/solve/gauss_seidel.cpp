@@ -27,7 +27,7 @@ void GaussSeidel::sweep(const ScaledFriction& problem, int sweeps, Eigen::Vector
       if (!block.moves) continue;
       check();
       const int row = block.row, size = block.size();
-      // velocities of its rows by all other impulses
+      // velocities of its rows due to all other impulses
       double q[4];
       for (int a = 0; a < size; ++a) {
         q[a] = problem.q[row + a] + problem.S.col(row + a).dot(r);

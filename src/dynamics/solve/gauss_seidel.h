@@ -7,8 +7,8 @@
 
 namespace clench {
 
-/// Block Gauss-Seidel with `damping * weights` added to the diagonal of S: seldom near a solution
-/// soon, never lost.
+/// Block Gauss-Seidel with `damping * weights` added to the diagonal of S: slow to converge, but
+/// robust.
 /// source  Jourdan, Alart & Jean (1998), A Gauss-Seidel like algorithm to solve frictional contact
 ///         problems
 class GaussSeidel {

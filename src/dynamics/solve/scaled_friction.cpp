@@ -26,7 +26,7 @@ void ScaledFriction::set(const FrictionProblem& problem) {
     units.segment(block.row, block.size()).setConstant(unit);
     weights.segment(block.row, block.size()).setConstant(block.d);
   }
-  // the same force counts as much at one contact of two bodies as at another
+  // the same force has the same weight at all contacts of two bodies
   for (size_t first = 0, next; first < blocks.size(); first = next) {
     const int pair = blocks[first].pair;
     double sum = 0;

@@ -1,21 +1,22 @@
-// A friction problem whose blocks all move about as much as they are pushed.
+// A friction problem scaled so that all blocks have similar admittances.
 #pragma once
 #include "clench/dynamics/solve/friction_problem.h"
 
 namespace clench {
 
-/// Rows times a power of two per block, which changes no digit: then a mean of each block's
+/// Rows are multiplied by a power of two per block, which is exact: then the mean of each block's
 /// diagonal is within 1/2 and 2, so that a feather between boulders is as well posed as a boulder.
 struct ScaledFriction {
   struct ScaledBlock : FrictionProblem::Block {
-    double d = 1;       ///< mean of its diagonal
-    bool moves = true;  ///< false: no impulse changes its velocity; its own is decided beforehand
+    double d = 1;  ///< mean of its diagonal
+    /// false: no impulse changes its velocity; its own impulse is determined beforehand
+    bool moves = true;
   };
   Eigen::MatrixXd S;
   Eigen::VectorXd q;
-  /// one of a row is so many of the problem's: impulses times it, velocities divided by it
+  /// scale of a row: impulses are multiplied by it, velocities divided
   Eigen::VectorXd units;
-  Eigen::VectorXd weights;  ///< d of the row's block; of contacts of one pair their mean
+  Eigen::VectorXd weights;  ///< d of the row's block; for contacts of one pair their mean
   std::vector<ScaledBlock> blocks;
 
   void set(const FrictionProblem& problem);

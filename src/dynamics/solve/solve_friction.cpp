@@ -14,14 +14,14 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// of a block's own diagonal: redundant contacts share their load to 1e-8 the same way wherever
-// Newton starts, and what is 1e8 times as soft as a contact itself is still no redundancy
+// fraction of a block's own diagonal: redundant contacts share their load equally to 1e-8 wherever
+// Newton starts, and what is 1e8 times as soft as a contact itself does not count as redundant
 constexpr double damping = 1e-8;
-// Forces of the last step that leave faults below this are changed as little as can be where
-// following them does not end: what all but rests would else waver between solutions [m/s].
+// If the forces of the last step have residuals below this and continuation fails, they are changed
+// as little as possible: a nearly resting body would otherwise alternate between solutions [m/s].
 constexpr double nearly_holds = 1e-4;
-// Of so many rows few paths reach their end, and each step of one costs much: proximal points come
-// before other ways.
+// With so many rows few paths are completed, and each step of one is expensive: proximal points are
+// tried before the other strategies.
 constexpr int many_rows = 60;
 
 }  // namespace
@@ -44,7 +44,7 @@ double FrictionSolver::solve_damped(VectorXd& r, FrictionSolution& solution) {
   gauss_seidel_.set(scaled_, damping);
   gauss_seidel_.sweep(scaled_, 3, r);
   solution.iterations += 3;
-  // redundant contacts are found by steps
+  // redundant contacts are detected stepwise
   r_ = r;
   if (newton(1e-3, 1, 12, r_, solution)) {
     r = r_;
@@ -97,7 +97,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
   bool enough = false;
   const auto measure = [&](VectorXd& at) {
     check_stop();
-    // bounds hold to the bit
+    // bounds hold bit-exactly
     for (const auto& block : scaled_.blocks)
       at[block.row] = block.is_contact() ? std::max(at[block.row], 0.0)
                                          : std::clamp(at[block.row], block.low, block.high);
@@ -127,7 +127,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
         }
       }
     }
-    // the damping pulls to where it is, no more to 0
+    // the damping pulls to the present iterate, no longer to 0
     const VectorXd q = scaled_.q - by * scaled_.weights.cwiseProduct(r);
     bool found = false;
     for (const double rho : {1.0, 0.2, 5.0}) {
@@ -154,7 +154,7 @@ bool FrictionSolver::refine(const FrictionProblem& problem, double tolerance, do
   return enough;
 }
 
-// Does every contact that presses stick?
+// Do all pressing contacts stick?
 static bool all_stick(const FrictionProblem& problem, const FrictionSolution& solution,
                       double tolerance) {
   for (const auto& block : problem.blocks) {
@@ -171,7 +171,7 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   inner.blocks = inscribed_cones(std::move(inner.blocks), edges_per_contact);
   FrictionSolution solution = solve(inner, warm_start, {.tolerance = tolerance}, progress);
   if (solution.solved && all_stick(inner, solution, tolerance)) return solution;
-  // where no pyramid is solved, the solution of the cones inside remains
+  // if no pyramid is solved, the solution of the inner cones remains
   solution.solved = false;
   double least = infinity;
   scaled_.set(problem);
@@ -179,7 +179,7 @@ FrictionSolution FrictionSolver::solve_as_pyramid(const FrictionProblem& problem
   for (const auto& block : scaled_.blocks)
     edges.push_back(pyramid_directions(block.tangents, edges_per_contact));
   VectorXd r = VectorXd::Zero(scaled_.rows());
-  // pivots lose what is far below 1
+  // pivots lose digits far below 1
   double by = 1e-6;
   for (int round = 0; round < 20 && !solution.solved; ++round) {
     const PyramidSolution pyramid = solve_pyramid(scaled_, by, r, edges);
@@ -248,12 +248,12 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     solution.u = problem.W * solution.r + problem.q;
     return solution;
   }
-  // what the damping adds to velocities
+  // velocities added by the damping
   pull_ = reached * scaled_.weights.cwiseProduct(r);
   solution.solved = refine(problem, tolerance, reached, 40, r, solution);
   solution.fell_back = reached > damping || !solution.solved;
   if (!solution.solved && may_contradict(scaled_)) {
-    // what is asked for, less what cannot be had of it
+    // targets minus the part of them that cannot be reached
     scaled_.q += pull_;
     r.setZero();
     FrictionSolution nearest;
@@ -266,7 +266,7 @@ FrictionSolution FrictionSolver::solve(const FrictionProblem& problem, const Vec
     nearest.u = problem.W * nearest.r + problem.q;
     return nearest;
   }
-  // from other sides, at last from the best that was found
+  // from other starting points, at last from the best result so far
   for (const double rho : {0.2, 5.0, 0.05, 0.0}) {
     if (solution.solved) break;
     double level = 1e-3;
