@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
-// of a load, torque over rho: a power of two, so that no digit changes
+// size of a load, torque over rho: a power of two, so that scaling is exact
 double size_of(const Vector6d& load, const Grasp& grasp) {
   return std::exp2(std::round(
       std::log2(std::hypot(load.head<3>().stableNorm(), load.tail<3>().stableNorm() / grasp.rho))));
@@ -42,7 +42,8 @@ ContactForce read_force(const ForceProgram& p, const World& world, const Grasp& 
   return out;
 }
 
-// what the motors give; where nobody asked, what comes nearest to balancing each DOF's joints
+// efforts of the motors; if joints are not constrained, those that come nearest to balancing each
+// DOF's joints
 VectorXd read_efforts(const ForceProgram& p, const World& world, const Grasp& grasp, bool asked) {
   const int dofs = static_cast<int>(world.robot(grasp.hand).dofs.size());
   VectorXd out = VectorXd::Zero(dofs);
@@ -56,16 +57,16 @@ VectorXd read_efforts(const ForceProgram& p, const World& world, const Grasp& gr
   return out;
 }
 
-// below this part of its unit an unknown is what the solver leaves
+// unknowns below this fraction of their unit are solver noise
 constexpr double noise = 1e-9;
 
-// of forces that are the larger the better
+// for objectives that are maximized
 double read_extra(const ForceProgram& p) {
   const double x = p.solution.x[p.extra];
   return x > noise * p.solution.units[p.extra] ? x : 0;
 }
 
-// of `interior` what it is largest in, of all others what is left beside rounding
+// for `interior` the maximized distance, otherwise the residual after rounding
 void read_margin(const ForceProgram& p, bool interior, ForceResult& out) {
   if (out.forces.empty()) return;
   double most = 0;
@@ -79,12 +80,12 @@ void read_margin(const ForceProgram& p, bool interior, ForceResult& out) {
   if (out.margin <= noise * most) out.margin = 0;
 }
 
-// Is what is left small against a load, in force and in torque about the longest arm, each as the
-// other at its end?
+// Is the residual small relative to a load, in force and in torque over the longest arm, each
+// relative to the other at its end?
 bool balances(double arm, const Vector6d& load, const Vector6d& left) {
   const auto force = [&](const Vector6d& w) { return w.head<3>().stableNorm(); };
   const auto torque = [&](const Vector6d& w) { return w.tail<3>().stableNorm(); };
-  // what forces a hundred million times the load leave of it by rounding
+  // rounding error of the residual of forces a hundred million times the load
   const double part = 1e-7;
   return force(left) * arm <= part * (force(load) * arm + torque(load)) &&
          torque(left) <= part * (force(load) * arm + torque(load));
@@ -123,7 +124,7 @@ void name_weakest(ForceCertificate& c) {
   const int dof = largest_of(c.effort_limit_power);
   const double of_cap = c.contact < 0 ? 0 : c.force_limit_power[c.contact];
   const double of_dof = dof < 0 ? 0 : c.effort_limit_power[dof];
-  // shares that are rounding are none: then friction alone is at its end
+  // shares at the level of rounding are set to zero: then friction alone is the limit
   const double least = 1e-9 * std::max(std::abs(c.power), std::abs(c.capacity));
   if (of_dof > of_cap && of_dof > least) c.dof = dof;
   if (of_cap <= least) {
@@ -134,7 +135,7 @@ void name_weakest(ForceCertificate& c) {
   }
 }
 
-// factor  of the largest load, where that was asked for
+// factor  of the largest load, if that was requested
 ForceCertificate read_certificate(const ForceProgram& p, const World& world, const Grasp& grasp,
                                   std::optional<double> factor) {
   const ConeSolution& s = p.solution;
@@ -142,7 +143,7 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   y.tail<3>() /= p.arm;
   Vector6d measured = y;
   measured.tail<3>() *= grasp.rho;
-  // no motion of the object is in a proof that its forces contradict each other whatever the load
+  // the proof that the forces contradict each other for any load involves no motion of the object
   const double size = measured.norm() > 1e-12 * s.y.norm() ? 1 / measured.norm() : 1;
   ForceCertificate out;
   out.twist = turned_wrench(y * size, world.pose(grasp.object).matrix());
@@ -173,8 +174,8 @@ ForceCertificate read_certificate(const ForceProgram& p, const World& world, con
   return out;
 }
 
-// What stands in the way of the largest part of the load that is held is the tightest of all
-// proofs. Where no part is, since motors or springs press too much, the solver's own.
+// The tightest of all proofs is the one that limits the largest multiple of the load. If no
+// multiple is balanced, since motors or springs press too much, the solver's own proof is used.
 ForceCertificate best_certificate(const ForceProgram& p, const World& world, const Grasp& grasp,
                                   const ForceOptions& options) {
   if (!options.load.isZero(0)) {
@@ -201,7 +202,7 @@ ForceStatus status_of(ConeStatus status) {
   }
 }
 
-// --- what may be asked ---
+// --- checks of the options ---
 
 void check_options(const World& world, const Grasp& grasp, const ForceOptions& options) {
   const auto refuse = [](const std::string& why) { fail("contact forces: {}", why); };
@@ -260,7 +261,7 @@ ForceResult max_load(const World& world, const Grasp& grasp, const ForceOptions&
   check_unmoved(world, grasp);
   check_options(world, grasp, options);
   if (options.load.isZero(0)) fail("largest load: the direction must not be 0");
-  // the length of a direction counts for nothing
+  // the length of a direction is ignored
   ForceOptions unit = options;
   const double size = size_of(options.load, grasp);
   unit.load /= size;

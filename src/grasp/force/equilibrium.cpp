@@ -28,7 +28,7 @@ Equilibrium equilibrium(const World& world, const Grasp& grasp, const Equilibriu
   const bool balanced =
       out.status == EquilibriumStatus::stable || out.status == EquilibriumStatus::unstable;
   if (!options.joints.springs_only || balanced) return out;
-  // springs that closing has brought to rest balance but nearly, perhaps too nearly to tell
+  // springs brought to rest by closing balance only nearly, possibly not within the tolerance
   asked.joints->nearly_at_rest = true;
   return asked_once(world, grasp, asked);
 }

@@ -1,12 +1,12 @@
-// Is there a balance of load, contact forces and the hand's joints?
+// Equilibrium of load, contact forces and the hand's joints.
 #pragma once
 #include "clench/grasp/force/contact_forces.h"
 
 namespace clench {
 
 enum class EquilibriumStatus {
-  stable,    ///< there are forces that balance the load and every joint
-  unstable,  ///< the joints can be balanced, but then a wrench on the object is left
+  stable,    ///< some forces balance the load and every joint
+  unstable,  ///< the joints can be balanced, but a wrench on the object remains
   moving,    ///< no contact forces balance the joints: a finger moves, whatever the load
   inaccurate,
 };
@@ -19,8 +19,8 @@ struct EquilibriumOptions {
 
 struct Equilibrium {
   EquilibriumStatus status = EquilibriumStatus::inaccurate;
-  /// stable: the balance of least normal forces; unstable: what leaves the least wrench, and the
-  /// proof in `certificate`
+  /// stable: the balance with the least normal forces; unstable: the forces that leave the smallest
+  /// wrench, and the proof in `certificate`
   ForceResult result;
 };
 

@@ -20,8 +20,8 @@ constexpr double no_bound = std::numeric_limits<double>::infinity();
 MatrixXd number(double x) { return MatrixXd::Constant(1, 1, x); }
 VectorXd numbers(double x) { return VectorXd::Constant(1, x); }
 
-// t at least |u|: mu f_n less `back` of an unknown, against the tangential forces and the torsion
-// over its radius
+// t at least |u|: mu f_n minus `back` times an unknown, against the tangential forces and the
+// torsion over its radius
 void add_friction(ForceProgram& p, const Grasp& grasp, int i, int less, double back) {
   const PointContact& contact = grasp.points[i];
   const int count = p.map.starts[i + 1] - p.map.starts[i];
@@ -43,7 +43,7 @@ void add_cones(ForceProgram& p, const Grasp& grasp, const ForceOptions& options,
   const bool interior = objective && options.objective == ForceObjective::max_margin;
   const bool sum = objective && options.objective == ForceObjective::max_margin_sum;
   const int contacts = p.map.contacts();
-  // how far inside: one number for all, or one per contact
+  // distance from the boundary: one number for all, or one per contact
   int depth = -1;
   if (interior && contacts > 0) depth = p.extra = p.builder.unknowns(1);
   if (sum && contacts > 0) depth = p.builder.unknowns(contacts);
@@ -65,7 +65,7 @@ void add_cones(ForceProgram& p, const Grasp& grasp, const ForceOptions& options,
     }
 }
 
-// all normal forces together
+// sum of all normal forces
 std::vector<ConeBlock> sum_of_normals(const ForceProgram& p) {
   MatrixXd row = MatrixXd::Zero(1, p.map.forces());
   for (int i = 0; i < p.map.contacts(); ++i) row(0, p.map.starts[i]) = 1;
@@ -97,13 +97,13 @@ void add_objective(ForceProgram& p, const Grasp& grasp, ForceObjective objective
   }
 }
 
-// which way an effort closes the hand; 0: neither
+// direction in which an effort closes the hand; 0: neither
 double closing_sense(const World& world, const Grasp& grasp, int dof) {
   const double pace = world.robot(grasp.hand).dofs[dof].default_velocity;
   return pace > 0 ? 1 : pace < 0 ? -1 : 0;
 }
 
-// what bounds each effort
+// bounds of each effort
 void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
                    const JointDemand& demand) {
   p.low = p.joints.low, p.high = p.joints.high;
@@ -111,7 +111,7 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
   for (int k = 0; k < static_cast<int>(p.joints.refs.size()); ++k) {
     const EffortRef& ref = p.joints.refs[k];
     if (ref.clutch) {
-      // a clutch that nothing bounds gives what it must
+      // an unbounded clutch exerts any effort required
       if (demand.springs_only && std::isfinite(p.high[k])) p.low[k] = p.high[k];
       continue;
     }
@@ -125,7 +125,7 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
     const double sense = closing_sense(world, grasp, ref.dof);
     if (demand.unilateral && sense > 0) p.low[k] = std::max(0.0, p.low[k]);
     if (demand.unilateral && sense < 0) p.high[k] = std::min(0.0, p.high[k]);
-    // a tendon pulls and cannot push; without a motor it is slack
+    // a tendon can pull but not push; without a motor it is slack
     if (demand.springs_only && dofs[ref.dof].kind == DofKind::compliant && p.low[k] < p.high[k])
       p.low[k] = p.high[k] =
           sense < 0 ? std::min(0.0, p.joints.tendons[k]) : std::max(0.0, p.joints.tendons[k]);
@@ -133,8 +133,8 @@ void bound_efforts(ForceProgram& p, const World& world, const Grasp& grasp,
   }
 }
 
-// Efforts that hold springs and weights without a contact, and what of those no effort holds: so
-// that heavy links do not hide small forces.
+// Efforts that balance springs and weights without contacts, and the remainder that no effort
+// balances: so that heavy links do not hide small forces.
 VectorXd efforts_at_rest(const JointBalance& joints, VectorXd& left) {
   left = joints.springs;
   if (joints.efforts.size() == 0) return VectorXd::Zero(joints.efforts.cols());
@@ -142,13 +142,13 @@ VectorXd efforts_at_rest(const JointBalance& joints, VectorXd& left) {
   const MatrixXd sizes = joints.efforts.cwiseAbs();
   left += joints.efforts * efforts;
   const VectorXd terms = joints.springs.cwiseAbs() + sizes * efforts.cwiseAbs();
-  // a few roundings of what has cancelled
+  // a few rounding errors of the terms that cancelled
   for (int i = 0; i < left.size(); ++i)
     if (std::abs(left[i]) <= 1e-14 * terms[i]) left[i] = 0;
   return efforts;
 }
 
-// each joint is in balance, or nearly
+// each joint is balanced, or nearly
 void balance_joints(ForceProgram& p, const JointDemand& demand) {
   VectorXd springs;
   p.at_rest = efforts_at_rest(p.joints, springs);
@@ -165,13 +165,13 @@ void balance_joints(ForceProgram& p, const JointDemand& demand) {
     p.builder.at_most(blocks(loose, sign), sign * springs(loose) + p.joints.slack(loose));
 }
 
-// an end at which something acts, where motors exert what it takes
+// limits of the directions in which an effort acts, if motors exert any effort required
 EffortRange without_limits(EffortRange range) {
   return {range.low < 0 ? -no_bound : range.low, range.high > 0 ? no_bound : range.high};
 }
 
 // An actuator of several DOFs exerts one force on all of them: within the bounds of each, their
-// efforts are those of such forces and of their other actuators.
+// efforts are combinations of such forces and of those of their other actuators.
 void share_actuators(ForceProgram& p, const World& world, Id<Robot> robot, bool unlimited) {
   const SharedActuators shared = shared_actuators(world, robot);
   if (shared.actuators.empty()) return;
@@ -216,7 +216,7 @@ void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
     if (std::isfinite(p.low[k]))
       p.lows[k] = p.builder.at_most({{p.u + k, number(-1)}}, numbers(p.at_rest[k] - p.low[k]));
   }
-  // limits of a script stand for those of the actuators
+  // limits set by a script replace those of the actuators
   std::vector<Id<Robot>> robots;
   for (const EffortRef& ref : p.joints.refs)
     if (std::ranges::find(robots, ref.robot) == robots.end()) robots.push_back(ref.robot);
@@ -232,7 +232,7 @@ void add_joints(ForceProgram& p, const World& world, const Grasp& grasp,
   }
 }
 
-// so that torques count as much as forces
+// so that torques have the same weight as forces
 double about_longest_arm(const Grasp& grasp) {
   double arm = 0;
   for (const PointContact& point : grasp.points)
@@ -258,7 +258,7 @@ ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOpt
   if (question == ForceQuestion::forces) {
     p.balance = p.builder.equal({{p.f, map}}, -load);
   } else if (question == ForceQuestion::nearest) {
-    // what is left, torque over rho
+    // the residual, torque over rho
     Vector6d unit = rows;
     unit.tail<3>() *= grasp.rho;
     p.extra = p.builder.unknowns(6);

@@ -1,25 +1,25 @@
-// The cone program whose solution contact forces are.
+// The cone program of contact forces.
 #pragma once
 #include "clench/grasp/force/force_options.h"
 #include "clench/math/cone_builder.h"
 
 namespace clench {
 
-/// f of the contacts, u of the joints, and what else the program asks for, with the rows that a
-/// proof is read from
+/// f of the contacts, u of the joints, and further unknowns of the program, with the rows from
+/// which a proof is read
 struct ForceProgram {
   GraspMap map;
   Vector6d load_O = Vector6d::Zero();
   JointBalance joints;
   ConeBuilder builder;
   int f = 0, u = 0;
-  int extra = 0;      // what is left, the multiple of the load, or how far inside all forces are
-  ConeRange balance;  // its torques over arm
-  double arm = 1;     // about the longest of a contact, a power of two [m]
-  std::vector<ConeRange> cones, caps;  // one per contact; caps empty without
-  Eigen::VectorXd low, high;           // of the efforts, as they are bounded here
-  Eigen::VectorXd
-      at_rest;  // efforts that springs and weights alone want: u is what is given beyond them
+  // unbalanced wrench, multiple of the load, or distance of all forces from their boundaries
+  int extra = 0;
+  ConeRange balance;                   // its torques over arm
+  double arm = 1;                      // longest lever arm of a contact, a power of two [m]
+  std::vector<ConeRange> cones, caps;  // one per contact; caps empty if there are none
+  Eigen::VectorXd low, high;           // of the efforts, with their bounds here
+  Eigen::VectorXd at_rest;  // efforts due to springs and weights alone: u is relative to them
   std::vector<ConeRange> lows, highs;  // one per effort; count 0: no bound
   ConeProgram program;
   ConeSolution solution;
@@ -35,12 +35,13 @@ inline Vector6d turned_wrench(const Vector6d& wrench, const Eigen::Matrix3d& R) 
 }
 
 enum class ForceQuestion {
-  forces,   ///< that balance the load
-  nearest,  ///< that leave the least of it
-  largest   ///< multiple of the load that some balance
+  forces,   ///< balances the load
+  nearest,  ///< leaves the smallest part of it
+  largest   ///< largest multiple of the load that is balanced
 };
 
-/// Made and solved.   options  as contact_forces checks them
+/// Builds and solves the program.
+/// options  as checked by contact_forces
 ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOptions& options,
                           ForceQuestion question);
 

@@ -6,8 +6,8 @@ namespace clench {
 
 namespace {
 
-// a robot on the way from the ground to the hand, and the link of it that carries the next one; the
-// hand: none
+// a robot between the ground and the hand, and the link of it that carries the next one; none for
+// the hand
 struct MovingRobot {
   Id<Robot> robot;
   int link = -1;
@@ -23,14 +23,14 @@ std::vector<MovingRobot> moving_robots(const World& world, Id<Robot> hand, bool 
   return out;
 }
 
-// a joint as it stands in the world
+// a joint at its present pose
 struct StandingJoint {
   const Robot& robot;
   const RobotFrames& frames;
   int number;
 };
 
-// what the joint does to contact i
+// effect of the joint on contact i
 void fill_column(Eigen::Ref<Eigen::VectorXd> column, const Grasp& grasp, const GraspMap& map, int i,
                  const Pose& X_WO, const StandingJoint& joint) {
   const auto& [robot, frames, j] = joint;

@@ -20,14 +20,14 @@ void each_joint_of(const Robot& robot, int dof, Visit visit) {
     if (joint.dof == dof) visit(joint);
 }
 
-// what a joint's spring gives as it stands
+// effort of a joint's spring in its present position
 double spring_of(const World& world, const JointRef& ref) {
   const Joint& joint = world.robot(ref.robot).joints[ref.joint];
   return joint.spring > 0 ? -joint.spring * (world.joints(ref.robot)[ref.joint] - joint.rest) : 0;
 }
 
-// what the joints of a compliant DOF get of its effort: in free air the tendon holds their springs,
-// and does the work that the DOF does
+// shares of the joints of a compliant DOF in its effort: in free air the tendon balances their
+// springs, and its work equals the DOF's
 struct TendonShares {
   bool sprung = true;  // has each joint a spring?
   double work = 0;     // of free motion: sum of k ratio^2, or of ratio^2
@@ -42,7 +42,7 @@ struct TendonShares {
   }
 };
 
-// what a compliant DOF's motor gives to stand where it does in free air: the work of its springs
+// effort of a compliant DOF's motor that keeps its position in free air: the work of its springs
 // along its motion
 double tendon_effort(const World& world, Id<Robot> id, int dof) {
   const Robot& robot = world.robot(id);
@@ -56,7 +56,7 @@ double tendon_effort(const World& world, Id<Robot> id, int dof) {
 
 struct Row {
   Eigen::VectorXd forces;
-  int effort = 0;     // whose
+  int effort = 0;     // its source
   double factor = 1;  // of the effort
   double spring = 0;
   double slack = 0;
@@ -95,7 +95,7 @@ class BalanceRows {
   std::vector<double> low_, high_, tendons_;
   std::map<std::pair<Id<Robot>, int>, int> motors_;  // of a robot's DOF: its effort
   std::vector<Row> rows_;
-  std::map<int, int> shared_;  // the row of a DOF whose joints are coupled rigidly
+  std::map<int, int> shared_;  // the row of a DOF whose joints are rigidly coupled
 };
 
 void BalanceRows::add(const JointRef& ref, const Eigen::VectorXd& forces, bool link_weights) {

@@ -28,11 +28,12 @@ double ellipsoid_resistance(const World& world, const Grasp& grasp, const Vector
   for (const double axis : axes_W)
     if (!(axis > 0) || !std::isfinite(axis))
       fail("resistance: half axes of an ellipsoid must be > 0, got {} [N or N m]", axis);
-  // a flat ellipsoid needs no more than one that is a billionth thick, and the stretch to a ball
-  // keeps its digits
+  // a thickness of a billionth is sufficient for a flat ellipsoid, and the scaling to a ball stays
+  // accurate
   const Vector6d axes = axes_W.cwiseMax(1e-8 * axes_W.maxCoeff());
 
-  // where the ellipsoid is a ball: along the world's axes, each over its half axis
+  // coordinates in which the ellipsoid is a ball: along the world's axes, each divided by its half
+  // axis
   const Eigen::Matrix3d R_WO = world.pose(grasp.object).matrix();
   Eigen::Matrix<double, 6, 6> to_ball = Eigen::Matrix<double, 6, 6>::Zero();
   to_ball.topLeftCorner<3, 3>() = R_WO;

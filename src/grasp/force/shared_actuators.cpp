@@ -5,8 +5,8 @@
 
 namespace clench {
 
-// its force as the DOF feels it, and the effort per unit of it: within the sum of a tendon's forces,
-// where it is alone in that
+// its force at the DOF, and the effort per unit of it: within the sum of a tendon's forces, if no
+// other actuator acts there
 static SharedActuator of_term(const DofDrive& drive, const DriveTerm& term, int dof,
                               const Eigen::VectorXd& q) {
   SharedActuator out{term.force_at_rest(q), {{dof, term.reach}}};

@@ -9,13 +9,13 @@ namespace clench {
 
 /// An actuator that exerts one force on several DOFs.
 struct SharedActuator {
-  EffortRange force;                            ///< at rest, where the robot stands [N m or N]
+  EffortRange force;  ///< limits at rest, in the robot's present posture [N m or N]
   std::vector<std::pair<int, double>> reaches;  ///< DOFs, and the effort of each per unit of force
 };
 
 struct SharedActuators {
   std::vector<SharedActuator> actuators;
-  /// of each of their DOFs: what its other actuators exert [N m or N]
+  /// for each of their DOFs: efforts of its other actuators [N m or N]
   std::map<int, EffortRange> others;
 };
 

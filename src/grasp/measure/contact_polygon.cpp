@@ -17,12 +17,12 @@ double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-// source  Roa & Suarez (2015), eq. 12: the sum of all deviations over that of a flat polygon
+// source  Roa & Suarez (2015), eq. 12: the sum of all deviations divided by that of a flat polygon
 double irregularity_of(const std::vector<Vector2d>& corners) {
   const auto count = static_cast<double>(corners.size());
   constexpr double half_turn = std::numbers::pi;
   const double regular = half_turn * (count - 2) / count;
-  // flat: all angles half turns but two, which are none
+  // flat: all angles are half turns except two, which are zero
   const double most = (count - 2) * (half_turn - regular) + 2 * regular;
   double sum = 0;
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -36,7 +36,7 @@ double irregularity_of(const std::vector<Vector2d>& corners) {
 
 }  // namespace
 
-// of points nearer than a micrometre, one
+// one of several points nearer than a micrometer
 static std::vector<Vector3d> distinct(const std::vector<Vector3d>& points) {
   std::vector<Vector3d> out;
   for (const Vector3d& p : points)
@@ -50,7 +50,7 @@ ContactPolygon contact_polygon(const std::vector<Vector3d>& all) {
   ContactPolygon polygon;
   for (const Vector3d& p : points) polygon.centroid += p / static_cast<double>(points.size());
 
-  // the plane of least squares: across the direction in which the points vary least
+  // the least-squares plane: normal to the direction in which the points vary least
   Eigen::MatrixXd offsets(3, static_cast<Eigen::Index>(points.size()));
   for (size_t i = 0; i < points.size(); ++i)
     offsets.col(static_cast<Eigen::Index>(i)) = points[i] - polygon.centroid;
@@ -65,7 +65,7 @@ ContactPolygon contact_polygon(const std::vector<Vector3d>& all) {
     flat.emplace_back(x.dot(offsets.col(i)), y.dot(offsets.col(i)));
     size = std::max(size, flat.back().norm());
   }
-  // a corner that stands out by no more than rounding is none
+  // a corner that protrudes by no more than rounding is omitted
   for (const int i : outline(flat, 1e-12 * size)) corners.push_back(flat[static_cast<size_t>(i)]);
   for (const Vector2d& c : corners)
     polygon.corners.push_back(polygon.centroid + c.x() * x + c.y() * y);

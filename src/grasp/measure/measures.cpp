@@ -24,10 +24,10 @@ Vector6d weight_of(const World& world, const Body& body) {
   return weight;
 }
 
-// six of them, zeros for those that are missing or rounding
+// six of them, with zeros for missing ones and those at the level of rounding
 Vector6d six_singular_values(const MatrixXd& m) {
   constexpr double rounding =
-      1e-12;  // of the largest: sums of a hundred products are good to 1e-14
+      1e-12;  // of the largest: sums of a hundred products are accurate to 1e-14
   Vector6d out = Vector6d::Zero();
   if (m.size() == 0) return out;
   const VectorXd values = singular_value_decomposition(m).values;
@@ -65,8 +65,7 @@ const MeasuredGrasp::Maps& MeasuredGrasp::maps() {
   maps_->J = dof_jacobian(world_, grasp_, hand_jacobian(world_, grasp_));
   maps_->starts = map.starts;
   maps_->G.bottomRows(3) /= grasp_.rho;
-  // torsions as the friction that makes them, at the contact's own radius: within the cone the two
-  // share one bound
+  // torsions as friction at the contact's own radius: within the cone the two share one bound
   for (int i = 0; i < map.contacts(); ++i)
     if (map.starts[i + 1] - map.starts[i] == 4) {
       maps_->G.col(map.starts[i] + 3) *= grasp_.points[i].torsion_radius;
@@ -83,7 +82,7 @@ const Vector6d& MeasuredGrasp::singular_values() {
 const Vector6d& MeasuredGrasp::hand_singular_values() {
   if (hand_values_) return *hand_values_;
   hand_values_ = Vector6d::Zero();
-  // an object that the contacts do not hold fast is moved by none
+  // an object that the contacts do not restrain is not moved by any
   if (singular_values()[5] == 0) return *hand_values_;
   const MatrixXd &G = maps().G, &J = maps().J;
   hand_values_ = six_singular_values(solve_symmetric(G * G.transpose(), G * J));
@@ -132,7 +131,7 @@ double gravity_effort(MeasuredGrasp& g) {
   return held.status == ForceStatus::optimal ? held.objective : unbounded;
 }
 
-// the DOFs that have a range, each with where it is in it, from 0 to 1
+// the DOFs with limits, each with its relative position between them, from 0 to 1
 template <class Act>
 void each_place_in_range(const World& world, Id<Robot> id, Act act) {
   const Robot& robot = world.robot(id);
@@ -161,8 +160,8 @@ double joint_deviation(MeasuredGrasp& g) {
   return count > 0 ? sum / count : unbounded;
 }
 
-// in the object frame; no axis where two moments differ by less than the facets of a round body
-// make
+// in the object frame; no axis if two moments differ by less than the faceting of a round body
+// causes
 std::optional<Eigen::Vector3d> principal_axis(const Body& body) {
   constexpr double alike = 1e-3;  // of the largest moment
   const auto [moments, axes] = eigensystem(body.inertia_per_mass);
@@ -184,7 +183,7 @@ double orthogonality(MeasuredGrasp& g) {
 }
 
 double coplanarity(MeasuredGrasp& g) {
-  // contacts that are there twice count once
+  // duplicate contacts count once
   std::vector<const PointContact*> distinct;
   for (const PointContact& c : g.grasp().points)
     if (std::ranges::none_of(distinct, [&](const PointContact* d) {
@@ -197,8 +196,8 @@ double coplanarity(MeasuredGrasp& g) {
   return std::sqrt(std::max(0.0, eigenvalues(scatter)[0] / static_cast<double>(distinct.size())));
 }
 
-// A contact that is off by d shifts its unit wrenches by d times their force, over rho: so much
-// less than before they reach in any direction.
+// A contact displaced by d changes its unit wrenches by d times their force, over rho: the support
+// in any direction decreases by at most that much.
 double contact_position_tolerance(MeasuredGrasp& g) {
   double force = 1;
   for (const PointContact& c : g.grasp().points) force = std::max(force, std::hypot(1, c.mu));

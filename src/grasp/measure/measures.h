@@ -1,4 +1,4 @@
-// What a grasp is worth: numbers by name, from which planners and people choose.
+// Grasp quality measures by name, for planners and users.
 #pragma once
 #include <optional>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace clench {
 
-/// A grasp being judged: what several measures need is calculated once. The world must stand as it
-/// did when the grasp was measured.
+/// A grasp under evaluation: quantities that several measures need are computed once. The world
+/// must be in the state in which the grasp was measured.
 class MeasuredGrasp {
  public:
   MeasuredGrasp(const MeasuredGrasp&) = delete;
@@ -27,17 +27,17 @@ class MeasuredGrasp {
     return *space_of(grasp_, options);
   }
   const ContactPolygon& polygon();  ///< of the contact points, object frame; at least one contact
-  /// of the grasp map, torques over rho, descending; 6, the last ones 0 where it has fewer columns
+  /// of the grasp map, torques over rho, descending; 6, the last ones 0 if it has fewer columns
   const Vector6d& singular_values();
   /// of the map from velocities of the DOFs to the object's twist (v, rho omega), descending [m]
   const Vector6d& hand_singular_values();
-  /// with all contacts sticking, the object's weight and at most 10 N a contact
+  /// with all contacts sticking, the object's weight and at most 10 N per contact
   const Robustness& robustness();
   RobustnessProblem robustness_problem();
 
  private:
   struct Maps {
-    Eigen::MatrixXd G, J;  // torques and turns by rho
+    Eigen::MatrixXd G, J;  // torques and rotations scaled by rho
     std::vector<int> starts;
   };
   const Maps& maps();
@@ -55,17 +55,17 @@ struct Measure {
   std::string_view name;
   std::string_view what;
   std::string_view range;
-  std::string_view unit;  ///< "1": a bare number
+  std::string_view unit;  ///< "1": dimensionless
   bool higher_is_better;
   std::string_view source;
-  /// finite, or infinite where there is nothing to measure
+  /// finite, or infinite if there is nothing to measure
   double (*of)(MeasuredGrasp&);
 };
 
-/// All of them, in the order of the pages.
+/// All measures, in the order of the pages.
 std::span<const Measure> measures();
 
-/// throws Error with a near name when there is none
+/// throws Error that suggests a similar name if there is no such measure
 const Measure& find_measure(std::string_view name);
 
 }  // namespace clench

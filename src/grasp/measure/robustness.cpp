@@ -15,8 +15,8 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-// singular values below this part of the largest are rounding: contact frames and levers are good
-// to 1e-14
+// singular values below this fraction of the largest are rounding: contact frames and levers are
+// accurate to 1e-14
 constexpr double rank_part = 1e-10;
 
 void check_robustness_problem(const RobustnessProblem& p) {
@@ -45,7 +45,7 @@ void check_robustness_problem(const RobustnessProblem& p) {
     fail("robustness: max_force must be > 0, got {} [N]", p.max_force);
 }
 
-// the rows of f that are counted on
+// the rows of f in use
 std::vector<Index> held_rows(const RobustnessProblem& p, const std::vector<ContactHold>& states) {
   std::vector<Index> rows;
   for (size_t i = 0; i < states.size(); ++i) {
@@ -57,10 +57,10 @@ std::vector<Index> held_rows(const RobustnessProblem& p, const std::vector<Conta
   return rows;
 }
 
-// The same problem with torques that count about as much as forces, and DOFs that move their
-// fingers alike.
+// The same problem with torques scaled to the size of forces, and DOFs scaled to move their fingers
+// equally.
 struct EvenProblem : RobustnessProblem {
-  Vector6d units = Vector6d::Ones();  // of wrenches, in the problem's own
+  Vector6d units = Vector6d::Ones();  // of wrenches, in units of the problem's
 
   explicit EvenProblem(const RobustnessProblem& given) : RobustnessProblem(given) {
     const double force = largest(G.topRows<3>()), torque = largest(G.bottomRows<3>());
@@ -76,12 +76,12 @@ struct EvenProblem : RobustnessProblem {
   static double power_of_two(double x) { return std::exp2(std::round(std::log2(x))); }
 };
 
-// springs in series, as they share a wrench
+// springs in series: the load is distributed according to their stiffness
 struct Springs {
   VectorXd root;       // of their stiffness
-  MatrixXd wrenches;   // orthonormal: forces over root that hold wrenches
-  MatrixXd right;      // the right inverse of G that they make; empty: G does not span all wrenches
-  double stretch = 0;  // the most that a wrench of length one does to the forces
+  MatrixXd wrenches;   // orthonormal: forces over root that balance wrenches
+  MatrixXd right;      // the resulting right inverse of G; empty: G does not span all wrenches
+  double stretch = 0;  // largest effect of a unit wrench on the forces
 };
 
 Springs springs_of(const MatrixXd& G, const VectorXd& stiffness, const Vector6d& units) {
@@ -98,7 +98,7 @@ Springs springs_of(const MatrixXd& G, const VectorXd& stiffness, const Vector6d&
   return out;
 }
 
-// of the contact force nearest to its bounds, or farthest outside
+// margin of the contact force nearest to its bounds, or farthest outside
 double min_margin(const RobustnessProblem& p, const std::vector<ContactHold>& states,
                   const VectorXd& f) {
   double least = std::numeric_limits<double>::infinity();
@@ -121,7 +121,7 @@ class MarginProgram {
   MarginProgram(const RobustnessProblem& problem, VectorXd start, MatrixXd span)
       : problem_(problem), start_(std::move(start)), span_(std::move(span)) {}
 
-  /// contact i keeps the margin, or only its bounds
+  /// contact i keeps the margin, or only satisfies its bounds
   void bound(size_t i, ContactHold state, bool with_margin) {
     const int normal = problem_.starts[i], across = problem_.starts[i + 1] - normal - 1;
     const double d = with_margin ? 1 : 0, mu = problem_.mu[static_cast<Index>(i)];
@@ -138,7 +138,7 @@ class MarginProgram {
     cones_.push_back(std::move(cone));
   }
 
-  /// with the largest margin, among the unknowns of A (d, x) = b
+  /// the solution with the largest margin, among the unknowns of A (d, x) = b
   ConeSolution solve(const MatrixXd& A, const VectorXd& b) const {
     const auto lines = static_cast<Index>(lines_.size());
     Index rows = lines;
@@ -185,7 +185,7 @@ class MarginProgram {
   std::vector<Cone> cones_;
 };
 
-// orthonormal columns that span those of m
+// orthonormal columns with the same span as those of m
 MatrixXd range_of(const MatrixXd& m, double zero) {
   if (m.cols() == 0) return m;
   const Svd svd = singular_value_decomposition(m);
@@ -201,7 +201,7 @@ Robustness robustness_of(const EvenProblem& p, const std::vector<ContactHold>& s
   const Springs springs = springs_of(G, p.compliance(rows).cwiseInverse(), p.units);
   if (springs.right.size() == 0) return out;
 
-  // which internal forces the joints can make
+  // internal forces that the joints can exert
   const MatrixXd made = springs.root.asDiagonal() * J;
   const MatrixXd no_wrench = made - springs.wrenches * (springs.wrenches.transpose() * made);
   const MatrixXd internal = springs.root.asDiagonal() *
@@ -216,11 +216,11 @@ Robustness robustness_of(const EvenProblem& p, const std::vector<ContactHold>& s
     if (states[i] != ContactHold::detached) program.bound(i, states[i], true);
   const ConeSolution best = program.solve(MatrixXd(0, span.cols() + 1), VectorXd(0));
   if (best.status == ConeStatus::infeasible) return out;
-  // what is not sure bounds nothing, and its forces keep the margin that they keep
+  // an uncertain result gives no bound, and its forces keep the margin that they have
   if (best.status != ConeStatus::optimal) out.most = p.max_force / 2 / springs.stretch;
   const VectorXd forces = start + span * best.x.tail(span.cols());
   const double margin = min_margin(p, states, forces);
-  // what is far below the data is rounding
+  // values far below the data are rounding
   if (!(margin > 1e-9 * best.units[0])) return out;
   out.margin = margin;
   out.radius = margin / springs.stretch;
@@ -232,7 +232,8 @@ Robustness robustness_of(const EvenProblem& p, const std::vector<ContactHold>& s
 constexpr ContactHold all_holds[] = {ContactHold::sticks, ContactHold::slips,
                                      ContactHold::detached};
 
-// Depth first over the states of the contacts, the undecided ones counted on for all they could do.
+// Depth first over the states of the contacts; undecided contacts are assumed to transmit all that
+// they could.
 class RobustnessSearch {
  public:
   RobustnessSearch(const EvenProblem& problem, int steps, const Progress& progress)
@@ -253,7 +254,7 @@ class RobustnessSearch {
     return steps_-- > 0;
   }
 
-  // from state to state, each another contact's, while that gains
+  // local search: changes the state of one contact at a time, while that improves the result
   void climb() {
     std::vector<ContactHold> at = states_;
     for (bool gained = true; gained;) {
@@ -283,7 +284,7 @@ class RobustnessSearch {
     for (const ContactHold state : all_holds) {
       states_[decided] = state;
       const double most = takes_step() ? bound(decided + 1) : bounds_[decided];
-      // a bound is as good as the solver's answer, which is good to 1e-9
+      // a bound is as accurate as the solver's result: 1e-9
       if (!(most > best_.radius * (1 + 1e-8))) continue;
       if (steps_ <= 0) {
         left_ = std::max(left_, most);
@@ -296,7 +297,7 @@ class RobustnessSearch {
     states_[decided] = ContactHold::sticks;
   }
 
-  // No right inverse of G stretches less than the one of least norm, which stretches less with
+  // No right inverse of G has a smaller norm than the least-norm one, whose norm decreases with
   // every row; and no margin is larger than with free forces that balance the load.
   double bound(size_t decided) const {
     const std::vector<Index> rows = held_rows(problem_, states_);
@@ -319,17 +320,18 @@ class RobustnessSearch {
     if (!margin) return most / springs.stretch;
     const ConeSolution solution = program.solve(balance, -problem_.load);
     if (solution.status == ConeStatus::infeasible) return 0;
-    // what is not sure bounds nothing
+    // an uncertain result gives no bound
     if (solution.status != ConeStatus::optimal) return most / springs.stretch;
     return std::min(solution.x[0], most) / springs.stretch;
   }
 
   const EvenProblem& problem_;
   const Progress& progress_;
-  int steps_;  // that are left
+  int steps_;  // remaining
   std::vector<ContactHold> states_;
-  std::vector<double> bounds_ = {std::numeric_limits<double>::infinity()};  // of the way here
-  double left_ = 0;  // the largest bound of what was not searched
+  // of the path to this node
+  std::vector<double> bounds_ = {std::numeric_limits<double>::infinity()};
+  double left_ = 0;  // the largest bound of the nodes that were not searched
   Robustness best_;
 };
 

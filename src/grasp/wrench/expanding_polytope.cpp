@@ -15,14 +15,14 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The deciding plane holds its corners within this.
+// The deciding plane contains its corners within this tolerance.
 constexpr double plane_noise = 2e-13;
 
-// What all points are shifted by at most in one coordinate, attempt after attempt: the first with
-// the points as they are. Brackets grow by it.
+// Largest shift of points per coordinate, by attempt: the first is without shifts. Brackets are
+// widened by it.
 constexpr double shifts[] = {0, 0, 0, 1e-11, 1e-11, 1e-11, 3e-11, 3e-11, 1e-10, 3e-10};
 
-// Memory that a thread's polytopes use one after the other.
+// Memory reused by all polytopes of a thread.
 template <int D>
 struct Room {
   FacetComplex<D> complex;
@@ -45,7 +45,7 @@ class Growing {
   Ball ball(const BallOptions& options);
   Facets hull(const FacetsOptions& options);
 
-  /// what is known so far
+  /// result so far
   double bound() const { return std::min(lower_ - slack(), upper_); }
   double upper() const { return upper_; }
   const double* direction() const { return direction_; }
@@ -57,10 +57,10 @@ class Growing {
   void grow(int first, const double* point);
   void wait(int index) {
     const double offset = complex_.facet(index).offset();
-    // a facet beyond the upper bound will not decide
+    // a facet beyond the upper bound cannot decide
     if (offset < limit_) waiting_.set(index, offset);
   }
-  // no shifted point is farther from where it was
+  // no shifted point is farther from its original position
   double slack() const { return shift_ * std::sqrt(double(D)); }
   double enough(double tolerance) const { return std::max(tolerance, 2.5 * slack()); }
 
@@ -70,13 +70,13 @@ class Growing {
   FacetComplex<D>& complex_;
   OffsetList& waiting_;
   double lower_ = -infinite;
-  // the least support so far
+  // the smallest support so far
   double upper_ = infinite, direction_[D];
   double limit_ = infinite;
 };
 
-// The set's own support, for the upper bound; the point may be shifted, always the same point
-// alike.
+// The set's own support, for the upper bound; the point may be shifted, always the same point by
+// the same amount.
 template <int D>
 double Growing<D>::support(const double* direction, double* point) {
   check_stop();
@@ -117,10 +117,10 @@ SimplexEnd Growing<D>::start(double zero) {
   return simplex.end;
 }
 
-// Turns the plane of a facet into the one that its corners span, as far as they do, and moves it in
-// front of them.
-// unless   it is within that of them
-// returns  how far the worst corner lies from it
+// Rotates the plane of a facet into the one spanned by its corners, as far as they determine it,
+// and moves it in front of them.
+// unless   it is within this distance of them
+// returns  distance of the worst corner from it
 template <int D>
 double Growing<D>::exact_plane(int index, double unless) {
   auto& facet = complex_.facet(index);
@@ -166,7 +166,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
   while (true) {
     limit_ = upper_;
     const int nearest = waiting_.least();
-    // no facet is nearer than the least support
+    // no facet is nearer than the smallest support
     if (nearest < 0) return ended(BallEnd::inside, upper_);
     const auto& facet = complex_.facet(nearest);
     const double believed = facet.offset();
@@ -187,7 +187,7 @@ Ball Growing<D>::ball(const BallOptions& options) {
     if (complex_.point_count() >= options.max_points ||
         complex_.alive_count() >= options.max_facets || options.progress.stop_asked())
       return ended(BallEnd::stopped, lower);
-    // a shifted point may lie below what the set reaches
+    // a shifted point may lie below the set's support
     if (!(std::min(reach, dot<D>(facet.plane.x, p)) - facet.offset() > 10 * seen))
       throw BrokenSurface();
     grow(nearest, p);
@@ -239,7 +239,7 @@ Facets Growing<D>::hull(const FacetsOptions& options) {
   out.end = FacetsEnd::complete;
   for (int i = 0; i < complex_.point_count(); ++i)
     out.points.insert(out.points.end(), complex_.point(i).x, complex_.point(i).x + D);
-  // simplices from an inner point; their signs agree
+  // simplices from an interior point; their signs agree
   double inner[D] = {};
   for (int k = 0; k <= D; ++k)
     for (int i = 0; i < D; ++i) inner[i] += complex_.point(k).x[i] / (D + 1);

@@ -1,9 +1,9 @@
-// The surface of a polytope in D dimensions: facets that are simplices and know their neighbours,
-// and how it grows to a point outside. The facets that see the point go, and the rim that they
-// leave is joined to it. Includes no Eigen, as geometry/lanes.h does not.
+// Surface of a polytope in D dimensions: facets that are simplices and know their neighbors, and
+// its expansion to a point outside. The facets visible from the point are removed, and the rim of
+// the hole is joined to it. Includes no Eigen, as geometry/lanes.h does not.
 //
-// What costs time is not arithmetic but guesses of the processor that fail, so the walks have no
-// branches that depend on which facets see the point.
+// Most of the time is lost to mispredicted branches, not to arithmetic, so traversals have no
+// branches that depend on which facets are visible from the point.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -18,20 +18,19 @@
 
 namespace clench {
 
-/// a surface that rounding broke
+/// a surface broken by rounding
 struct BrokenSurface {};
 
-/// A facet sees a point that lies farther beyond its plane than this: rounding of planes and
-/// products is some 1e-15, and what is nearer counts as in the plane.
+/// A facet is visible from a point that lies farther beyond its plane than this: rounding of planes
+/// and products is about 1e-15, and smaller distances count as in the plane.
 inline constexpr double seen = 1e-13;
 
-/// A point, with 1 in the place behind its coordinates, or a plane,
-/// with minus its offset there: their product is the point's height above the plane. Zero
-/// elsewhere.
+/// A point, with 1 after its coordinates, or a plane, with minus its offset there: their product is
+/// the point's height above the plane. The rest is zero.
 struct alignas(64) Eight {
   double x[lane_count] = {};
 
-  // vector by vector: as one block they would go through the stack, in pieces
+  // element by element: as one block they would pass through the stack, in pieces
   CLENCH_INLINE DoubleLanes lanes() const {
     DoubleLanes out;
     for (int i = 0; i < DoubleLanes::chunks; ++i)
@@ -48,7 +47,7 @@ inline constexpr int behind = max_dimensions;
 
 CLENCH_INLINE double dot(const DoubleLanes& a, const DoubleLanes& b) {
   const DoubleLanes c = a * b;
-  // halves upon halves: alike at every width of vectors
+  // pairwise sums: the same result for every vector width
   auto sum = c.chunk[0] + c.chunk[c.chunks / 2];
   if constexpr (DoubleLanes::width == 2) return sum += c.chunk[1] + c.chunk[3], sum[0] + sum[1];
   return (sum[0] + sum[2 % DoubleLanes::width]) + (sum[1] + sum[3 % DoubleLanes::width]);
@@ -61,9 +60,9 @@ class FacetComplex {
   struct alignas(64) Facet {
     Eight plane;                  // unit normal, outwards
     int corner[D], neighbour[D];  // neighbour k has all corners but corner k
-    double height;                // of the new point, as of `mark`
-    int mark;                     // the growth that looked at it last; -1: gone
-    bool turned;                  // corners as in a mirror
+    double height;                // height of the new point, valid if `mark` is current
+    int mark;                     // the last expansion that visited it; -1: removed
+    bool turned;                  // is the order of corners mirrored?
 
     double offset() const { return -plane.x[behind]; }
     bool alive() const { return mark >= 0; }
@@ -74,16 +73,17 @@ class FacetComplex {
   int add_point(const double* x);
   /// The facets of a simplex of points 0 to D, facet k without point k.
   void start(const Eight* planes);
-  /// Joins the rim of all facets that see the point to it. throws BrokenSurface
+  /// Joins the rim of all facets visible from the point to it.
+  /// throws BrokenSurface
   void grow(int first, const double* point);
-  /// of the last growth
+  /// of the last expansion
   std::span<const int> gone() const { return {seen_.data(), static_cast<size_t>(seen_count_)}; }
   std::span<const int> made() const { return made_; }
 
   const Eight& point(int index) const { return points_[index]; }
   int point_count() const { return static_cast<int>(points_.size()); }
   Facet& facet(int index) { return facets_[index]; }
-  /// those that are gone among them
+  /// including removed ones
   int facet_count() const { return used_; }
   int alive_count() const { return used_ - static_cast<int>(free_.size()); }
 
@@ -95,7 +95,7 @@ class FacetComplex {
   void reserve();
   void raise(int corner);
   void join();
-  // of a new ridge; the same side when it is not to be seen
+  // of a new ridge; the same side if it is not visible
   uint32_t other_side(uint32_t own, int shift) {
     const uint32_t other = place(own, shift) ^ own;
     return other < ridges_.size() && ridges_[other] == ridges_[own] ? other : own;
@@ -103,7 +103,7 @@ class FacetComplex {
   uint32_t& place(uint32_t side, int shift) { return table_[(ridges_[side] >> shift) & mask_]; }
 
   std::vector<Eight> points_;
-  std::vector<uint64_t> keys_;  // of points; those of a ridge add up to its own
+  std::vector<uint64_t> keys_;  // hash values of points; the sum identifies a ridge
   std::vector<Facet> facets_;
   int used_ = 0, growth_ = 0;
   std::vector<int> free_, seen_, made_;
@@ -117,7 +117,7 @@ class FacetComplex {
 
 template <int D>
 void FacetComplex<D>::clear() {
-  // what few sets need is given back
+  // memory that most sets do not need is released
   if (facets_.size() > 100000) *this = FacetComplex();
   points_.clear(), keys_.clear(), free_.clear();
   used_ = growth_ = 0;
@@ -158,7 +158,7 @@ void FacetComplex<D>::grow(int first, const double* x) {
   for (const int gone : this->gone()) facets_[gone].mark = -1, free_.push_back(gone);
 }
 
-// all facets that see the point, and the rim around them
+// all facets visible from the point, and the rim around them
 template <int D>
 void FacetComplex<D>::look(int first, const Eight& point) {
   ++growth_;
@@ -186,7 +186,7 @@ void FacetComplex<D>::look(int first, const Eight& point) {
   }
 }
 
-// room for the new facets
+// space for the new facets
 template <int D>
 void FacetComplex<D>::reserve() {
   made_.resize(rim_count_);
@@ -194,7 +194,7 @@ void FacetComplex<D>::reserve() {
   for (int i = 0; i < old; ++i) made_[i] = free_[free_.size() - 1 - i];
   free_.resize(free_.size() - old);
   for (int i = old; i < rim_count_; ++i) made_[i] = used_++;
-  // the room doubles, and its pages are not touched before they are used
+  // capacity is doubled, and its pages are not touched before they are used
   if (static_cast<int>(facets_.size()) < used_) facets_.resize(used_);
   ridges_.resize(8 * static_cast<size_t>(rim_count_));
   size_t size = 256;
@@ -216,7 +216,7 @@ void FacetComplex<D>::raise(int corner) {
     Facet& b = facets_[rim.beyond];
     Facet& facet = facets_[made_[i]];
 
-    // of all planes through the ridge the one that holds the point
+    // of all planes through the ridge the one that contains the point
     const DoubleLanes plane = b.plane.lanes() * a.height - a.plane.lanes() * b.height;
     const double length = std::sqrt(dot(plane, plane * normal_only));
     shortest = length < shortest ? length : shortest;
@@ -236,7 +236,7 @@ void FacetComplex<D>::raise(int corner) {
     }
     b.neighbour[back] = made_[i];
 
-    // both sides of a new ridge leave their numbers at its place
+    // both sides of a new ridge store their numbers in its entry
     uint64_t own[D], all = 0x9e3779b97f4a7c15u;
     for (int k = 0; k < D - 1; ++k) own[k] = keys_[facet.corner[k]], all += own[k];
     uint64_t* ridge = &ridges_[8 * static_cast<size_t>(i)];
@@ -249,9 +249,9 @@ void FacetComplex<D>::raise(int corner) {
   if (!(shortest > 1e-3 * seen) || backs != rim_count_) throw BrokenSurface();
 }
 
-// Neighbours along the new ridges: both sides have left their numbers at one place of the table, by
-// exclusive or, so that each finds the other unless a second ridge was there. Those that do not
-// find each other try again at other places.
+// Neighbors along the new ridges: both sides have stored their numbers in one entry of the table,
+// combined by exclusive or, so that each finds the other unless a second ridge used the entry.
+// Those that do not find each other try again with other entries.
 template <int D>
 void FacetComplex<D>::join() {
   unmatched_.clear();

@@ -14,13 +14,13 @@ double dot(const double* a, const double* b) {
   return sum;
 }
 
-/// Orthonormal directions, one by one.
+/// Orthonormal directions, built one by one.
 template <int D>
 struct Basis {
   double q[D][D] = {};
   int count = 0;
 
-  /// what of v is normal to all of them
+  /// the component of v normal to all of them
   void reduce(double* v) const {
     for (int pass = 0; pass < 2; ++pass)
       for (int k = 0; k < count; ++k) {
@@ -28,7 +28,7 @@ struct Basis {
         for (int i = 0; i < D; ++i) v[i] -= along * q[k][i];
       }
   }
-  /// returns  how much of v is new
+  /// returns  length of the new component of v
   double add(const double* v) {
     double* next = q[count];
     std::copy_n(v, D, next);
@@ -48,7 +48,7 @@ struct FacetCorners {
   double x[D][D];
 };
 
-/// How far points lie along a direction.
+/// Support of points along a direction.
 struct Spread {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   double width() const { return high - low; }
@@ -64,9 +64,9 @@ Spread spread_along(const double* direction, const FacetCorners<D>& corners) {
   return out;
 }
 
-/// Turns a unit normal into that of the plane that D points span, as far as they do: the longest
-/// edges first, and what the shortest leave open stays as it was.
-/// returns  how far the points lie along it
+/// Corrects a unit normal to that of the plane spanned by D points, as far as they determine it:
+/// the longest edges first; a component that the shortest leave undetermined is kept.
+/// returns  height of the points along it
 template <int D>
 Spread true_normal(double* normal, const FacetCorners<D>& corners) {
   const Spread before = spread_along<D>(normal, corners);

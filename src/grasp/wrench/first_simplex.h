@@ -1,5 +1,5 @@
-// A simplex of points of a set around the origin, or on the way there, for a polytope to start
-// with. Includes no Eigen.
+// Initial simplex for a polytope: points of a set that enclose the origin, or approach it. Includes
+// no Eigen.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace clench {
 
-/// A set thinner than this is flat.
+/// A thinner set is flat.
 inline constexpr double flat_width = 1e-10;
 
 enum class SimplexEnd {
   found,
-  outside,  ///< the set reaches no farther than `zero` along `direction`
+  outside,  ///< the support along `direction` is at most `zero`
   flat      ///< the set lies in a hyperplane normal to `direction`
 };
 
@@ -29,17 +29,17 @@ struct Simplex {
   double direction[D];
 };
 
-// The planes of a simplex whose edges from point 0 have grown the basis one by one.
+// The planes of a simplex whose edges from point 0 were added to the basis one by one.
 template <int D>
 void find_planes(Simplex<D>& simplex, const Basis<D>& basis) {
-  double edge[D][D];  // along the basis: nothing beyond the diagonal
+  double edge[D][D];  // components along the basis: zero beyond the diagonal
   for (int j = 0; j < D; ++j) {
     double v[D];
     for (int i = 0; i < D; ++i) v[i] = simplex.point[j + 1][i] - simplex.point[0][i];
     for (int i = 0; i <= j; ++i) edge[j][i] = dot<D>(basis.q[i], v);
   }
   for (int k = 0; k <= D; ++k) {
-    // along all edges alike, or along none but one
+    // along all edges equally, or along all but one not at all
     double along[D], normal[D] = {};
     for (int i = 0; i < D; ++i) {
       along[i] = k == 0 ? 1 : i == k - 1 ? -1 : 0;
@@ -54,15 +54,15 @@ void find_planes(Simplex<D>& simplex, const Basis<D>& basis) {
   }
 }
 
-/// Grows towards the origin.
-/// support  leaves a farthest point along a direction, returns how far it is
-/// seed     another one, another simplex
+/// Expands towards the origin.
+/// support  writes a farthest point along a direction, and returns its support
+/// seed     another seed gives another simplex
 /// throws   BrokenSurface
 template <int D, class Support>
 Simplex<D> first_simplex(const Support& support, uint64_t seed, double zero) {
-  // any direction that no symmetric set is likely to have a face for
+  // a direction for which symmetric sets are unlikely to have a face
   static constexpr double any[] = {0.61, -0.35, 0.47, 0.23, -0.41, 0.29};
-  // a simplex thinner than this is built with more care
+  // a thinner simplex is built with more care
   constexpr double near = 1e-3;
   Simplex<D> out;
   double *u = out.direction, p[D];
@@ -84,7 +84,7 @@ Simplex<D> first_simplex(const Support& support, uint64_t seed, double zero) {
     double best = 0;
     double* far = out.point[basis.count + 1];
     std::copy_n(origin, D, far);
-    // from the flat through the points towards the origin
+    // from the affine hull of the points towards the origin
     for (int i = 0; i < D; ++i) u[i] = -origin[i];
     basis.reduce(u);
     double length = std::sqrt(dot<D>(u, u));
@@ -94,8 +94,8 @@ Simplex<D> first_simplex(const Support& support, uint64_t seed, double zero) {
       if (reach <= zero) return ended(SimplexEnd::outside);
       best = reach + length;
     }
-    // the origin is near, or beyond all points: both ways along one direction, and others where
-    // that leads nowhere
+    // the origin is near, or beyond all points: both signs of one direction, and other directions
+    // if those fail
     for (int trial = 0; trial < 8 && best < near; ++trial) {
       do {
         for (int i = 0; i < D; ++i) u[i] = random();

@@ -91,7 +91,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     refuse(fmt::format("edges must be 3 to {}, got {}", max_edges, options.edges));
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
     refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
-  // of many contacts some may carry nothing
+  // with many contacts some may carry nothing
   const auto& forces = options.normal_force.values;
   for (const double force : forces)
     if (!(std::isfinite(force) && (force > 0 || (force == 0 && forces.size() > 1))))
@@ -122,7 +122,7 @@ Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
     grasp.joint_offsets[j] = robot.joints[j].offset;
   grasp.com = held.com;
   grasp.options = options;
-  // a body without extent has no contacts either: any length will do
+  // a body without extent has no contacts either: any length is valid
   const double radius = held.max_radius();
   const double gyration = std::sqrt(std::max(0.0, held.inertia_per_mass.trace() / 2));
   grasp.largest_radius = radius > 0 ? radius : 1;

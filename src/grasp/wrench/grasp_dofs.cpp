@@ -35,7 +35,7 @@ std::vector<std::string> names_of_dofs(const Robot& robot) {
   return names;
 }
 
-// the joint that a DOF is named after, else the first that it moves
+// the joint that a DOF is named after, otherwise the first that it moves
 int leading_joint(const Robot& robot, int dof) {
   int first = -1;
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
@@ -60,7 +60,7 @@ std::vector<int> breadth_first_dofs(const Robot& robot) {
   return out;
 }
 
-// numbers of DOFs, or of joints, as they are listed
+// indices of DOFs, or of joints, in the order of the list
 std::vector<int> listed_order(const Robot& robot, bool of_dofs, bool isaac) {
   if (isaac) return of_dofs ? breadth_first_dofs(robot) : breadth_first_joints(robot);
   std::vector<int> out(of_dofs ? robot.dofs.size() : robot.joints.size());
@@ -81,7 +81,7 @@ class PostureReader {
                 const GraspDofOptions& options)
       : robot_(world.robot(hand)), place_(place), options_(options) {}
 
-  /// Values as they are listed, the others as in `q`.
+  /// Listed values, the others as in `q`.
   Eigen::VectorXd read(const std::vector<double>& values, const std::vector<std::string>& names,
                        const std::vector<std::string>& units, Eigen::VectorXd q) const {
     const auto list = names.empty() ? in_order(values) : by_name(values, names);
@@ -300,7 +300,7 @@ Eigen::VectorXd pregrasp_dofs(const World& world, Id<Robot> hand, const GraspSpe
     fail("{}: expected {} values, one per name of a DOF, got {}", before, grasp.dof_names.size(),
          values.size());
   GraspDofOptions of_values = options;
-  // the grasp itself has warned of the order
+  // the grasp itself has already warned of the order
   if (options.order == DofOrder::unknown && !grasp.dofs.empty()) of_values.order = DofOrder::hand;
   const PostureReader reader(world, hand, before, of_values);
   return reader.within(reader.read(values, grasp.dof_names, grasp.dof_units, posture.dofs));

@@ -1,4 +1,4 @@
-// The wrench spaces of a grasp that somebody has asked for.
+// Cache of a grasp's wrench spaces.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace clench {
 
-/// Of the unit wrenches about the centre of mass. Edges and torque length are those of the grasp
-/// unless the options say otherwise.
+/// Space of the unit wrenches about the center of mass. Edges and torque length are those of the
+/// grasp unless the options set others.
 struct GraspSpaceOptions {
   WrenchSpaceOptions space = {};
   std::optional<int> edges = {};
@@ -22,7 +22,7 @@ struct GraspSpaceOptions {
 
 using WrenchSpacePtr = std::shared_ptr<const WrenchSpace>;
 
-/// The last few, for spaces keep what they have found. A copy begins with none: a space is for one
+/// The most recent ones, since spaces cache their results. A copy begins empty: a space is for one
 /// thread.
 class KeptSpaces {
  public:
@@ -32,10 +32,10 @@ class KeptSpaces {
   KeptSpaces& operator=(const KeptSpaces&) { return spaces_.clear(), *this; }
   KeptSpaces& operator=(KeptSpaces&&) = default;
 
-  /// That of the options; `make` gives one that is not there.
+  /// The space with these options; `make` creates it if it is not cached.
   template <class Make>
   const WrenchSpacePtr& get(const GraspSpaceOptions& options, Make make) {
-    // the last one used is the last one
+    // the most recently used one is last
     for (auto known = spaces_.begin(); known != spaces_.end(); ++known)
       if (known->first == options) {
         std::rotate(known, known + 1, spaces_.end());
@@ -46,7 +46,7 @@ class KeptSpaces {
   }
 
  private:
-  static constexpr size_t max_kept = 16;  // more than any measure looks at side by side
+  static constexpr size_t max_kept = 16;  // more than any measure uses together
   std::vector<std::pair<GraspSpaceOptions, WrenchSpacePtr>> spaces_;
 };
 

@@ -9,16 +9,16 @@ namespace clench {
 
 namespace {
 
-// far more steps than sets of six dimensions take, which is some dozens
+// far more steps than six-dimensional sets need, which is a few dozen
 constexpr int max_steps = 2000;
 
-// Shares, summing to one, of the points that make up the point nearest to the origin of the flat
-// through them all.
-// returns  false when they are no simplex
+// Weights, with sum one, of the points whose mean is the point of their affine hull nearest to the
+// origin.
+// returns  false if they are no simplex
 bool nearest_shares(const Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
   const int d = static_cast<int>(corners.rows()), count = static_cast<int>(corners.cols());
   if (count > d + 1) return false;
-  // edges = q r by Gram and Schmidt, twice; then r x = -q^T c0
+  // edges = q r by Gram-Schmidt, twice; then r x = -q^T c0
   Eigen::MatrixXd q(d, count - 1), r = Eigen::MatrixXd::Zero(count - 1, count - 1);
   for (int k = 0; k < count - 1; ++k) {
     Eigen::VectorXd v = corners.col(k + 1) - corners.col(0);
@@ -44,7 +44,7 @@ bool nearest_shares(const Eigen::MatrixXd& corners, Eigen::VectorXd& shares) {
   return true;
 }
 
-// points of the set, a column each, and their shares in the nearest point so far
+// points of the set, one per column, and their weights in the nearest point so far
 struct NearSimplex {
   Eigen::MatrixXd corners;
   Eigen::VectorXd shares;
@@ -68,8 +68,8 @@ struct NearSimplex {
     shares /= shares.sum();
   }
 
-  // Shares of the point nearest to the origin, without the corners that are not of it.
-  // returns  false when rounding leaves no simplex: the last corner adds nothing
+  // Weights of the point nearest to the origin, without the corners that do not contribute.
+  // returns  false if rounding leaves no simplex: the last corner adds nothing
   bool reduce() {
     Eigen::VectorXd expected;
     while (nearest_shares(corners, expected)) {
@@ -77,7 +77,7 @@ struct NearSimplex {
         shares = expected;
         return true;
       }
-      // as far towards it as all shares stay
+      // as far towards it as all weights stay nonnegative
       double part = 2;  // all are at most 1
       int blocking = 0;
       for (int i = 0; i < expected.size(); ++i) {
@@ -110,14 +110,14 @@ NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place, 
     const double distance = point.norm();
     if (distance <= noise) break;
     const Eigen::VectorXd next = reach(-point / distance);
-    // no point of the set is nearer than this along the way
+    // no point of the set is nearer than this along the direction
     if (point.dot(point - next) <= noise * distance) break;
     simplex.add(next);
     if (!simplex.reduce()) break;
     const Eigen::VectorXd now = simplex.point();
     const bool nearer = now.norm() < distance;
     point = now;
-    // the new point was all that could be gained
+    // the new point gave all possible improvement
     if (!nearer && ++idle > 3) break;
   }
   NearestPoint out;

@@ -1,4 +1,4 @@
-// The point of a convex set that is nearest to a place.
+// Nearest point of a convex set.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -10,14 +10,14 @@ namespace clench {
 struct NearestPoint {
   Eigen::VectorXd point;
   double distance = 0;
-  /// points of the set, a column each, and their shares, > 0, that make up the nearest one
+  /// points of the set, one per column, and their weights, > 0, whose mean is the nearest point
   Eigen::MatrixXd corners;
   std::vector<double> shares;
 };
 
 /// set     of 1 to max_dimensions dimensions and size about one
-/// place   its dimension
-/// noise   a distance that counts as none, and by how much the answer's may be off
+/// place   a point of the same dimension
+/// noise   distances below it count as zero; also the tolerance of the result
 /// source  Wolfe (1976), Finding the nearest point in a polytope
 NearestPoint nearest_point(const SupportSet& set, const Eigen::VectorXd& place,
                            double noise = 1e-13);

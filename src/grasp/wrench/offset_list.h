@@ -1,5 +1,5 @@
-// Offsets of facets by number, of which the least is asked for again and again while many change
-// each time: blocks that know their own least, and groups of blocks that know theirs. Includes no
+// Offsets of facets by index, with fast repeated queries of the minimum while many change between
+// queries: blocks that cache their minimum, and groups of blocks that cache theirs. Includes no
 // Eigen.
 #pragma once
 #include <algorithm>
@@ -28,7 +28,7 @@ class OffsetList {
     if (index < size()) set(index, none);
   }
 
-  /// returns  the index of the least, the lowest of several; -1: there is none
+  /// returns  index of the minimum, the lowest of several; -1: the list is empty
   int least() {
     double least = none;
     int in = -1;
@@ -37,7 +37,8 @@ class OffsetList {
       if (groups_[g].least < least) least = groups_[g].least, in = g;
     }
     if (in < 0) return -1;
-    // a stale block says more than this: were it equal, its group would be stale, and refreshed above
+    // a stale block has a larger value: were it equal, its group would be stale, and refreshed
+    // above
     int b = in * (group / block);
     while (blocks_[b].least != least) ++b;
     int index = b * block;
@@ -50,7 +51,7 @@ class OffsetList {
   static constexpr double none = std::numeric_limits<double>::infinity();
   struct Least {
     double least = none;
-    bool stale = false;  // the least may be gone
+    bool stale = false;  // the minimum may have been removed
 
     void change(double before, double now) {
       stale |= before == least && now > least;

@@ -12,11 +12,11 @@ namespace clench {
 
 namespace {
 
-// Corners of slices come from linear programs, good to some 1e-11.
+// Corners of slices result from linear programs, accurate to about 1e-11.
 constexpr double slice_tolerance = 1e-10;
 constexpr int max_faces = 500'000;
 
-// the coordinates that options leave
+// the coordinates that the options leave free
 std::array<int, 3> free_coordinates(const WrenchSpace& space, const ProjectionOptions& options) {
   std::vector<int> left = space.options().coordinates;
   const auto take = [&](int coordinate) {
@@ -61,7 +61,7 @@ Mesh mesh_of(const Facets& facets, int exponent) {
   if (signed_volume < 0)
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 
-  // points inside the last surface are nobody's corners
+  // points inside the last surface are not corners
   std::vector<int> place(mesh.vertices.size(), -1);
   std::vector<Eigen::Vector3d> kept;
   for (Triangle& t : mesh.triangles)

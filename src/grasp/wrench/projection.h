@@ -1,4 +1,4 @@
-// Wrench spaces in three dimensions, to be looked at.
+// Wrench spaces in three dimensions, for display.
 #pragma once
 #include <array>
 #include <utility>
@@ -14,24 +14,24 @@ inline constexpr std::array<const char*, 6> coordinate_names = {"fx", "fy", "fz"
 
 struct ProjectionOptions {
   std::vector<std::pair<int, double>> fixed =
-      {};                           ///< coordinates at a value: a section of the space
-  std::vector<int> projected = {};  ///< coordinates that may be anything: its projection
-  /// how far the space may reach beyond the mesh, as a part of its size, when a contact has a round
-  /// cone
+      {};                           ///< coordinates with prescribed values: a section of the space
+  std::vector<int> projected = {};  ///< coordinates that are projected out
+  /// how far the space may extend beyond the mesh, as a fraction of its size, if a contact has a
+  /// round cone
   double tolerance = 1e-3;
   Progress progress = {};
 };
 
 struct Projection {
-  std::array<int, 3> free;  ///< the coordinates that are left, in the space's order
+  std::array<int, 3> free;  ///< the remaining coordinates, in the space's order
   std::vector<std::pair<int, double>> fixed;
   std::vector<int> projected;
-  double volume = 0;  ///< 0 when it is flat
-  Mesh mesh;          ///< its surface, x y z the free coordinates; empty when it is flat
+  double volume = 0;  ///< 0 if it is flat
+  Mesh mesh;          ///< its surface, x y z the free coordinates; empty if it is flat
 };
 
-/// throws  Error when three free coordinates are not left, one is named twice or does not count in
-///         the space, a number is not finite, the tolerance is not > 0, or nothing has the fixed
+/// throws  Error unless three free coordinates remain, if one is named twice or not used in the
+///         space, a number is not finite, the tolerance is not > 0, or no point has the fixed
 ///         values; Stopped
 Projection project(const WrenchSpace& space, const ProjectionOptions& options = {});
 

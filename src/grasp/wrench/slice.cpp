@@ -12,10 +12,10 @@ namespace clench {
 namespace {
 
 constexpr double away_from_faces = 1e-11;
-// no step for less than this
+// gains below this end the iteration
 constexpr double worth_a_step = 1e-12;
 constexpr double smallest_pivot = 1e-9;
-// far more than programs of four rows take
+// far more than programs of four rows need
 constexpr int max_pivots = 500;
 
 }  // namespace
@@ -30,7 +30,7 @@ Slice::Slice(const SupportSet& set, const Eigen::VectorXd& values)
     expected_[i] = values[i] + away_from_faces * random.uniform(-1, 1);
   expected_[fixed_] = 1;
 
-  // points that stand in at first, a simplex around the values, and have to leave
+  // artificial points that form the first basis, a simplex around the values, and must leave it
   corners_ = Eigen::MatrixXd::Zero(d, rows);
   for (int k = 0; k < rows; ++k) {
     corners_.col(k).tail(fixed_) = expected_.head(fixed_);
@@ -39,13 +39,13 @@ Slice::Slice(const SupportSet& set, const Eigen::VectorXd& values)
     else
       corners_.col(k).tail(fixed_).array() -= 1;
   }
-  // their weights are alike: e_1 + ... + e_m - (1, ..., 1) = 0
+  // their weights are equal: e_1 + ... + e_m - (1, ..., 1) = 0
   weights_ = Eigen::VectorXd::Constant(rows, 1.0 / rows);
-  // columns (v + e_k; 1) and (v - 1; 1): the inverse is (e_k . (x - v) + 1) / rows plus what the
-  // sum asks
+  // columns (v + e_k; 1) and (v - 1; 1): the inverse is (e_k . (x - v) + 1) / rows plus a term for
+  // the sum
   Eigen::MatrixXd inverse(rows, rows);
   for (int column = 0; column < rows; ++column) {
-    // weights that make up the column'th unit vector: x - v t, with t its last number
+    // weights whose combination is the column'th unit vector: x - v t, with t its last number
     Eigen::VectorXd x = Eigen::VectorXd::Unit(rows, column);
     const double t = x[fixed_];
     const Eigen::VectorXd y = x.head(fixed_) - t * expected_.head(fixed_);
@@ -60,7 +60,7 @@ Slice::Slice(const SupportSet& set, const Eigen::VectorXd& values)
   for (int k = 0; k < rows; ++k)
     if (stands_in_[k] && weights_[k] > 1e-9) empty_ = true;
   if (empty_) return;
-  // who stands in with no weight gives way to any point that can take the place
+  // an artificial point with zero weight is replaced by any point that can enter
   for (int k = 0; k < rows; ++k)
     for (int side = 0; side < 2 && stands_in_[k]; ++side) {
       Eigen::VectorXd way = Eigen::VectorXd::Zero(d), point(d);
@@ -77,14 +77,14 @@ Eigen::VectorXd Slice::shares_of(const Eigen::VectorXd& point) const {
   return inverse_ * column;
 }
 
-// who comes to nothing first when the new point's weight grows; -1: nobody
+// index of the first weight to become zero when the new point's weight increases; -1: none
 int Slice::leaving(const Eigen::VectorXd& shares) const {
   int first = -1;
   double least = 0;
   for (int k = 0; k <= fixed_; ++k) {
     if (shares[k] <= smallest_pivot) continue;
     const double ratio = std::max(0.0, weights_[k]) / shares[k];
-    // among equals the one that stands in, then the largest pivot
+    // among equals the artificial point, then the largest pivot
     const bool better = first < 0 || ratio < least - 1e-15 ||
                         (ratio <= least + 1e-15 &&
                          (stands_in_[k] > stands_in_[first] ||
@@ -101,7 +101,7 @@ void Slice::enter(const Eigen::VectorXd& point, const Eigen::VectorXd& shares, i
   for (int k = 0; k <= fixed_; ++k)
     if (k != out) inverse_.row(k) -= shares[k] * row;
   inverse_.row(out) = row;
-  // one step of Newton keeps rounding from adding up
+  // one Newton step prevents rounding errors from accumulating
   Eigen::MatrixXd basis(fixed_ + 1, fixed_ + 1);
   basis << corners_.bottomRows(fixed_), Eigen::RowVectorXd::Ones(fixed_ + 1);
   inverse_ = (2 * inverse_ - inverse_ * basis * inverse_).eval();
@@ -114,7 +114,8 @@ double Slice::climb(const Eigen::VectorXd& goal, double stand_in) const {
   for (int pivot = 0; pivot < max_pivots; ++pivot) {
     check_stop();
     for (int k = 0; k < rows; ++k) worth[k] = stands_in_[k] ? stand_in : goal.dot(corners_.col(k));
-    // what a point must be worth to gain: prices of the fixed coordinates and of weight
+    // price that a point must exceed to improve the goal: prices of the fixed coordinates and of
+    // weight
     const Eigen::VectorXd prices = inverse_.transpose() * worth;
     way = goal;
     way.tail(fixed_) -= prices.head(fixed_);

@@ -17,18 +17,18 @@ namespace {
 using CellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-// Points rise off a turning plane by more than this times the sum of their coordinates on the cell,
-// or not at all: what rounding makes of one that lies in the axis of the turn, as many do where
+// Points count as rising above a rotating plane only if by more than this times the sum of their
+// coordinates on the cell: rounding moves points that lie in the axis of rotation, as many do if
 // summands have directions in common.
 constexpr double rounding_rise = 1e-13;
-constexpr double repeated = 1e-9;  // columns this near are one
+constexpr double repeated = 1e-9;  // columns nearer than this are merged
 constexpr double flat = 1e-10;     // a sum this much thinner than wide has no volume
 constexpr int max_lifts = 8;
 
 // rounding broke the cells
 struct BrokenCells {};
 
-// Points of all summands, one after the other, and how high they are lifted.
+// Points of all summands, one after the other, and their lifted heights.
 struct LiftedPoints {
   Eigen::MatrixXd x;
   std::vector<int> summand;
@@ -39,7 +39,7 @@ struct LiftedPoints {
   int count() const { return static_cast<int>(summand.size()); }
 };
 
-// In coordinates in which the edges of all summands are as long one way as another.
+// In coordinates in which the edges of all summands have the same extent in all directions.
 LiftedPoints lift(std::span<const Eigen::MatrixXd> summands, const CellMatrix& coordinates,
                   Random& random) {
   LiftedPoints out;
@@ -64,8 +64,8 @@ LiftedPoints lift(std::span<const Eigen::MatrixXd> summands, const CellMatrix& c
   return out;
 }
 
-// Ascending numbers of points: of each summand the corners of a simplex, whose edges together span
-// the space.
+// Ascending indices of points: of each summand the corners of a simplex; the edges of all simplices
+// together span the space.
 using Cell = std::vector<int>;
 
 struct CellHash {
@@ -81,7 +81,7 @@ void exchange(Cell& cell, int out, int in) {
   cell.insert(std::lower_bound(cell.begin(), cell.end(), in), in);
 }
 
-// a corner of each summand's simplex, other than one that is left out
+// a corner of each summand's simplex, other than a given one
 std::vector<int> first_corners(const LiftedPoints& points, const Cell& cell, int without = -1) {
   std::vector<int> out(points.summands, -1);
   for (const int i : cell)
@@ -94,11 +94,11 @@ struct NextPoint {
   double way = std::numeric_limits<double>::infinity();
 };
 
-// The point that is first to be as high over a turning plane as its summand's corner.
+// The first point to reach the height of its summand's corner over a rotating plane.
 struct TurningPlane {
-  Eigen::RowVectorXd level;  // of all points over the plane
-  Eigen::RowVectorXd rise;   // of them by its turning
-  Eigen::RowVectorXd least;  // rise that is no rounding
+  Eigen::RowVectorXd level;  // of all points above the plane
+  Eigen::RowVectorXd rise;   // their change as it rotates
+  Eigen::RowVectorXd least;  // smallest rise that is not rounding
 };
 
 NextPoint next_point(const LiftedPoints& points, const Cell& cell, const std::vector<int>& corners,
@@ -118,8 +118,8 @@ NextPoint next_point(const LiftedPoints& points, const Cell& cell, const std::ve
   return out;
 }
 
-// The highest points, and then those that a plane over them meets as it turns until it lies on a
-// cell.
+// The highest points, and then those that a plane above them reaches as it rotates until it lies on
+// a cell.
 Cell first_cell(const LiftedPoints& points, Random& random) {
   Cell cell(points.summands, -1);
   for (int i = 0; i < points.count(); ++i) {
@@ -152,8 +152,8 @@ Cell first_cell(const LiftedPoints& points, Random& random) {
   return cell;
 }
 
-// The inverse, by Gauss and Jordan.
-// returns  the size of the determinant
+// The inverse, by Gauss-Jordan elimination.
+// returns  the absolute value of the determinant
 double invert(CellMatrix& m) {
   const Eigen::Index d = m.rows();
   const CellMatrix original = m;
@@ -173,7 +173,7 @@ double invert(CellMatrix& m) {
       m.row(i) -= factor * m.row(k), out.row(i) -= factor * out.row(k);
     }
   }
-  // what the rows are to each other, to the last digit
+  // products of the rows, to the last digit
   m = out * (2 * CellMatrix::Identity(d, d) - original * out);
   return std::abs(determinant);
 }
@@ -186,7 +186,7 @@ struct Surroundings {
 Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
   const Eigen::Index d = points.dimension();
   const std::vector<int> first = first_corners(points, cell);
-  // edges from the first corner of each simplex, and how far they fall
+  // edges from the first corner of each simplex, and their slopes
   CellMatrix edges(d, d);
   CellVector falls(d);
   std::vector<int> sizes(points.summands, 0);
@@ -201,7 +201,7 @@ Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
     }
   }
   out.volume *= invert(edges);
-  // all points by their coordinates along the edges
+  // all points in coordinates along the edges
   const Eigen::MatrixXd along = edges.transpose() * points.x;
   TurningPlane plane{points.height + (falls.transpose() * along).eval(), {}, {}};
   plane.least.resize(points.count());
@@ -209,7 +209,7 @@ Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
     plane.least[i] =
         rounding_rise * (1 + (along.col(i) - along.col(first[points.summand[i]])).lpNorm<1>());
 
-  // across the wall that each corner leaves when it sinks
+  // across the wall opposite to each corner
   std::vector<Eigen::Index> rows(cell.size(), -1);
   row = 0;
   for (size_t k = 0; k < cell.size(); ++k)
@@ -235,7 +235,7 @@ SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cel
                          const Progress& progress) {
   SumVolume out{SumVolume::complete, 0, 0};
   std::vector<Cell> cells = {first_cell(points, random)};
-  // number of a cell, and how many that have looked around have seen it
+  // index of a cell, and how many processed neighbors have reached it
   struct Entry {
     size_t number;
     int seen;
@@ -252,7 +252,7 @@ SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cel
       ++entry->second.seen;
       known += entry->second.number < k;
     }
-    // who was seen sees back
+    // adjacency must be mutual
     if (known != entries.at(cells[k]).seen) throw BrokenCells();
     if (static_cast<int>(cells.size()) > max_cells) return {SumVolume::too_many, 0, max_cells};
   }

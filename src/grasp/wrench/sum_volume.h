@@ -1,4 +1,4 @@
-// Volume of a sum of convex hulls.
+// Volume of a Minkowski sum of convex hulls.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -10,24 +10,24 @@ namespace clench {
 struct SumVolume {
   enum End {
     complete,
-    too_many,  ///< more cells than asked for
-    failed     ///< rounding broke the cells, however the points were lifted
+    too_many,  ///< more cells than requested
+    failed     ///< rounding broke the cells for all liftings
   };
   End end = failed;
   double volume = 0;
-  int cells = 0;  ///< that the sum was cut into
+  int cells = 0;  ///< of which the sum consists
 };
 
-/// Of {x1 + x2 + ...}, each from the hull of the columns of one summand; they have 1 to 6 rows and
-/// size about one. Columns closer than 1e-9 count as one. Time goes with the cells; they are a few
-/// times as many as the facets that the summands' faces make.
+/// Volume of {x1 + x2 + ...}, each from the hull of the columns of one summand; they have 1 to 6
+/// rows and size about one. Columns closer than 1e-9 count as one. Time is proportional to the
+/// number of cells, a few times that of the facets formed by the summands' faces.
 ///
-/// The sum is cut into cells that are sums of simplices, one of each summand, by lifting each point
-/// to a random height: cells are what is seen from above. From one cell the others are reached
-/// across walls. All volumes are positive, so however degenerate the sum is, nothing
-/// cancels; cells that do not see each other alike across a wall betray rounding.
+/// The sum is divided into cells that are sums of simplices, one of each summand, by lifting each
+/// point to a random height: cells are the facets visible from above. From one cell the others are
+/// reached across walls. All volumes are positive, so nothing cancels, however degenerate the sum
+/// is; cells that disagree about a common wall reveal rounding errors.
 ///
-/// returns  0 where the sum is flat
+/// returns  0 if the sum is flat
 /// throws   Stopped
 /// source   Huber & Sturmfels (1995), A polyhedral method for solving sparse polynomial systems
 SumVolume sum_volume(std::span<const Eigen::MatrixXd> summands, int max_cells,

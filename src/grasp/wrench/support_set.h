@@ -1,5 +1,5 @@
-// A convex set that is known only by how far it reaches in any direction. Includes no Eigen: what
-// is built on it may be compiled for the machine at hand.
+// A convex set given by its support function. Includes no Eigen: code that uses it may be compiled
+// for the host's instruction set.
 #pragma once
 
 namespace clench {
@@ -11,7 +11,7 @@ class SupportSet {
   virtual ~SupportSet() = default;
 
   virtual int dimension() const = 0;  ///< 1 to max_dimensions
-  /// Leaves a farthest point of the set along the direction in `point`.
+  /// Writes a farthest point of the set along the direction to `point`.
   /// returns  direction . point
   virtual double support(const double* direction, double* point) const = 0;
 };

@@ -1,13 +1,14 @@
-// The convex hull of wrenches, for any set of them: symmetric grasps repeat wrenches up to
-// rounding, and qhull refuses some such sets.
+// Convex hull of wrenches, for any set of them: symmetric grasps repeat wrenches up to rounding,
+// and qhull rejects some such sets.
 #pragma once
 #include "clench/geometry/mesh/hull.h"
 
 namespace clench {
 
 /// Hull of six-dimensional points of size about one. Points nearer to an earlier one than 1e-12 are
-/// left out of it (no facet names them). Where qhull refuses even so, all points are shifted at
-/// random, always alike, by at most 1e-11, then 1e-9, and so on; offsets are good to that.
+/// omitted (no facet refers to them). If qhull fails nevertheless, all points are shifted by fixed
+/// pseudo-random displacements of at most 1e-11, then 1e-9, and so on; offsets are accurate to
+/// that.
 ///
 /// points  6 x count, finite, largest coordinate about 1
 Hull wrench_hull(const Eigen::MatrixXd& points);

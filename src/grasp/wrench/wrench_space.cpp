@@ -16,24 +16,24 @@ namespace clench {
 
 namespace {
 
-// A direction in which the wrenches reach less than this part of the strongest is not spanned: far
+// Directions in which the support is below this fraction of the largest wrench are not spanned: far
 // above the rounding of hundreds of wrenches (1e-15), far below any lever or friction that could
 // hold something.
 constexpr double rank_tolerance = 1e-10;
 
-// A set that reaches this far in every direction, of size one, spans them all.
+// A set of size one whose support is at least this in every direction spans all of them.
 constexpr double surely_spanned = 1e-6;
 
-// A facet nearer to the origin than this part of the largest wrench goes through it: planes are
-// good to some 1e-14 of the wrenches' extent.
+// A facet nearer to the origin than this fraction of the largest wrench contains it: planes are
+// accurate to about 1e-14 of the wrenches' extent.
 constexpr double on_boundary = 1e-12;
 
-// What epsilon is found to, for size one: of polytopes as far as doubles go, of round cones as far
-// as is worth its time, some twenty points a digit.
+// Tolerance of epsilon, for size one: for polytopes the limit of doubles, for round cones a
+// compromise with time, about twenty points per digit.
 constexpr double flat_tolerance = 1e-12, round_tolerance = 1e-9;
 
-// A bracket wider than this is not good enough for a polytope: only the larger shifts of points
-// leave one.
+// A bracket wider than this is not accepted for a polytope: only the larger shifts of points cause
+// one.
 constexpr double poor = 3e-10;
 
 // Beyond this number of wrenches the last digits take too long; whether the origin is inside is
@@ -45,14 +45,14 @@ constexpr double carries = 1e-9;
 
 constexpr int max_facets = 1'000'000;
 
-// Cells of a sum take some 15 to 30 us each: a second or two at most.
+// Cells of a sum take about 15 to 30 us each: a second or two at most.
 constexpr int max_cells = 60'000;
 
-// Around a curved set whose nearest points to the origin are many, brackets close slowly: so many
-// facets take a third of a second and 160 MB, and what they certify is what there is.
+// If a curved set has many points nearest to the origin, brackets close slowly: this many facets
+// take a third of a second and 160 MB, and the result is what they certify.
 constexpr int max_round_facets = 500'000;
 
-// of the two unit vectors along a line the one whose largest component is positive
+// the one of the two unit vectors along a line whose largest component is positive
 Eigen::VectorXd upright(const Eigen::VectorXd& direction) {
   int largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -85,7 +85,7 @@ std::vector<UnitWrenches> edges_only(std::vector<Wrenches> contacts) {
   return out;
 }
 
-// Are all directions spanned, surely? By Gram and Schmidt, the longest column first.
+// Are all directions certainly spanned? By Gram-Schmidt, the longest column first.
 bool surely_full_rank(Eigen::MatrixXd m) {
   double first = 0;
   for (int k = 0; k < m.rows(); ++k) {
@@ -119,7 +119,7 @@ SpherePoints sphere_points(Eigen::Index dimension, int edges) {
   return out;
 }
 
-// a pyramid within a round cone, or around it
+// a pyramid inscribed in a round cone, or circumscribed about it
 Wrenches pyramid_of(const RoundCone& cone, int edges, bool around) {
   if (cone.spread.cols() == 0) return cone.axis;
   const SpherePoints sphere = sphere_points(cone.spread.cols(), edges);
@@ -173,7 +173,7 @@ const WrenchSpace::Prepared& WrenchSpace::prepared() const {
           largest = std::max(largest, contact.round->spread.row(row).cwiseAbs().maxCoeff());
       }
     }
-  // a power of two changes no digit
+  // scaling by a power of two is exact
   int exponent = largest > 0 ? std::ilogb(largest) + 1 : 0;
   for (const UnitWrenches& contact : contacts_) {
     check_stop();
@@ -192,7 +192,7 @@ const WrenchSpace::Prepared& WrenchSpace::prepared() const {
     }
   }
   double zero = on_boundary * std::sqrt(square);
-  // sums of many contacts are of size one, too
+  // sums of many contacts have size one, too
   if (options_.norm == WrenchNorm::linf && contacts_.size() > 1) {
     const int more = std::ilogb(static_cast<double>(contacts_.size()));
     exponent += more;
@@ -238,7 +238,7 @@ WrenchSupport WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
   return WrenchSupport(d, norm, parts);
 }
 
-// the columns that span what all wrenches span, scaled
+// columns with the same span as all wrenches, scaled
 Eigen::MatrixXd WrenchSpace::spanning() const {
   Eigen::Index count = 0, column = 0;
   for (const UnitWrenches& contact : contacts_)
@@ -287,7 +287,7 @@ WrenchSpace::Bracket WrenchSpace::bracket_of(const WrenchSupport& reach, double 
 }
 
 const WrenchSpace::Bracket& WrenchSpace::final_bracket(const Progress& progress) const {
-  // whatever was asked before, the same answer to the bit
+  // the same bits whatever was computed before
   if (final_) return *final_;
   if (bracket_ && bracket_->outside) return *bracket_;
   const double round = std::min(round_tolerance, std::ldexp(round_tolerance, -prepared().exponent));
@@ -297,7 +297,7 @@ const WrenchSpace::Bracket& WrenchSpace::final_bracket(const Progress& progress)
   final_ = found;
   const double width = final_->upper - final_->lower;
   if (width > poor && !is_round() && options_.norm == WrenchNorm::l1) {
-    // rounding broke every surface that was tried: the hull whole, by qhull
+    // rounding broke every surface that was tried: the complete hull, by qhull
     const Hull all = hull();
     if (all.full()) {
       int facet = 0;
@@ -363,7 +363,7 @@ EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options,
   };
   if (!bracket_ || !decides(*bracket_)) {
     Bracket found = bracket_of(prepared().reach, tolerance, std::max(0.0, at_least), progress);
-    // how near it came is what counts later
+    // the distance reached is what matters later
     found.tolerance = std::max(found.upper - found.lower, flat_tolerance);
     if (bracket_) {
       found.lower = std::max(found.lower, bracket_->lower);
@@ -376,7 +376,7 @@ EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options,
           std::ldexp(bracket_->upper, exponent), bracket_->upper - bracket_->lower <= tolerance};
 }
 
-// without force closure: a wrench that nothing, or less than nothing, answers
+// without force closure: a wrench whose largest resisted multiple is zero or negative
 Weakest WrenchSpace::unresisted(const Progress& progress) const {
   Weakest out;
   out.direction = Vector6d::Unit(options_.coordinates[0]);
@@ -398,7 +398,7 @@ Weakest WrenchSpace::unresisted(const Progress& progress) const {
   const Eigen::VectorXd answer = -direction;
   const double reach = l1.support(answer.data(), far.data());
   out.direction = in_all_coordinates(direction);
-  // no contact need push at all in L-infinity
+  // in L-infinity no contact has to push at all
   if (options_.norm == WrenchNorm::l1 && std::abs(reach) > prepared().zero)
     out.resistance = std::ldexp(reach, exponent);
   return out;

@@ -1,4 +1,4 @@
-// What contacts can do together, as a set known by its support function. Includes no Eigen.
+// The set of wrenches of all contacts together, given by its support function. Includes no Eigen.
 #pragma once
 #include <span>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// How the normal forces of all contacts are bounded: their sum by one, or each by one.
+/// Bound on the normal forces of all contacts: their sum is at most one, or each is at most one.
 enum class WrenchNorm { l1, linf };
 
 /// The unit wrenches of a contact: points, or the round set {axis + spread x, |x| <= 1}.
@@ -23,17 +23,17 @@ struct ContactPart {
 /// hulls of zero and their unit wrenches.   source  Ferrari & Canny (1992), Pollard (1994)
 class WrenchSupport final : public SupportSet {
  public:
-  /// copies what the parts point to
+  /// copies the data that the parts point to
   WrenchSupport(int dimension, WrenchNorm norm, std::span<const ContactPart> parts);
 
   int dimension() const override { return dimension_; }
   double support(const double* direction, double* point) const override;
-  /// of one contact alone; minus infinity when it has no wrench
+  /// support of one contact alone; minus infinity if it has no wrench
   double support_of(int contact, const double* direction) const;
   bool empty() const { return blocks_.empty() && rounds_.empty(); }
 
  private:
-  // points as structure of arrays, padded by the first one
+  // points as structure of arrays, padded with the first one
   struct PointBlock {
     int begin, count, padded;
   };
@@ -51,7 +51,7 @@ class WrenchSupport final : public SupportSet {
 
   int dimension_;
   WrenchNorm norm_;
-  std::vector<double> coordinates_;  // of block after block, coordinate after coordinate
+  std::vector<double> coordinates_;  // block after block, coordinate after coordinate
   std::vector<PointBlock> blocks_;
   std::vector<Round> rounds_;
   std::vector<PointBlock> contact_blocks_;  // of each contact, for support_of
