@@ -6,7 +6,7 @@ std::optional<Eigen::Quaterniond> rotation_from_axes(int i, const Eigen::Vector3
                                                      const Eigen::Vector3d& b) {
   const Eigen::Vector3d first = a.stableNormalized();
   const Eigen::Vector3d third = first.cross(b.stableNormalized());
-  // zero stays zero when it is made unit, and what is not finite is no number then
+  // normalizing keeps zero as zero, and makes vectors that are not finite NaN
   if (!(third.norm() > 1e-9)) return {};
   const bool in_turn = (j - i + 3) % 3 == 1;  // as x, y; y, z; z, x
   const Eigen::Vector3d n = third.normalized();

@@ -1,5 +1,5 @@
-// Sparse linear systems whose unknowns form small groups, such as the coordinates of bodies that
-// each touch few others.
+// Sparse linear systems whose unknowns form small groups, such as the coordinates of bodies each of
+// which touches few others.
 #pragma once
 #include <Eigen/Core>
 #include <utility>
@@ -30,7 +30,7 @@ class BlockLu {
   void solve(Eigen::VectorXd& x) const;
 
  private:
-  // A neighbour of a group that is eliminated later, and where the two blocks of the pair are.
+  // A neighbor of a group that is eliminated later, and the positions of the pair's two blocks.
   struct Later {
     int group = 0;
     int upper = 0, lower = 0;  // (earlier, later) and (later, earlier)
@@ -40,11 +40,12 @@ class BlockLu {
   template <int Size>
   bool eliminate(int group);
 
-  std::vector<int> sizes_, first_;     // first_: first unknown of each group
-  std::vector<int> order_, position_;  // of elimination; position_: by group, its index in order_
+  std::vector<int> sizes_, first_;  // first_: first unknown of each group
+  // elimination order; position_: by group, its index in order_
+  std::vector<int> order_, position_;
   std::vector<std::vector<int>> neighbours_;  // of each group, among those eliminated later
-  std::vector<std::vector<Later>> later_;     // by group, as they are eliminated
-  std::vector<int> diagonal_;                 // by group: where its block is
+  std::vector<std::vector<Later>> later_;     // by group, in elimination order
+  std::vector<int> diagonal_;                 // by group: position of its block
   std::vector<int> targets_, first_target_;   // by group: blocks that its elimination changes
   std::vector<double> values_;
   std::vector<int> exchanged_;  // rows of one diagonal block

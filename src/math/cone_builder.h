@@ -1,26 +1,27 @@
-// A cone program put together block by block.
+// Assembles a cone program block by block.
 #pragma once
 #include "clench/math/cone_program.h"
 
 namespace clench {
 
-/// Some rows of some unknowns: `left` times the unknowns from `column` on.
+/// A block of coefficients: `left` times the unknowns from `column` on.
 struct ConeBlock {
   int column = 0;
   Eigen::MatrixXd left;
 };
 
-/// Where a constraint's multipliers are in y or z of a solution.
+/// Position of a constraint's multipliers in y or z of a solution.
 struct ConeRange {
   int start = 0, count = 0;
 };
 
 class ConeBuilder {
  public:
-  /// returns  the first one's column
+  /// Adds unknowns.
+  /// returns  the column of the first one
   int unknowns(int count);
   int count() const { return unknowns_; }
-  /// adds to the objective: c.x, 1/2 weight x^2
+  /// Adds to the objective: c.x, 1/2 weight x^2.
   void cost(int column, double c);
   void square(int column, double weight);
   /// sum of blocks = right; multipliers in y

@@ -10,12 +10,12 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// no rows are no numbers, whatever the width
+// for zero rows, a vector of length zero, whatever the width
 VectorXd times(const MatrixXd& m, const VectorXd& v, Eigen::Index rows) {
   return m.size() == 0 ? VectorXd(VectorXd::Zero(rows)) : VectorXd(m * v);
 }
 
-// how far outside of its cones; below 0: how far inside
+// distance outside of its cones; negative: inside
 double outside(const ScaledProgram& scaled, const VectorXd& v) {
   return v.size() == 0 ? 0 : -cone_margin(scaled.cones, v);
 }
@@ -44,12 +44,12 @@ Terms terms_of(const ConeProgram& p, const ScaledProgram& scaled, const SolvedPa
   return t;
 }
 
-// rounding is of the largest terms; but where they grow without end, there is no solution
+// rounding is relative to the largest terms; but if they grow without limit, there is no solution
 double against(double terms) { return std::clamp(terms, 1.0, 1e3); }
 
 void check_optimum(const ScaledProgram& scaled, const SolvedPart& part, const Terms& t,
                    ConeSolution& out) {
-  // of rows far away s is what is left of h, and h alone would be their size
+  // for distant rows s is the remainder of h, and h alone would be their size
   const VectorXd missing = VectorXd(t.Gx + t.s - t.h)(part.rows);
   const double rows = against(std::max({max_norm(t.Ax), max_norm(VectorXd(t.Gx(part.rows)))}));
   out.primal_residual =
@@ -58,7 +58,7 @@ void check_optimum(const ScaledProgram& scaled, const SolvedPart& part, const Te
   out.dual_residual =
       std::max(max_norm(t.Px + t.c + t.Aty + t.Gtz), outside(scaled, t.z)) / columns;
 
-  // against the objective, or, where its terms cancel, against those
+  // relative to the objective, or, if its terms cancel, to those
   const double curved = t.x.dot(t.Px), linear = t.c.dot(t.x);
   const double above = curved / 2 + linear;
   const double below = -curved / 2 - t.b.dot(t.y) - t.h.dot(t.z);
@@ -73,14 +73,14 @@ bool is_finite(const ConeSolution& r) {
          std::isfinite(r.objective);
 }
 
-// is what the status says so?
+// does the point satisfy the claim of the status?
 bool holds(const ScaledProgram& scaled, const SolvedPart& part, const Terms& t, ConeSolution& r) {
   if (r.status == ConeStatus::infeasible) {
     const double value = -(t.b.dot(t.y) + t.h.dot(t.z));
     const double off = std::max(max_norm(t.Aty + t.Gtz), outside(scaled, t.z));
     r.dual_residual = off / value;
-    // of equations that all but agree the value is small: then sums are as good as rounding lets
-    // them be
+    // for equations that nearly cancel the value is small: then sums are as accurate as rounding
+    // permits
     const double rounding = 1e-15 * std::max(max_norm(t.y), max_norm(t.z));
     return value > 0 && off <= std::max(proof_tolerance * value, rounding);
   }

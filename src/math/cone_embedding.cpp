@@ -10,14 +10,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double accepted = 1e-9;   // residuals of an optimum, as the header promises
-constexpr double expected = 1e-11;  // it goes on until here, while that succeeds
-constexpr double certain = 1e-9;    // residuals of a proof that there is no solution, or no bound
-constexpr double proved = 1e-14;    // it goes on until here, while that succeeds
+constexpr double accepted = 1e-9;   // residuals of an optimum promised in the header
+constexpr double expected = 1e-11;  // target of the iterations while they make progress
+constexpr double certain = 1e-9;    // residuals of a proof of infeasibility or unboundedness
+constexpr double proved = 1e-14;    // target of the iterations while they make progress
 constexpr int max_iterations = 100;
-constexpr double step_back = 0.99;  // part of the way to the boundary
+constexpr double step_back = 0.99;  // fraction of the way to the boundary
 
-// what is missing at a point
+// residuals of a point
 struct Residuals {
   VectorXd x, z;
   double tau = 0;
@@ -41,13 +41,13 @@ VectorXd stacked(const VectorXd& a, const VectorXd& b) {
   return out;
 }
 
-// moves v to the inside, where it is not
+// moves v into the interior, if it is not there
 void shift_inside(const ConeSizes& cones, VectorXd& v) {
   const double margin = cone_margin(cones, v);
   if (margin < 1e-3) v += (1 - std::min(margin, 0.0)) * cone_unit(cones);
 }
 
-// least squares of s and of z, moved inside
+// least squares for s and for z, moved into the interior
 ConePoint first_point(const ConeRows& rows, ConeKkt& kkt) {
   ConePoint p;
   const int n = rows.unknowns();
@@ -63,15 +63,15 @@ ConePoint first_point(const ConeRows& rows, ConeKkt& kkt) {
   return p;
 }
 
-// The step that takes `part` of the residuals away and brings the products of s and z, and of tau
-// and kappa, to what is asked of them.
+// The step that removes the fraction `part` of the residuals and brings the products of s and z,
+// and of tau and kappa, to given values.
 struct Newton {
   const ConeRows& rows;
   const ConeKkt& kkt;
   const NesterovTodd& scaling;
   const ConePoint& at;
   const Residuals& missing;
-  VectorXd per_tau = {};  // what x and the scaled z do per unit of tau
+  VectorXd per_tau = {};  // change of x and of the scaled z per unit of tau
 
   void prepare() {
     VectorXd right = stacked(-rows.q, rows.b);
@@ -87,7 +87,7 @@ struct Newton {
     right.tail(m) = scaling.apply_inverse(right.tail(m)) + asked;
     const VectorXd fixed = kkt.solve(right);
 
-    // b.z with the equations' z as it is and the cones' z scaled
+    // b.z with the equations' z unscaled and the cones' z scaled
     VectorXd b = rows.b;
     b.tail(m) = scaling.apply_inverse(b.tail(m));
     const VectorXd xi = at.x / at.tau, off = per_tau.head(n) - xi;
@@ -102,8 +102,8 @@ struct Newton {
     d.x = both.head(n);
     d.z = both.tail(rows.count());
     d.z.tail(m) = scaling.apply_inverse(d.z.tail(m));
-    // from the rows, not from z: so that rounding is left to the products, which the next step
-    // repairs
+    // from the rows, not from z: rounding errors remain in the products, which the next step
+    // corrects
     d.s = (d.tau * rows.b - part * missing.z - rows.A * d.x).tail(m);
     d.kappa = -(product + at.kappa * d.tau) / at.tau;
     return d;
@@ -124,7 +124,7 @@ void move(ConePoint& p, const ConePoint& d, double step) {
   p.s += step * d.s;
   p.tau += step * d.tau;
   p.kappa += step * d.kappa;
-  // the embedding knows directions only
+  // only the ratio of the embedding's unknowns matters
   const double size = 1 / std::max(p.tau, p.kappa);
   p.x *= size, p.z *= size, p.s *= size, p.tau *= size, p.kappa *= size;
 }
@@ -142,7 +142,7 @@ ConeQuality judge(const ConeRows& rows, const ConePoint& p) {
   const double qx = rows.q.dot(p.x), bz = rows.b.dot(p.z), xPx = p.x.dot(Px);
   ConeQuality q;
   const double tau = p.tau;
-  // rounding is of the largest terms; but where they grow without end, there is no solution
+  // rounding is relative to the largest terms; but if they grow without limit, there is no solution
   const auto against = [](double terms) { return std::clamp(terms, 1.0, 1e3); };
   q.primal = max_norm(back / tau - rows.b) / against(std::max(max_norm(Ax), max_norm(p.s)) / tau);
   q.dual = max_norm((Px + Az) / tau + rows.q) / against(std::max(max_norm(Px), max_norm(Az)) / tau);
@@ -155,7 +155,7 @@ ConeQuality judge(const ConeRows& rows, const ConePoint& p) {
   return q;
 }
 
-// one iteration; false: nowhere to go
+// one iteration; false: no step possible
 bool advance_point(const ConeRows& rows, ConeKkt& kkt, ConePoint& p) {
   const NesterovTodd scaling(rows.cones, p.s, cones_of(rows, p.z));
   if (!scaling.lambda().allFinite() || !kkt.factor(scaling)) return false;
@@ -163,7 +163,7 @@ bool advance_point(const ConeRows& rows, ConeKkt& kkt, ConePoint& p) {
   const double degree = static_cast<double>(rows.cones.size()) + 1;
   const double mu = (p.s.dot(cones_of(rows, p.z)) + p.tau * p.kappa) / degree;
 
-  // straight to the solution: how far does that go?
+  // predictor: the step length directly towards the solution
   Newton newton{rows, kkt, scaling, p, missing};
   newton.prepare();
   const VectorXd& lambda = scaling.lambda();
@@ -171,7 +171,7 @@ bool advance_point(const ConeRows& rows, ConeKkt& kkt, ConePoint& p) {
   const ConePoint straight = newton.step(1, square, p.tau * p.kappa);
   const double reach = std::min(1.0, step_length(rows, p, straight));
 
-  // then towards the middle as much as that fell short, with its second order
+  // then towards the central path by as much as that fell short, with the second-order correction
   const double centring = std::pow(1 - reach, 3);
   const VectorXd second = cone_product(rows.cones, scaling.apply_inverse(straight.s),
                                        scaling.apply(cones_of(rows, straight.z)));

@@ -1,4 +1,4 @@
-// The iterations of the cone-program solver: a homogeneous embedding that always has a solution.
+// Iterations of the cone-program solver: a homogeneous embedding that always has a solution.
 #pragma once
 #include <algorithm>
 
@@ -7,18 +7,18 @@
 
 namespace clench {
 
-/// Where the embedding is: x / tau solves the program when tau > 0, x or z proves that nothing does
-/// when kappa > 0
+/// A point of the embedding: x / tau solves the program if tau > 0, x or z proves that there is no
+/// solution if kappa > 0
 struct ConePoint {
   Eigen::VectorXd x, z;  // z: one per row
   Eigen::VectorXd s;     // one per row of the cones
   double tau = 1, kappa = 1;
 };
 
-/// How well a point solves the program, or proves that nothing does; relative
+/// Relative residuals of a point as a solution of the program, and as a proof that there is none.
 struct ConeQuality {
   double primal = 0, dual = 0, gap = 0;  // as a solution
-  double infeasible = 0, unbounded = 0;  // as a proof; infinite when it is none
+  double infeasible = 0, unbounded = 0;  // as a proof; infinite if it is not one
   double worst() const { return std::max({primal, dual, gap}); }
   double proof() const { return std::min(infeasible, unbounded); }
 };

@@ -6,8 +6,8 @@ namespace clench {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-static constexpr double trusted = 1e-10;  // what may be missing of a quick solution
-static constexpr double regular = 1e-12;  // keeps pivots off 0; refinement takes its effect back
+static constexpr double trusted = 1e-10;  // residual allowed for a fast solution
+static constexpr double regular = 1e-12;  // keeps pivots away from 0; refinement removes its effect
 
 static SparseLdl::Matrix lower_pattern(const ConeRows& rows) {
   const int n = rows.unknowns();
@@ -66,13 +66,13 @@ VectorXd ConeKkt::solve(const VectorXd& right) const {
   const auto quick = [&](const VectorXd& r) { return ldl_.solve(r); };
   Solution out = refined(right, quick);
   if (out.off <= trusted * max_norm(right)) return out.value;
-  // with pivots, where the order that keeps it sparse will not do
+  // with pivoting, if the sparse ordering fails
   const auto careful = [&](const VectorXd& r) -> VectorXd { return lu().solve(r); };
   const Solution again = refined(right, careful);
   return again.off < out.off ? again.value : out.value;
 }
 
-// the diagonal comes first in each column of the lower triangle, the rows of A last
+// the diagonal is first in each column of the lower triangle, the rows of A last
 void ConeKkt::fill(double extra) {
   const int n = rows_.unknowns();
   double* values = lower_.valuePtr();
@@ -85,7 +85,7 @@ void ConeKkt::fill(double extra) {
     values[ends[n + k]] = k < rows_.equal ? -extra : -1 - extra;
 }
 
-// W^-1 times a column of A, before `end`; A holds the cones that it has whole
+// W^-1 times a column of A, before `end`; A contains complete cones
 void ConeKkt::scale_column(int k, double* end) {
   const int first = rows_.A.outerIndexPtr()[k], count = rows_.A.outerIndexPtr()[k + 1] - first;
   const double* in = rows_.A.valuePtr() + first;

@@ -9,35 +9,36 @@
 
 namespace clench {
 
-/// min 1/2 x.P x + q.x with rows A x + s = b: first `equal` rows with s = 0, then the cones
+/// min 1/2 x.P x + q.x with rows A x + s = b: the first `equal` rows with s = 0, followed by the
+/// cones
 struct ConeRows {
   Eigen::SparseMatrix<double> P, A, At;
   Eigen::VectorXd q, b;
   int equal = 0;
   ConeSizes cones;
-  std::vector<int> cone_at;  // number of a cones' row's cone
+  std::vector<int> cone_at;  // index of the cone of each cone row
 
   int unknowns() const { return static_cast<int>(q.size()); }
   int count() const { return static_cast<int>(b.size()); }
   int in_cones() const { return count() - equal; }
 };
 
-/// [P A^T; A -W^2], its cones' rows over W and its unknowns there times W: [P A^T W^-1; W^-1 A -1].
-/// That is what keeps it well conditioned to the end. W is 0 in the equations.
+/// [P A^T; A -W^2], with the rows of the cones divided by W and their unknowns multiplied by W: [P
+/// A^T W^-1; W^-1 A -1]. This keeps it well conditioned up to the end. W is 0 in the equations.
 class ConeKkt {
  public:
   explicit ConeKkt(const ConeRows& rows);
   /// rows and scaling must outlive the solutions
-  /// returns  false when there is no factor
+  /// returns  false if the factorization fails
   bool factor(const NesterovTodd& scaling);
-  /// right and left in its own rows and unknowns; refined, so that what keeps the factors regular
-  /// is not in it
+  /// right and left in the original rows and unknowns; iterative refinement removes the effect of
+  /// the regularization
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
   struct Solution {
     Eigen::VectorXd value;
-    double off = 0;  // largest number that is missing
+    double off = 0;  // largest residual
   };
   template <class Solver>
   Solution refined(const Eigen::VectorXd& right, Solver solver) const;

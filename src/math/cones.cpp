@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 static constexpr double no_bound = std::numeric_limits<double>::infinity();
 
-// visits number, first row and size of each cone
+// visits index, first row and size of each cone
 template <class Visit>
 static void each_cone(const ConeSizes& cones, Visit visit) {
   int start = 0;
@@ -20,7 +20,7 @@ static void each_cone(const ConeSizes& cones, Visit visit) {
   }
 }
 
-// t^2 - |u|^2, without the cancellation of squares
+// t^2 - |u|^2, without cancellation of squares
 static double determinant(const VectorXd& v, int start, int size) {
   const double norm = v.segment(start + 1, size - 1).norm();
   return (v[start] - norm) * (v[start] + norm);
@@ -42,9 +42,9 @@ double cone_margin(const ConeSizes& cones, const VectorXd& v) {
   return least;
 }
 
-// the first a > 0 where the determinant of v + a dv is 0
+// the first a > 0 at which the determinant of v + a dv is 0
 static double step_of_cone(const VectorXd& v, const VectorXd& dv, int start, int size) {
-  // never below the tip, also where rounding hides that the path runs through it
+  // never below the apex, even if rounding hides that the path runs through it
   double least = dv[start] < 0 ? -v[start] / dv[start] : no_bound;
   if (size == 1) return least;
   const auto u = v.segment(start + 1, size - 1), du = dv.segment(start + 1, size - 1);

@@ -1,5 +1,5 @@
-// Products of second-order cones {(t, u): |u| <= t} and what an interior-point method does on them.
-// A cone of size 1 is the half line t >= 0.
+// Products of second-order cones {(t, u): |u| <= t} and the operations of an interior-point method
+// on them. A cone of size 1 is the half line t >= 0.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -11,20 +11,20 @@ using ConeSizes = std::vector<int>;  ///< of the cones, in the order of their ro
 /// (1, 0, ..) in each cone
 Eigen::VectorXd cone_unit(const ConeSizes& cones);
 
-/// The least t - |u|: how far inside v lies; below 0: outside. Infinite without cones.
+/// Minimum of t - |u|: positive inside, negative outside. Infinite without cones.
 double cone_margin(const ConeSizes& cones, const Eigen::VectorXd& v);
 
-/// The longest step a for which v + a dv stays inside; infinite when each does.   v  strictly
-/// inside
+/// The longest step a for which v + a dv stays inside; infinite if every step does.
+/// v  strictly inside
 double longest_step(const ConeSizes& cones, const Eigen::VectorXd& v, const Eigen::VectorXd& dv);
 
-/// Jordan's product a o b = (a.b, a0 b1 + b0 a1), and its inverse: divide(a, a o b) = b.
+/// Jordan product a o b = (a.b, a0 b1 + b0 a1), and its inverse: divide(a, a o b) = b.
 Eigen::VectorXd cone_product(const ConeSizes& cones, const Eigen::VectorXd& a,
                              const Eigen::VectorXd& b);
 Eigen::VectorXd cone_divide(const ConeSizes& cones, const Eigen::VectorXd& a,
                             const Eigen::VectorXd& product);
 
-/// The symmetric W that takes z and s to the same point: W z = W^-1 s = lambda.
+/// The symmetric W that maps z and s to the same point: W z = W^-1 s = lambda.
 /// s, z    strictly inside
 /// source  Nesterov & Todd (1997); Vandenberghe (2010), The CVXOPT linear and quadratic cone
 ///         program solvers
@@ -35,7 +35,7 @@ class NesterovTodd {
   NesterovTodd(const ConeSizes& cones, const Eigen::VectorXd& s, const Eigen::VectorXd& z);
   Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
   Eigen::VectorXd apply_inverse(const Eigen::VectorXd& v) const;
-  /// the same in one cone, which begins at row `start`; in and out have its size
+  /// the same for the cone that begins at row `start`; in and out have its size
   void apply_inverse(int cone, int start, const double* in, double* out) const;
   const Eigen::VectorXd& lambda() const { return lambda_; }
 

@@ -53,9 +53,9 @@ Index block_width(Index rows, Index widest) {
   return std::clamp<Index>(rows / 8 / 16 * 16, 8, widest);
 }
 
-// The lower triangle of m, less that of b b^T: as Eigen does it, or where that takes long in parts.
+// The lower triangle of m minus that of b b^T: as computed by Eigen, in groups if that takes long.
 void subtract_square(Eigen::Block<MatrixXd> m, const Eigen::Block<MatrixXd>& b) {
-  constexpr double longest = 5e8;  // multiplications and additions: some 0.1 s
+  constexpr double longest = 5e8;  // multiplications and additions: about 0.1 s
   constexpr Index width = 128;
   const Index size = m.rows();
   check_stop();
@@ -73,7 +73,8 @@ void subtract_square(Eigen::Block<MatrixXd> m, const Eigen::Block<MatrixXd>& b) 
   }
 }
 
-// m becomes L of m = L L^T, in blocks as Eigen's LLT has them.   returns  is it positive definite?
+// Replaces m by L of m = L L^T, in the same blocks as Eigen's LLT.
+// returns  is it positive definite?
 bool cholesky_in_place(MatrixXd& m) {
   using Llt = Eigen::internal::llt_inplace<double, Eigen::Lower>;
   constexpr Index widest = 128;
@@ -93,7 +94,7 @@ bool cholesky_in_place(MatrixXd& m) {
   return true;
 }
 
-// m becomes L and U of P m = L U, in blocks as Eigen's PartialPivLU has them.
+// Replaces m by L and U of P m = L U, in the same blocks as Eigen's PartialPivLU.
 // swaps  of rows, one after another
 void lu_in_place(MatrixXd& m, Eigen::VectorXi& swaps) {
   using Lu = Eigen::internal::partial_lu_impl<double, Eigen::ColMajor, int>;
@@ -200,7 +201,7 @@ Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::V
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double twice_cosine = (a + b).norm();  // of half the angle
   Eigen::Quaterniond turn;
-  // opposite within half of a double's digits, their product is no axis
+  // opposite within half of a double's digits: their product defines no axis
   const bool opposite = twice_cosine < 1e-8;
   turn.w() = twice_cosine / 2;
   turn.vec() = opposite ? a.unitOrthogonal() : Eigen::Vector3d(a.cross(b) / twice_cosine);

@@ -1,4 +1,4 @@
-// What takes longest to compile of all that Eigen has, compiled once.
+// Decompositions that take Eigen long to compile, compiled once.
 #pragma once
 #include <Eigen/Geometry>
 #include <memory>
@@ -23,26 +23,27 @@ struct Eigensystem {
   Matrix vectors;  ///< orthonormal columns
 };
 
-/// m  symmetric; its lower triangle counts
+/// m  symmetric; only its lower triangle is read
 Eigensystem<Eigen::MatrixXd, Eigen::VectorXd> eigensystem(const Eigen::MatrixXd& m);
 Eigensystem<Eigen::Matrix3d, Eigen::Vector3d> eigensystem(const Eigen::Matrix3d& m);
 /// ascending
 Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric);
 
-/// x of m x = right.   m  symmetric and positive definite
+/// x of m x = right.
+/// m  symmetric and positive definite
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& m, const Eigen::MatrixXd& right);
 
-/// x of least |m x - right|, where m's columns are independent; dependent ones share as the pivots
-/// fall.
+/// Minimizer x of |m x - right| for linearly independent columns of m; with dependent columns, one
+/// of the minimizers.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& m, const Eigen::VectorXd& right);
 
-/// x of m x = right, for many right sides. Factoring again reuses the memory.
+/// x of m x = right, for many right sides. Factoring again reuses memory.
 class DenseLu {
  public:
   DenseLu();
   explicit DenseLu(const Eigen::MatrixXd& m) : DenseLu() { factor(m); }
   ~DenseLu();
-  /// m  square; where it is singular, solutions are not finite or far off
+  /// m  square; if it is singular, solutions are not finite or inaccurate
   void factor(const Eigen::MatrixXd& m);
   /// after factor
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
@@ -57,7 +58,7 @@ class DenseCholesky {
  public:
   DenseCholesky();
   ~DenseCholesky();
-  /// m        its lower triangle counts
+  /// m        only its lower triangle is read
   /// returns  false: it is not positive definite
   bool factor(const Eigen::MatrixXd& m);
   /// after a factor that returned true
@@ -68,16 +69,18 @@ class DenseCholesky {
   std::unique_ptr<Parts> parts_;
 };
 
-/// others = weights * rows, as rows of m; `rows` are independent.
+/// others = weights * rows, as rows of m; `rows` are linearly independent.
 struct IndependentRows {
   std::vector<int> rows, others;  ///< ascending
   Eigen::MatrixXd weights;        ///< others x rows
 };
 
-/// A row within `tolerance` of the span of others, of the largest row, depends on them.   m  finite
+/// A row whose distance from the span of others is within `tolerance`, relative to the largest row,
+/// is dependent on them.
+/// m  finite
 IndependentRows independent_rows(const Eigen::MatrixXd& m, double tolerance);
 
-/// The least turn that brings one direction to another; between opposite ones, any of the half
+/// The smallest rotation that maps one direction to another; for opposite ones, any of the half
 /// turns.
 Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// entries of a column, of its largest, that count as 0; ratios that differ by less are ties
+// entries of a column that count as 0, relative to its largest; ratios that differ by less are ties
 constexpr double zero = 1e-11, tie = 1e-12;
 
 /// The rows  basic + (inverse of the basis) (w - M z - z0) = right;  columns: w, z, z0, right.
@@ -32,14 +32,14 @@ class Tableau {
   int basic(int row) const { return basis_[row]; }
   int complement(int variable) const { return variable < n_ ? variable + n_ : variable - n_; }
 
-  /// The row that z0 enters at: the lexicographically least.
+  /// The row at which z0 enters: the lexicographically smallest.
   int first_row() const {
     int best = 0;
     for (int i = 1; i < n_; ++i)
       if (less(i, -1, best, -1)) best = i;
     return best;
   }
-  /// The row that the entering variable's growth first takes to 0; -1: none.
+  /// The row whose variable first becomes 0 as the entering variable increases; -1: none.
   int leaving_row(int entering) const {
     const double least = zero * rows_.col(entering).cwiseAbs().maxCoeff();
     int best = -1;
@@ -49,7 +49,7 @@ class Tableau {
       if (best < 0 || less(i, pivot, best, rows_(best, entering))) best = i;
     }
     if (best < 0) return best;
-    // of those that are equally near, z0, which ends it
+    // among equal ratios, z0, which ends the iterations
     const double ratio = rows_(best, 2 * n_ + 1) / rows_(best, entering);
     for (int i = 0; i < n_; ++i) {
       const double pivot = rows_(i, entering);
@@ -68,14 +68,15 @@ class Tableau {
       const double factor = rows_(i, entering);
       if (i != row && factor != 0) rows_.row(i) -= factor * rows_.row(row);
     }
-    // what rounding left of a 0
+    // rounding error of a 0
     double& right = rows_(row, 2 * n_ + 1);
     if (std::abs(right) < 1e-15) right = 0;
     return std::exchange(basis_[row], entering);
   }
 
  private:
-  // is row a divided by its pivot less than row b by its, in the first number where they differ?
+  // is row a divided by its pivot less than row b by its pivot, in the first number in which they
+  // differ?
   bool less(int a, double pivot_a, int b, double pivot_b) const {
     const double sign = pivot_a < 0 ? -1 : 1;
     pivot_a *= sign, pivot_b *= sign;
@@ -93,7 +94,7 @@ class Tableau {
   std::vector<int> basis_;
 };
 
-/// z of a complementary basis, from M and q themselves, free of what the pivots lost.
+/// z of a complementary basis, from M and q themselves, without the rounding errors of the pivots.
 VectorXd solve_basis(const MatrixXd& M, const VectorXd& q, const std::vector<int>& basic) {
   const int n = static_cast<int>(basic.size());
   MatrixXd part(n, n);

@@ -1,4 +1,4 @@
-// Linear complementarity problems, solved by pivots.
+// Linear complementarity problems, solved by pivoting.
 #pragma once
 #include <Eigen/Core>
 
@@ -6,9 +6,9 @@ namespace clench {
 
 enum class LcpStatus {
   solved,
-  /// the pivots end at infinity: no solution found, and none exists where M is copositive-plus
+  /// the pivots end on a ray: no solution found, and none exists if M is copositive-plus
   ray,
-  iteration_limit  ///< or a basis that rounding made singular
+  iteration_limit  ///< or rounding made a basis singular
 };
 
 struct LcpSolution {
@@ -18,8 +18,8 @@ struct LcpSolution {
 };
 
 /// z >= 0 with w = M z + q >= 0 and z.w = 0, by Lemke's method with a covering vector of ones. Ties
-/// are broken lexicographically, so that pivots never cycle, and the same way every time. Dense: up
-/// to a few hundred rows, of numbers of about one.
+/// are broken lexicographically, so that pivots never cycle, and deterministically. Dense: up to a
+/// few hundred rows, with coefficients of about one.
 ///
 /// max_iterations  0: 50 per row, and 200
 /// throws          Stopped (see base/watched.h)

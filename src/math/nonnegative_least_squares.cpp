@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// least squares over the columns in use, 0 elsewhere
+// least squares over the columns in use, 0 for the others
 VectorXd solve_free(const MatrixXd& a, const VectorXd& b, const std::vector<int>& used) {
   MatrixXd columns(a.rows(), static_cast<int>(used.size()));
   for (size_t i = 0; i < used.size(); ++i) columns.col(static_cast<int>(i)) = a.col(used[i]);
@@ -22,7 +22,7 @@ VectorXd solve_free(const MatrixXd& a, const VectorXd& b, const std::vector<int>
   return x;
 }
 
-// as far from x towards z as nothing in use turns negative; what becomes 0 is used no longer
+// as far from x towards z as all columns in use stay nonnegative; those that become 0 are removed
 VectorXd step_towards(const VectorXd& x, const VectorXd& z, std::vector<int>& used) {
   double far = 1;
   for (const int i : used)
@@ -41,9 +41,9 @@ VectorXd step_towards(const VectorXd& x, const VectorXd& z, std::vector<int>& us
 VectorXd nonnegative_least_squares(const MatrixXd& a, const VectorXd& b, double tolerance) {
   VectorXd x = VectorXd::Zero(a.cols());
   std::vector<int> used;
-  std::vector<bool> refused(a.cols(), false);  // rounding alone made them look useful
+  std::vector<bool> refused(a.cols(), false);  // only rounding made them seem useful
   const VectorXd lengths = a.colwise().norm();
-  // each round takes one more column; the known worst cases need a few rounds a column
+  // each round adds one column; the known worst cases need a few rounds per column
   for (int round = 0; round < 10 * a.cols(); ++round) {
     check_stop();
     const VectorXd slope = a.transpose() * (b - a * x);

@@ -1,14 +1,13 @@
-// Least squares with unknowns that may not be negative: the nearest point of a cone that columns
-// span.
+// Least squares with nonnegative unknowns: the nearest point of a cone spanned by columns.
 #pragma once
 #include <Eigen/Core>
 
 namespace clench {
 
-/// x >= 0 of least |a x - b|, of a few dozen unknowns. Among several of the same residual, one with
-/// few that are not 0.
-/// tolerance  how steeply the residual may still fall along an unknown, of |b| times its column's
-///            length
+/// x >= 0 that minimizes |a x - b|, for a few dozen unknowns. Among several minimizers, one with
+/// few nonzero unknowns.
+/// tolerance  largest descent of the residual along an unknown at the end, relative to |b| times
+///            the length of its column
 /// source     Lawson & Hanson (1974), Solving least squares problems, ch. 23
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                           double tolerance = 1e-12);

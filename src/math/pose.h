@@ -9,7 +9,7 @@ namespace clench {
 /// wrench (force, torque) or twist (linear, angular)
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// v turned by a unit quaternion; the bits of Eigen's product, inlined.
+/// v rotated by a unit quaternion; same bits as Eigen's product, inlined.
 [[gnu::always_inline]] inline Eigen::Vector3d turned(const Eigen::Quaterniond& q,
                                                      const Eigen::Vector3d& v) {
   const double x = q.x(), y = q.y(), z = q.z(), w = q.w();
@@ -19,14 +19,14 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
           v.z() + w * u2 + (x * u1 - y * u0)};
 }
 
-/// Unit quaternion and position; kept as given, so that what was set is read back to the bit.
+/// Unit quaternion and position; stored as given, so that reading returns the same bits.
 struct Pose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit
   Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< [m]
 
   static Pose translation(const Eigen::Vector3d& p) { return {Eigen::Quaterniond::Identity(), p}; }
   static Pose turn(const Eigen::Quaterniond& q) { return {q, Eigen::Vector3d::Zero()}; }
-  /// a turn by angle [rad] about a unit axis
+  /// a rotation by angle [rad] about a unit axis
   static Pose turn(double angle, const Eigen::Vector3d& axis) {
     return turn(Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)));
   }
@@ -51,7 +51,8 @@ struct Pose {
   }
 };
 
-/// Straight line between positions, shortest turn between rotations; t in [0, 1].
+/// Interpolates linearly between positions and by the shortest rotation between orientations; t in
+/// [0, 1].
 inline Pose interpolate(const Pose& from, const Pose& to, double t) {
   return {from.rotation.slerp(t, to.rotation), from.position + t * (to.position - from.position)};
 }

@@ -1,4 +1,4 @@
-// Products of large matrices, which can be stopped.
+// Products of large matrices that can be interrupted.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,10 +7,10 @@
 
 namespace clench {
 
-/// Calls take(first, count) for consecutive parts of the columns of a product, with a check_stop()
-/// before each: a part takes some 30 ms at most. Eigen computes four columns at once and a single
-/// one by other means, so parts of a multiple of four give the same bits as the undivided product.
-/// rows, inner  of the product: each of its numbers is a sum of `inner` terms
+/// Calls take(first, count) for consecutive groups of columns of a product, with a check_stop()
+/// before each: a group takes about 30 ms at most. Eigen computes four columns at once and a single
+/// one by other means, so groups of a multiple of four give the same bits as the undivided product.
+/// rows, inner  of the product: each of its entries is a sum of `inner` terms
 template <class Take>
 void in_column_parts(Eigen::Index columns, Eigen::Index rows, Eigen::Index inner, Take take) {
   constexpr double terms_between_checks = 2e8;

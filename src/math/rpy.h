@@ -5,9 +5,9 @@
 
 namespace clench {
 
-/// Angles about the fixed axes x, then y, then z [rad]: R = Rz(yaw) Ry(pitch) Rx(roll). Where the
-/// pitch is a quarter turn, roll is 0. Roll and pitch are of what is left when the yaw is undone,
-/// so that they fit together near there, too.
+/// Angles about the fixed axes x, then y, then z [rad]: R = Rz(yaw) Ry(pitch) Rx(roll). If the
+/// pitch is a quarter turn, roll is 0. Roll and pitch are computed after undoing the yaw, so that
+/// the three are consistent near that singularity, too.
 inline Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
   const bool quarter = std::hypot(R(0, 0), R(1, 0)) < 1e-12;
   const double yaw = quarter ? std::atan2(-R(0, 1), R(1, 1)) : std::atan2(R(1, 0), R(0, 0));

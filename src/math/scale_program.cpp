@@ -9,17 +9,16 @@ namespace clench {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// rows that others give to this are dependent; what is said of them must then agree to ten times
-// that
+// weights of rows in a dependent row; the right sides must then agree to ten times that
 static constexpr double depends = 1e-10, agrees = 1e-9;
 
 // 0 counts as 1
 static double power_of_two(double x) { return x > 0 ? std::exp2(std::round(std::log2(x))) : 1; }
 
-// the norm that a factor is to bring to one; nothing there keeps its factor
+// the norm that a factor normalizes; an empty row keeps its factor
 static double factor_for(double norm) { return norm > 0 ? 1 / std::sqrt(norm) : 1; }
 
-// one factor a cone, so that it stays one
+// one factor per cone, so that it remains a cone
 static void even_out(const std::vector<int>& cones, VectorXd& norms) {
   int start = 0;
   for (const int size : cones) {
@@ -38,7 +37,7 @@ static void multiply(ScaledProgram& p, const VectorXd& columns, const VectorXd& 
   p.rows_cone = p.rows_cone.cwiseProduct(rows_cone);
 }
 
-// Half lines that bound a single unknown fit any unit: they have no say in it.
+// Half lines that bound a single unknown fit any unit: they are ignored here.
 static std::vector<bool> single_bounds(const ScaledProgram& p) {
   std::vector<bool> single(static_cast<size_t>(p.h.size()), false);
   Eigen::Index start = 0;
@@ -49,7 +48,7 @@ static std::vector<bool> single_bounds(const ScaledProgram& p) {
   return single;
 }
 
-// every row and column towards largest number one
+// every row and column towards a largest entry of one
 static void equilibrate(ScaledProgram& p) {
   const auto n = p.c.size();
   const std::vector<bool> single = single_bounds(p);
@@ -69,7 +68,7 @@ static void equilibrate(ScaledProgram& p) {
   }
 }
 
-// Each unknown in the units of the cones that it is in: narrow and wide ones become round.
+// Each unknown in the units of the cones that contain it: narrow and wide ones become round.
 static void round_cones(ScaledProgram& p) {
   VectorXd norms = VectorXd::Zero(p.c.size());
   Eigen::Index start = 0;
@@ -84,7 +83,7 @@ static void round_cones(ScaledProgram& p) {
   multiply(p, columns, VectorXd::Ones(p.b.size()), VectorXd::Ones(p.h.size()));
 }
 
-// every row to largest number one
+// every row to a largest entry of one
 static void equilibrate_rows(ScaledProgram& p) {
   VectorXd rows_equal(p.b.size()), rows_cone(p.h.size());
   for (Eigen::Index k = 0; k < p.b.size(); ++k) rows_equal[k] = max_norm(p.A.row(k));
@@ -95,7 +94,7 @@ static void equilibrate_rows(ScaledProgram& p) {
            rows_cone.unaryExpr(to_power));
 }
 
-// with the right sides and the objective as they were
+// with the original right sides and objective
 static void rescale(ScaledProgram& p, const VectorXd& columns) {
   const VectorXd before = p.columns, equal = p.rows_equal, cone = p.rows_cone;
   multiply(p, columns, VectorXd::Ones(p.b.size()), VectorXd::Ones(p.h.size()));
@@ -108,7 +107,7 @@ static void rescale(ScaledProgram& p, const VectorXd& columns) {
 ScaledProgram scaled_to(ScaledProgram scaled, const VectorXd& x) {
   const VectorXd own = x.cwiseQuotient(scaled.columns).cwiseAbs();
   const double most = max_norm(own);
-  // what is a thousandth of the largest may be rounding
+  // a thousandth of the largest may be rounding
   if (most > 0)
     rescale(scaled,
             own.unaryExpr([&](double v) { return power_of_two(std::max(v / most, 1e-3)); }));
@@ -119,7 +118,7 @@ ScaledProgram scale_program(const ConeProgram& program) {
   ScaledProgram p;
   p.P = program.P, p.A = program.A, p.G = program.G;
   p.c = program.c, p.b = program.b, p.h = program.h;
-  // what is empty has the right width
+  // empty matrices have the right width
   for (MatrixXd* m : {&p.P, &p.A, &p.G})
     if (m->size() == 0) m->resize(m == &p.P ? 0 : m->rows(), p.c.size());
   p.cones.assign(program.nonnegative, 1);
@@ -152,7 +151,7 @@ RowDependence row_dependence(const MatrixXd& A, const VectorXd& b) {
   const IndependentRows rows = independent_rows(A, depends);
   out.independent = rows.rows;
   out.dependent = rows.others;
-  // each of the others is a sum of the independent ones, and b must be the same sum
+  // each of the others is a combination of the independent ones, and b must be the same combination
   double worst =
       agrees * std::max(1.0, rows.weights.size() > 0 ? rows.weights.cwiseAbs().maxCoeff() : 0);
   for (size_t k = 0; k < rows.others.size(); ++k) {

@@ -44,7 +44,7 @@ void check_program(const ConeProgram& program) {
     if (!good) wrong(fmt::format("{} holds a number that is not finite", name));
 }
 
-// rows of A as sparse columns; where a cone has a number in a column it has all of its rows
+// rows of A as sparse columns; a cone with an entry in a column has all of its rows there
 Sparse whole_cones(const MatrixXd& A, int equal, const ConeSizes& cones) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < A.cols(); ++k) {
@@ -74,7 +74,7 @@ ConeRows make_rows(const ScaledProgram& scaled, const SolvedPart& part) {
   if (in_cones > 0) A.bottomRows(in_cones) = scaled.G(part.rows, part.unknowns);
   rows.b.head(rows.equal) = scaled.b(part.equations) / primal;
   rows.b.tail(in_cones) = scaled.h(part.rows) / primal;
-  // a cone is there with all of its rows or none
+  // a cone has all of its rows or none
   std::vector<int> cone_of;
   for (int c = 0; c < static_cast<int>(scaled.cones.size()); ++c)
     cone_of.insert(cone_of.end(), scaled.cones[c], c);
@@ -104,8 +104,8 @@ EmbeddingEnd contradiction(const ScaledProgram& scaled, const SolvedPart& part, 
   return end;
 }
 
-// The least change of x that meets A x = b, as the last steps of the solver lose digits: as small
-// as what is missing, far within what cones are checked to.
+// The smallest change of x that satisfies A x = b, as the last iterations lose digits: about as
+// small as the residual, far within the tolerance of the cones.
 void restore_equations(const MatrixXd& A, const VectorXd& b, VectorXd& x) {
   VectorXd left = b - A * x;
   for (int pass = 0; pass < 3; ++pass) {
@@ -118,8 +118,8 @@ void restore_equations(const MatrixXd& A, const VectorXd& b, VectorXd& x) {
   }
 }
 
-// The same of a proof, A^T y + G^T z = 0, each number by a part of its cone's, so that what is
-// hardly inside stays there.
+// The same for a proof, A^T y + G^T z = 0, with changes in proportion to the cone's distance from
+// its boundary, so that what is barely inside stays there.
 VectorXd restored_proof(const ConeRows& rows, const VectorXd& z) {
   VectorXd sizes = VectorXd::Constant(z.size(), z.lpNorm<Eigen::Infinity>());
   int start = rows.equal;
@@ -171,10 +171,10 @@ ConeSolution unscaled(const ConeProgram& program, const ScaledProgram& scaled,
     out.y.setZero(), out.z.setZero();
   } else if (end.status == ConeStatus::optimal && program.b.isZero(0) &&
              VectorXd(program.h(part.rows)).isZero(0) && program.P.isZero(0)) {
-    // where nothing is asked for, and nothing falls without end, 0 is best
+    // without an objective and without unbounded directions, 0 is optimal
     out.x.setZero(), s.setZero();
   }
-  // of rows that were left out, what the point leaves of them
+  // slacks of rows that were omitted
   out.s = (solved ? 1 : 0) * program.h;
   if (program.G.size() > 0) out.s -= program.G * out.x;
   out.s(part.rows) = s;
@@ -186,12 +186,12 @@ ConeSolution unscaled(const ConeProgram& program, const ScaledProgram& scaled,
   return out;
 }
 
-// Unknowns whose columns are sums of others', in P, A and G: x moves along them and nothing notices
-// but, perhaps, the objective.
+// Unknowns whose columns are combinations of others', in P, A and G: moving x along them changes
+// nothing except, perhaps, the objective.
 struct Idle {
   std::vector<int> unknowns;
   std::vector<int> others;
-  std::optional<VectorXd> falling = {};  // a direction that the objective falls along
+  std::optional<VectorXd> falling = {};  // a direction along which the objective decreases
 };
 
 Idle idle_unknowns(const ScaledProgram& scaled) {
@@ -203,10 +203,10 @@ Idle idle_unknowns(const ScaledProgram& scaled) {
   return idle;
 }
 
-// residuals of what a second start may bring to an optimum
+// residuals from which a second start may reach an optimum
 constexpr double nearly = 1e-6;
 
-// of half lines, how far they are: a right side beyond the rest's seldom binds
+// distance of half lines: a right side far beyond the others' is seldom active
 constexpr double far = 100;
 
 std::vector<int> numbers_to(Eigen::Index count) {
@@ -215,7 +215,7 @@ std::vector<int> numbers_to(Eigen::Index count) {
   return out;
 }
 
-// rows of half lines that x = 0 meets with something to spare
+// rows of half lines that x = 0 satisfies with a margin
 std::vector<int> roomy_rows(const ScaledProgram& scaled) {
   std::vector<int> out;
   int start = 0;
@@ -229,7 +229,7 @@ std::vector<int> roomy_rows(const ScaledProgram& scaled) {
 ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled, SolvedPart part) {
   part.sizes = program_sizes(scaled, scaled.b, scaled.h(part.rows));
   part.unknowns = numbers_to(scaled.c.size());
-  // equations that follow from others are left out; those that contradict them are the answer
+  // redundant equations are omitted; contradictory ones are the result
   const RowDependence equations = row_dependence(scaled.A, scaled.b / part.sizes.primal);
   if (equations.contradiction) {
     part.equations = numbers_to(scaled.b.size());
@@ -239,7 +239,7 @@ ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled,
   ConeSolution all = unscaled(program, scaled, part, solve_embedding(make_rows(scaled, part)));
   if (all.status != ConeStatus::inaccurate) return all;
 
-  // nearly there? then in the units of what was found
+  // nearly converged? then again in the units of that point
   if (std::max({all.primal_residual, all.dual_residual, all.gap}) < nearly) {
     const ScaledProgram again = scaled_to(scaled, all.x);
     SolvedPart same = part;
@@ -249,7 +249,7 @@ ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled,
     if (better.status == ConeStatus::optimal) return better;
   }
 
-  // are there unknowns too many? to look for them takes longer than most programs
+  // are there redundant unknowns? the search takes longer than most programs
   const Idle idle = idle_unknowns(scaled);
   if (idle.unknowns.empty()) return all;
   part.unknowns = idle.others;
@@ -264,8 +264,8 @@ ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled,
   return fewer;
 }
 
-// how far half lines may be at first: by the size of what is asked for, or, where nothing is, by
-// the nearest of them
+// initial distance of half lines: by the size of the right sides or, if they are all zero, by the
+// nearest of them
 double first_limit(const ScaledProgram& scaled, const std::vector<int>& roomy) {
   VectorXd asked(scaled.b.size() + scaled.h.size());
   asked << scaled.b, scaled.h;
@@ -277,9 +277,9 @@ double first_limit(const ScaledProgram& scaled, const std::vector<int>& roomy) {
   return far * (asked.isZero(0) ? nearest : asked.lpNorm<Eigen::Infinity>());
 }
 
-// A solution, or one of the proofs; of a program that has neither solution nor bound, any of the
-// two. Half lines far away are left out, which would set the size of all numbers, and come in where
-// they bind or are needed.
+// A solution, or one of the proofs; for a program that is both infeasible and unbounded, either of
+// them. Distant half lines are omitted, since they would determine the scale, and added when they
+// are active or needed.
 ConeSolution solve_once(const ConeProgram& program) {
   const ScaledProgram scaled = scale_program(program);
   const std::vector<int> roomy = roomy_rows(scaled);
@@ -287,7 +287,7 @@ ConeSolution solve_once(const ConeProgram& program) {
   for (;;) {
     SolvedPart part;
     part.rows = numbers_to(scaled.h.size());
-    double next = no_end;  // the nearest that is left out
+    double next = no_end;  // the nearest omitted one
     std::erase_if(part.rows, [&](int row) {
       if (scaled.h[row] <= limit || !std::ranges::binary_search(roomy, row)) return false;
       next = std::min(next, scaled.h[row]);
@@ -306,7 +306,7 @@ ConeSolution solve(const ConeProgram& program) {
   check_program(program);
   ConeSolution out = solve_once(program);
   if (out.status != ConeStatus::unbounded) return out;
-  // the objective falls from any point that meets the constraints: does one?
+  // the objective decreases from any feasible point: is there one?
   ConeProgram any = program;
   any.P.resize(0, 0);
   any.c.setZero();

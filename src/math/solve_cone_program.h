@@ -4,12 +4,12 @@
 
 namespace clench {
 
-/// Primal-dual interior points in a homogeneous embedding, so that what has no solution is proved
-/// to have none. Redundant, zero and badly scaled rows and columns are no trouble, nor half lines
-/// far away, which are left out while they do not bind. What is handed out has been checked at the
-/// program itself. The same bits every time.
+/// Primal-dual interior-point method in a homogeneous embedding, so that infeasibility is proved.
+/// Handles redundant, zero and badly scaled rows and columns, and distant half-line constraints,
+/// which are omitted while they are inactive. Results are checked against the original program.
+/// Deterministic to the bit.
 ///
-/// throws  Error when sizes do not fit or a number is not finite
+/// throws  Error if sizes do not match or a number is not finite
 /// source  Nesterov & Todd (1997); Mehrotra (1992); Goulart & Chen (2024), Clarabel: an
 ///         interior-point solver for conic programs with quadratic objectives
 ConeSolution solve(const ConeProgram& program);

@@ -30,8 +30,9 @@ class StoppableLdlt : public Eigen::SimplicialLDLT<SparseLdl::Matrix, Eigen::Low
   }
 
  private:
-  // Row k of the matrix into row_, and which columns of L it fills, so that each comes after those
-  // that it depends on.   returns where their list begins in order_
+  // Loads row k of the matrix into row_, and lists the columns of L that it fills, so that each
+  // comes after those that it depends on.
+  // returns  the start of their list in order_
   int gather(const SparseLdl::Matrix& upper, int k) {
     int top = static_cast<int>(order_.size());
     visited_[k] = k;

@@ -1,4 +1,4 @@
-// Symmetric systems that are mostly zeros: positive definite in some unknowns, negative in the
+// Sparse symmetric systems that are positive definite in some unknowns, negative definite in the
 // others.
 #pragma once
 #include <Eigen/SparseCore>
@@ -7,16 +7,16 @@
 namespace clench {
 
 /// m = L D L^T after a reordering that keeps L sparse; it exists for every quasi-definite m,
-/// without pivots.
+/// without pivoting.
 /// source  Vanderbei (1995), Symmetric quasidefinite matrices
 class SparseLdl {
  public:
   using Matrix = Eigen::SparseMatrix<double>;
-  /// lower  triangle; its pattern is that of all matrices to come
+  /// lower  triangle; all later matrices must have its pattern
   explicit SparseLdl(const Matrix& lower);
   SparseLdl(SparseLdl&&) noexcept;
   ~SparseLdl();
-  /// returns  false when a pivot is 0 or not finite
+  /// returns  false if a pivot is 0 or not finite
   bool factor(const Matrix& lower);
   /// after a factor() that succeeded
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;

@@ -59,7 +59,7 @@ enum class FacetsEnd { complete, flat, too_many, failed };
 struct Facets {
   FacetsEnd end = FacetsEnd::failed;
   std::vector<double> points;  ///< `dimension` numbers per point
-  /// dimension indices of points a facet, all facets turned the same way
+  /// `dimension` indices of points per facet, all facets with the same orientation
   std::vector<int> corners;
   double volume = 0;
 };
