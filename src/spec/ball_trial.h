@@ -1,46 +1,45 @@
-// A ball in a hand that closes on it, without a world: quick enough to be tried at hundreds of
-// places.
+// A ball in a closing hand, without a world: fast enough for trials at hundreds of positions.
 #pragma once
 #include "clench/spec/hand_tree.h"
 
 namespace clench {
 
-/// The open hand as points of its links, and a ball of a quarter of its fingers' length. DOFs close
-/// as their default velocities say; the others stay at rest.
+/// The open hand as points of its links, and a ball whose radius is a quarter of its fingers'
+/// length. DOFs close in the direction of their default velocities; those without one are at rest.
 class BallTrial {
  public:
-  /// robot  outlives it
+  /// robot  must outlive it
   explicit BallTrial(const RobotSpec& robot);
 
-  /// Is there a finger, and a DOF that closes?
+  /// Does it have a finger and a DOF that closes?
   bool closes() const { return !hand_.fingers.empty() && !closing_.empty(); }
-  /// May touch() and held() be asked: has it a size, and not too many parts?
+  /// May touch() and held() be called: does it have a size, and not too many parts?
   bool possible() const { return possible_; }
   double radius() const { return radius_; }
-  /// Where the tips are on average when the hand is half closed, in the base.
+  /// Mean position of the tips of the half-closed hand, in the base.
   Eigen::Vector3d tips_centre() const;
-  /// Whither the hand opens, unit, in the base: the way that the tips go as it begins to close,
-  /// where they agree; else the way that the fingers point, or that leads from the palm to their
-  /// tips. A direction within 20 degrees of an axis of the base is that axis.
+  /// Direction in which the hand opens, unit, in the base: the initial direction of the closing
+  /// tips, if they agree; otherwise the direction in which the fingers point, or that from the palm
+  /// to their tips. Snapped to an axis of the base within 20 degrees of it.
   std::optional<Eigen::Vector3d> direction() const;
-  /// Centre of a ball that comes against the direction, on the line through `from`, where it
+  /// Center of a ball that moves against the direction, on the line through `from`, at which it
   /// touches the open hand; empty: it passes by.
   std::optional<Eigen::Vector3d> touch(const Eigen::Vector3d& from,
                                        const Eigen::Vector3d& direction) const;
-  /// How well the hand surrounds the ball when each DOF has closed until its links touch it: the
-  /// least, over all directions, of the cosine between the direction and the contact nearest to it,
-  /// less friction. -1 .. 1
+  /// How well the hand surrounds the ball after each DOF has closed until its links touch it: the
+  /// minimum, over all directions, of the cosine between the direction and the contact nearest to
+  /// it, minus friction. -1 .. 1
   double held(const Eigen::Vector3d& centre) const;
 
  private:
   struct Closing {
     int dof;
     double step;
-    std::vector<int> links;  // that it moves, parents first
+    std::vector<int> links;  // links that it moves, parents first
   };
   struct Part {
     std::vector<Eigen::Vector3d> points;               // in the frame of its link
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of a sphere around them
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of their bounding sphere
     double radius = 0;
   };
   struct Span {

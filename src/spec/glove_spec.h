@@ -1,4 +1,4 @@
-// Data gloves: how their raw numbers become DOF values of a hand.
+// Data gloves: conversion of raw sensor values to DOF values of a hand.
 #pragma once
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
-// A robot as a hand: its palm, and the fingers that hang on it.
+// A robot as a hand: its palm, and the fingers attached to it.
 //
-// Fingers are the links that end the tree, as far as joints lie between them and the palm; the palm
-// is the last link that all of them hang on. A single finger of one or two joints closes against
-// what carries it; a longer one is an arm, and has no fingers.
+// Fingers are the links at the ends of the tree that are separated from the palm by joints; the
+// palm is the last link common to all of them. A single finger of one or two joints closes against
+// its carrier; a longer one is an arm, and has no fingers.
 #pragma once
 #include "clench/spec/robot_spec.h"
 
@@ -10,11 +10,11 @@ namespace clench {
 
 struct Finger {
   int tip = 0;             ///< link
-  std::vector<int> links;  ///< between palm and tip, from the palm on, and the tip
+  std::vector<int> links;  ///< joints between palm and tip, from the palm on, and the tip
   Eigen::Vector3d p_tip;   ///< in the tip's frame
 };
 
-/// Values of all DOFs, and where they put the links in the base's frame.
+/// Values of all DOFs, and the resulting poses of the links in the base's frame.
 struct Posture {
   std::vector<double> q;
   std::vector<Pose> poses;
@@ -26,20 +26,20 @@ struct HandTree {
   const RobotSpec& robot;
   int palm = -1;
   std::vector<Finger> fingers;
-  std::vector<int> dofs;                      ///< that can move
-  Posture rest;                               ///< at first
+  std::vector<int> dofs;                      ///< joints that can move
+  Posture rest;                               ///< initially
   std::vector<std::array<double, 2>> ranges;  ///< one per DOF
 
-  /// Does the DOF go round and round?
+  /// Does the DOF turn without limits?
   bool turns_without_end(int dof) const;
 };
 
 HandTree hand_tree(const RobotSpec& robot);
 
 const BodySpec& body_of(const RobotSpec& robot, int link);
-/// What it looks like: its geometry, or without any what is drawn of it; may be null.
+/// Its visible shape: its geometry or, without any, what is drawn for it; may be null.
 const ShapePtr& drawn(const BodySpec& body);
-/// Joints of the links between an ancestor, which is not among them, and a link, which is.
+/// Joints of the links between an ancestor (excluded) and a link (included).
 std::vector<const JointSpec*> joints_below(const RobotSpec& robot, int ancestor, int link);
 /// Fingertips in the palm's frame.
 std::vector<Eigen::Vector3d> tips_at(const HandTree& hand, const std::vector<double>& q);

@@ -1,4 +1,5 @@
-// Tendons whose length is a weighted sum of DOFs: they couple joints without tying them.
+// Tendons whose length is a weighted sum of DOFs: they couple joints without constraining them
+// rigidly.
 #pragma once
 #include <array>
 #include <optional>
@@ -8,13 +9,13 @@
 
 namespace clench {
 
-/// length = sum of arm * dof. Forces act along the length: a DOF feels its arm times as much. In
-/// simulations alone: whatever sets DOFs is free to exceed the range.
+/// length = sum of arm * dof. Forces act along the length: the effort on a DOF is its arm times the
+/// force. Only simulations use it: DOFs that are set directly may exceed the range.
 struct JointTendonSpec {
-  std::string name = {};  ///< as its file calls it; empty: it has none
+  std::string name = {};  ///< name in its file; empty: none
   /// DOFs, each once, and how the length changes per unit of each, not 0
   std::vector<std::pair<int, double>> arms = {};
-  std::optional<std::array<double, 2>> range = {};  ///< of the length; absent: nothing limits it
+  std::optional<std::array<double, 2>> range = {};  ///< of the length; absent: unlimited
   double stiffness = 0;                             ///< [N or N m per unit of length]
   std::array<double, 2> slack = {0, 0};             ///< lengths between which the spring is slack
   double damping = 0;                               ///< [N or N m per unit of length per second]

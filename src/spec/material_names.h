@@ -1,4 +1,4 @@
-// The materials that every world knows from the start.
+// The materials predefined in every world.
 #pragma once
 #include <array>
 #include <string_view>

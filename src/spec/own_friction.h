@@ -1,4 +1,4 @@
-// Friction that a file gives to a surface, and the combined friction of two such surfaces.
+// Friction assigned by a file to a surface, and the combined friction of two such surfaces.
 #pragma once
 #include <compare>
 #include <string>
@@ -7,8 +7,9 @@ namespace clench {
 
 /// Friction of one surface, as that of a geom in MuJoCo.
 struct OwnFriction {
-  double mu = 1;     ///< Coulomb coefficient, >= 0
-  int priority = 0;  ///< of two surfaces in contact, the coefficient of the higher priority counts
+  double mu = 1;  ///< Coulomb coefficient, >= 0
+  /// for two surfaces in contact, the coefficient of the higher priority is used
+  int priority = 0;
   bool frictionless = false;  ///< as condim="1" of a geom
 
   auto operator<=>(const OwnFriction&) const = default;

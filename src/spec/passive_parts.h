@@ -1,6 +1,6 @@
-// Tendons of a hand, the posts they wrap around, tactile sensors and actuators: kept for scripts as
-// a file describes them; nothing acts on them. What motors take from an MJCF file's actuators
-// (limits, gains, which DOFs are driven) is in DofSpec.
+// Tendons of a hand, the posts they wrap around, tactile sensors and actuators: stored for scripts
+// as described in a file, without effect on simulations. The properties of an MJCF file's actuators
+// that motors use (limits, gains, which DOFs are driven) are in DofSpec.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace clench {
 
-/// Where a tendon is tied to a link, or runs through an eyelet on it.
+/// Point at which a tendon is attached to a link, or an eyelet on it.
 struct TendonPoint {
   int link = -1;                                  ///< -1: the base
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();  ///< in the link's frame [m]
@@ -31,9 +31,9 @@ struct TendonWrapper {
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();      ///< on its axis, in the link's frame [m]
   Eigen::Vector3d axis_L = Eigen::Vector3d::UnitZ();  ///< unit
   double radius = 0;                                  ///< [m]
-  double length = 0.01;                               ///< of its picture [m]
+  double length = 0.01;                               ///< length for display [m]
   double friction = 0;                                ///< Coulomb coefficient, >= 0
-  std::vector<std::string> exempt;                    ///< tendons that pass it by
+  std::vector<std::string> exempt;                    ///< tendons that do not wrap around it
   struct Side {
     std::string tendon;
     Eigen::Vector3d direction_L;  ///< unit: towards the side on which it wraps
@@ -41,7 +41,7 @@ struct TendonWrapper {
   std::vector<Side> sides;
 };
 
-/// A box on a link in which contacts count as one sensor's.
+/// A box on a link; contacts in it belong to one sensor.
 struct TactileSpec {
   int link = -1;  ///< -1: the base
   Eigen::Vector3d low_L = Eigen::Vector3d::Zero(),
@@ -63,21 +63,21 @@ struct ActuatorSpec {
   std::string name;           ///< empty: it has none
   std::string kind;           ///< as its file calls it: "motor", "position", "general"
   std::string joint, tendon;  ///< what it drives: the name of one of them; the other one is empty
-  /// joints of the tendon; none: it pulls the DOF itself, with coefficient 1
+  /// joints of the tendon; empty: it pulls the DOF itself, with coefficient 1
   std::vector<TendonPull> pulls = {};
-  int dof = -1;            ///< that it moves, of a tendon that of its first joint; -1: none
+  int dof = -1;            ///< DOF that it moves, for a tendon that of its first joint; -1: none
   double gear = 1;         ///< length of the actuator per unit of the target
-  double length_at_0 = 0;  ///< its length where all DOFs are 0, gear included
+  double length_at_0 = 0;  ///< its length with all DOFs at 0, gear included
   double gain = 1;         ///< [N m or N per unit of control]
   std::array<double, 2> gain_slopes = {0, 0};
   std::array<double, 3> bias = {0, 0, 0};
-  double damping_ratio = 0;  ///< of a servo, whose bias has no damping then: as DofSpec
-  bool law_known = true;     ///< false: gain and bias do not describe it
+  double damping_ratio = 0;  ///< of a servo without damping in its bias: as in DofSpec
+  bool law_known = true;     ///< false: gain and bias do not describe its law
   bool enabled = true;       ///< false: it exerts nothing
   std::optional<std::array<double, 2>> control_range;
-  /// of the activation that its law takes in place of the control, an end perhaps infinite
+  /// range of the activation that replaces the control in its law; may be infinite
   std::optional<std::array<double, 2>> activation_range;
-  /// of the force by its law, where that is not known: a muscle only pulls [N m or N]
+  /// range of the force by its law, if that is unknown: a muscle only pulls [N m or N]
   std::optional<std::array<double, 2>> law_range;
   /// of the sum of the forces of all actuators on its tendon [N m or N]
   std::optional<std::array<double, 2>> tendon_force_range;
