@@ -18,8 +18,8 @@ namespace clench {
 
 namespace {
 
-// Points moved to their mean and divided by their spread, so that no digits go to a far origin and
-// tolerances mean the same at every size.
+// Points relative to their mean and divided by their spread, so that no digits are lost to a
+// distant origin and tolerances mean the same at every size.
 struct Normalised {
   Eigen::MatrixXd points;
   Eigen::VectorXd centre;
@@ -56,7 +56,8 @@ int rank_of(const Normalised& n, double tolerance) {
 }
 
 // Owns qhull's state and messages. qhull reports its progress among the messages, which is where a
-// stop is noticed; it then adds no more points, and the stop is thrown when its C code has returned.
+// stop request is noticed; it then adds no more points, and Stopped is thrown after its C code has
+// returned.
 class Qhull {
  public:
   Qhull() : said_(fopencookie(this, "w", {nullptr, &Qhull::take_message, nullptr, nullptr})) {
@@ -73,7 +74,7 @@ class Qhull {
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
 
-  /// returns  false if qhull refuses the points
+  /// returns  false if qhull rejects the points
   /// throws   Stopped
   bool run(Eigen::MatrixXd& points, const char* options) {
     std::string command = options;

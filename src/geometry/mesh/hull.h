@@ -1,5 +1,5 @@
-// Convex hulls in 2 to 6 dimensions, by qhull. Rank is tested first: a flat set has no hull, and
-// its result says so.
+// Convex hulls in 2 to 6 dimensions, by qhull. The rank is determined first: a flat set has no
+// hull, and its result says so.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -10,7 +10,7 @@ namespace clench {
 
 struct Hull {
   int dimension = 0;  ///< of the space: rows of the points
-  /// of the affine hull of the points; facets exist only when rank == dimension
+  /// of the affine hull of the points; there are facets only if rank == dimension
   int rank = 0;
   Eigen::MatrixXd normals;               ///< dimension x facets, unit, outward
   Eigen::VectorXd offsets;               ///< normal . x <= offset inside
@@ -21,12 +21,12 @@ struct Hull {
   bool full() const { return rank == dimension; }
 };
 
-/// points  dimension x count, finite; count may be anything
-/// throws  Error when a coordinate is not finite or dimension is outside 2..6
+/// points  dimension x count, finite; any count
+/// throws  Error if a coordinate is not finite or dimension is outside 2..6
 /// source  Barber, Dobkin & Huhdanpaa (1996)
 Hull convex_hull(const Eigen::MatrixXd& points);
 
-/// The surface of a hull of points in space: their numbers, counter-clockwise from outside.
+/// Triangles of the hull of points in space, by their indices, counter-clockwise from outside.
 std::vector<Triangle> hull_triangles(const Hull& hull, const Eigen::MatrixXd& points);
 
 /// Rank of the affine hull, by singular values relative to the largest.

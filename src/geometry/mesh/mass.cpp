@@ -17,7 +17,8 @@ MassProperties solid_mass(const Mesh& mesh) {
   const Bounds bounds = mesh.bounds();
   if (bounds.empty()) return out;
 
-  // signed tetrahedra over the triangles, from an apex near by so that a far origin costs no digits
+  // signed tetrahedra over the triangles, from a nearby apex so that a distant origin costs no
+  // digits
   const Vector3d apex = bounds.centre();
   double volume = 0;
   Vector3d first = Vector3d::Zero();
@@ -36,7 +37,7 @@ MassProperties solid_mass(const Mesh& mesh) {
   }
   out.volume = volume;
 
-  // a sheet has no centre of volume: its surface has one
+  // a sheet has no center of volume: that of its surface is used
   if (!(std::abs(volume) > 1e-14 * mesh.area() * bounds.size().maxCoeff())) {
     out.centroid = surface_centroid(mesh);
     return out;

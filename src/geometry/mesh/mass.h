@@ -13,13 +13,14 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
-/// Exact integrals over the solid (uniform density). Meaningful for closed meshes only.
+/// Exact integrals over the solid (uniform density). Meaningful only for closed meshes.
 /// source  Mirtich (1996); Eberly (2002), polyhedral mass properties
 MassProperties solid_mass(const Mesh& mesh);
 
-/// Turns a closed mesh that is inside out: its triangles then face outward.   returns  was it?
+/// Reverses the triangles of a closed mesh that is inside out, so that they face outward.
+/// returns  was it inside out?
 bool turn_outward(Mesh& mesh);
-/// What is told of one, behind its name.
+/// Note on such a mesh, printed after its name.
 inline constexpr const char* inside_out = ": its triangles face inward; flipped to face outward";
 
 /// Area-weighted centroid of the surface [m].

@@ -23,8 +23,7 @@ double doubled_area(const std::array<Vector3d, 3>& c) {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-// Numbers by the vertex that each belongs to, sorted at each: a sort whose time goes with their
-// count.
+// Indices grouped by the vertex that each belongs to, sorted within each group, in linear time.
 class ByVertex {
  public:
   explicit ByVertex(size_t vertices) : start_(vertices + 1, 0) {}
@@ -34,7 +33,7 @@ class ByVertex {
     items_.push_back({vertex, static_cast<uint64_t>(one) << 32 | static_cast<uint32_t>(other)});
     ++start_[static_cast<size_t>(vertex) + 1];
   }
-  /// calls visit(numbers at a vertex), for each vertex
+  /// calls visit(indices at a vertex), for each vertex
   template <class Visit>
   void visit(Visit visit) {
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
@@ -56,7 +55,8 @@ class ByVertex {
 };
 
 void count_edges(const Mesh& mesh, MeshFaults& faults, const Progress& progress) {
-  // at its lower vertex each edge as (higher, backwards), so that its triangles stand together
+  // at its lower vertex each edge as (higher, backwards), so that the entries of an edge are
+  // consecutive
   ByVertex edges(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
     if (repeats_a_vertex(t)) continue;  // it covers no side of any edge
@@ -100,7 +100,7 @@ int count_unused(const Mesh& mesh) {
   return static_cast<int>(std::count(used.begin(), used.end(), 0));
 }
 
-// Kept vertices by the cell of a grid; only looked up, never walked through.
+// Kept vertices by the cell of a grid; only looked up, never iterated.
 class VertexGrid {
  public:
   explicit VertexGrid(double tolerance) : tolerance_(tolerance) {}
@@ -124,7 +124,7 @@ class VertexGrid {
     }
     return found;
   }
-  /// The next one of the kept vertices.
+  /// The next of the kept vertices.
   void add(const Vector3d& p) {
     const int vertex = static_cast<int>(before_.size());
     int& last = last_.try_emplace(cell(p, 0), -1).first->second;
@@ -141,7 +141,7 @@ class VertexGrid {
       return hasher.value();
     }
   };
-  // without tolerance a cell is a position; adding zero makes -0 and 0 one
+  // without tolerance a cell is a position; adding zero maps -0 to 0
   Cell cell(const Vector3d& p, double shift) const {
     if (tolerance_ == 0) return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
     const double width = std::max(4 * tolerance_, 1e-200);
@@ -151,7 +151,7 @@ class VertexGrid {
 
   double tolerance_;
   std::unordered_map<Cell, int, CellHash> last_;  // vertex of a cell
-  std::vector<int> before_;  // of each vertex the one before it in its cell; -1: none
+  std::vector<int> before_;                       // previous vertex in the same cell; -1: none
 };
 
 void check_indices(const Mesh& mesh, const std::string& subject) {
@@ -174,7 +174,7 @@ bool without_area(const Mesh& mesh, int triangle) {
   const auto c = mesh.corners(triangle);
   const double longest = std::max(
       {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});
-  // what rounding leaves of three points in a line
+  // rounding error of the area of three collinear points
   return doubled_area(c) <= 8 * std::numeric_limits<double>::epsilon() * longest;
 }
 
@@ -201,7 +201,7 @@ std::string MeshFaults::describe() const {
 }
 
 bool is_convex(const Mesh& mesh) {
-  constexpr size_t max_tests = 1 << 18;  // vertices to be held against planes
+  constexpr size_t max_tests = 1 << 18;  // vertices to be tested against planes
   if (mesh.vertices.size() * mesh.triangles.size() > max_tests) return false;
   const double rounding = 1e-12 * mesh.bounds().size().norm();
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {

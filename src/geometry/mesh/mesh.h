@@ -1,4 +1,4 @@
-// Triangle meshes as values: positions, triangles, and what follows from them.
+// Triangle meshes as values: positions, triangles, and quantities derived from them.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -12,8 +12,8 @@ namespace clench {
 
 using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise from outside
 
-/// Of a vertex, as of where things stand in a world; a thousand times beyond it queries lose digits
-/// [m].
+/// Bound on coordinates of vertices, and of positions in a world; a thousand times beyond it
+/// queries lose digits [m].
 inline constexpr double largest_coordinate = 1e9;
 
 /// Axis-aligned bounds; empty when low > high.
@@ -30,7 +30,7 @@ struct Bounds {
   Eigen::Vector3d size() const { return high - low; }
 };
 
-/// Vertices [m] and triangles. Plain data: build it, then hand it to Shape::make.
+/// Vertices [m] and triangles. Plain data: fill it, then pass it to Shape::make.
 struct Mesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
@@ -43,12 +43,13 @@ struct Mesh {
   double area() const;  ///< [m^2]
 };
 
-/// What is wrong with a mesh, counted. A closed mesh has no open or tangled edge.
+/// Defects of a mesh, counted. A closed mesh has no open or tangled edge.
 struct MeshFaults {
-  int degenerate_triangles = 0;  ///< no area, or a vertex twice
+  int degenerate_triangles = 0;  ///< without area, or with a repeated vertex
   int duplicate_triangles = 0;   ///< same three vertices as an earlier one
   int open_edges = 0;            ///< edges of one triangle only
-  int tangled_edges = 0;         ///< edges of more than two triangles, or run twice the same way
+  /// edges of more than two triangles, or traversed twice in the same direction
+  int tangled_edges = 0;
   int unused_vertices = 0;
 
   bool closed() const { return open_edges == 0 && tangled_edges == 0; }
@@ -58,23 +59,23 @@ struct MeshFaults {
   std::string describe() const;  ///< "2 open edges, 1 degenerate triangle", or "no faults"
 };
 
-/// Has the triangle a vertex twice, or no more area than rounding leaves of three points in a line?
+/// Has the triangle a repeated vertex, or no more area than the rounding of three collinear points?
 bool without_area(const Mesh& mesh, int triangle);
 
-/// Do all vertices lie on or behind the plane of every triangle, up to rounding? False also of what
-/// would take long to tell: of meshes with more than some 700 triangles.
+/// Do all vertices lie on or behind the plane of every triangle, up to rounding? False also for
+/// meshes for which the test would take long: those with more than about 700 triangles.
 bool is_convex(const Mesh& mesh);
 
 /// throws Stopped
 MeshFaults find_faults(const Mesh& mesh, const Progress& progress = {});
 
-/// Vertices nearer than tolerance [m] become one (exactly equal ones when 0); triangles keep their
-/// order; those left with a vertex twice are dropped, and counted in `dropped`.
+/// Merges vertices nearer than tolerance [m] (only equal ones if 0); triangles keep their order;
+/// those left with a repeated vertex are dropped, and counted in `dropped`.
 Mesh weld(const Mesh& mesh, double tolerance = 0, int* dropped = nullptr,
           const Progress& progress = {});
 
 /// Positions finite, indices in range, at least one triangle.
-/// throws  Error naming the vertex or triangle where it is not so
+/// throws  Error that names the offending vertex or triangle
 void check_mesh(const Mesh& mesh, const std::string& subject);
 
 }  // namespace clench

@@ -9,7 +9,7 @@ namespace clench {
 
 using Eigen::Matrix3d;
 
-// turns rows and columns p and q so that their common entry vanishes
+// rotates rows and columns p and q so that their common entry vanishes
 static void rotate(Matrix3d& m, Matrix3d& vectors, int p, int q) {
   if (m(p, q) == 0) return;
   const double theta = (m(q, q) - m(p, p)) / (2 * m(p, q));

@@ -15,8 +15,8 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The polygon seen along its normal, counter-clockwise.   source  Newell (1974), normal of a
-/// polygon
+/// The polygon projected along its normal, counter-clockwise.
+/// source  Newell (1974), normal of a polygon
 FlatCorners flatten(const std::vector<Eigen::Vector3d>& corners) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& origin = corners.front();
@@ -30,7 +30,7 @@ FlatCorners flatten(const std::vector<Eigen::Vector3d>& corners) {
   return flat;
 }
 
-/// No corner bends back, and the outline goes round once.
+/// No corner is reflex, and the outline winds once.
 bool is_convex(const FlatCorners& p) {
   const size_t n = p.size();
   int turns_back = 0;
@@ -76,7 +76,7 @@ std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, b
     fail(ErrorKind::limit, "expected at most {} corners of a face that is not convex, got {}",
          max_concave_corners, n);
 
-  // cut off ears; where a crooked outline has none, any corner will do, and soon all of them
+  // ear clipping; if a self-intersecting outline has no ear, any corner is cut
   constexpr int max_failures = 8;
   std::vector<int> rest(n);
   std::iota(rest.begin(), rest.end(), 0);

@@ -1,4 +1,4 @@
-// Polygons to triangles.
+// Triangulation of polygons.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace clench {
 
-/// Most corners of a polygon that is not convex: cutting off ears costs up to the cube of them.
+/// Maximum number of corners of a polygon that is not convex: ear clipping takes up to the cube of
+/// it.
 inline constexpr int max_concave_corners = 1000;
 
-/// Triangles over the corners of a flat polygon without holes, turning the way it turns: a fan when
-/// it is convex, ears cut off one by one when it is not. Crooked ones give n - 2 triangles of some
-/// kind.
-/// `convex`: take the file's word for it, as the original does.
-/// `work`: counts the corners that are looked at to find ears
-/// returns  none for fewer than 3 corners
-/// throws   Error when it is not convex and has more than max_concave_corners
+/// Triangles over the corners of a flat polygon without holes, with its orientation: a fan if it is
+/// convex, otherwise by ear clipping. Self-intersecting polygons give some n - 2 triangles.
+/// `convex`: assume that it is convex, as GraspIt! does.
+/// `work`: counts the corners examined to find ears
+/// returns  empty for fewer than 3 corners
+/// throws   Error if it is not convex and has more than max_concave_corners
 std::vector<Triangle> triangulate(const std::vector<Eigen::Vector3d>& corners, bool convex = false,
                                   size_t* work = nullptr);
 

@@ -17,13 +17,13 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   const Mesh& mesh = shape.mesh();
   ClosestPoint best;
   best.distance = std::numeric_limits<double>::infinity();
-  // of equally near triangles the first, so that the way here does not show
+  // of equally near triangles the first, so that the order of traversal does not matter
   const auto take = [&](double distance, const Vector3d& q, int triangle) {
     if (distance < best.distance || best.triangle < 0 ||
         (distance == best.distance && triangle < best.triangle))
       best = {distance, q, triangle};
   };
-  // some at a time, so that the memory of the next ones is on its way
+  // in groups, so that memory of the next ones is prefetched
   std::array<int, 16> waiting;
   int count = 0;
   const auto judge_waiting = [&] {
@@ -46,7 +46,7 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
   };
   const Vector3d from = p - Vector3d::Map(shape.tree().centre());
   const double rounding = rounding_of(shape.bounds(), p);
-  // what is found is at least as near as the corners of the seed
+  // the result is at least as near as the corners of the seed
   double reach = std::numeric_limits<double>::infinity();
   if (shape.has_triangle(seed)) {
     for (const int v : mesh.triangles[seed]) reach = std::min(reach, (mesh.vertices[v] - p).norm());

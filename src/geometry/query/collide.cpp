@@ -13,7 +13,7 @@ bool colliding(const Shape& a, const Shape& b, const Pose& X_AB, PairCache* cach
   if (cache && cache->measured.clear > 0 && cache->measured.shapes == fingerprint(a, b) &&
       motion_bound(b, cache->measured.X_AB, X_AB) < cache->measured.clear)
     return false;
-  // what met last time often still does, what met before that seldom
+  // pairs that intersected in the last query often still do, earlier ones seldom
   if (cache && a.has_triangle(cache->hit_a) && b.has_triangle(cache->hit_b)) {
     if (meet(cache->hit_a, cache->hit_b)) return true;
     cache->hit_a = cache->hit_b = -1;

@@ -6,7 +6,7 @@ namespace clench {
 
 namespace {
 
-// One shape in the frame of the other, whose solid may hold its parts.
+// One shape in the frame of the other, whose solid may contain its parts.
 class Holding {
  public:
   // p_outer = R p_inner + t, off by rounding at most
@@ -17,7 +17,7 @@ class Holding {
     bounds_.high.array() += rounding;
   }
 
-  /// first part whose first corner, asked for by corner(triangle), lies in the solid; -1 for none
+  /// first part whose first corner, given by corner(triangle), lies in the solid; -1: none
   template <class Corner>
   int find(Corner corner) const {
     if (!outer_.closed()) return -1;
@@ -29,7 +29,7 @@ class Holding {
   }
 
  private:
-  // is an extreme of the part out of bounds? A part that is held has none
+  // is an extreme vertex of the part outside? A part that is contained has none
   bool sticks_out(size_t part) const {
     if (inner_.part_extremes().empty()) return false;
     for (const Eigen::Vector3d& p : inner_.part_extremes()[part])

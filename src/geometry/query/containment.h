@@ -1,4 +1,4 @@
-// One solid inside another without their surfaces meeting. For the queries of this module only.
+// One solid inside another without intersecting surfaces. For the queries of this module only.
 #pragma once
 #include <optional>
 
@@ -12,8 +12,8 @@ struct Containment {
   int triangle_a = -1, triangle_b = -1;
 };
 
-/// Does a part of one shape lie in the solid of the other? Asks one corner of each connected part,
-/// which decides only when the surfaces do not meet.
+/// Does a part of one shape lie in the solid of the other? Tests one corner of each connected part,
+/// which is sufficient only if the surfaces do not intersect.
 std::optional<Containment> find_containment(const Shape& a, const Shape& b,
                                             const Placement& placement);
 

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// How often the surface winds about p, counter-clockwise from outside: solid angles over 4 pi.
+// Winding number of the surface about p, counter-clockwise from outside: solid angles over 4 pi.
 // source  van Oosterom & Strackee (1983)
 double winding_by_angles(const Mesh& mesh, const Vector3d& p) {
   double sum = 0;
@@ -28,8 +28,8 @@ double winding_by_angles(const Mesh& mesh, const Vector3d& p) {
   return sum / (4 * std::numbers::pi);
 }
 
-// The same by crossings of one ray: times it leaves less times it enters. Nothing when the ray
-// passes so near to an edge, or p lies so near to a triangle, that rounding would decide.
+// The same by crossings of one ray: exits minus entries. Empty if the ray passes so near to an
+// edge, or p lies so near to a triangle, that rounding would decide.
 std::optional<int> winding_by_ray(const Shape& shape, const Vector3d& p,
                                   const Vector3d& direction) {
   const Ray ray(p, direction);
@@ -50,7 +50,7 @@ bool contains(const Shape& shape, const Vector3d& p) {
   if (!p.allFinite())
     fail("contains: point must be finite [m], got ({}, {}, {})", p.x(), p.y(), p.z());
   if (!shape.closed() || !shape.bounds().holds(p)) return false;
-  // directions along no likely symmetry of a model
+  // directions that are unlikely symmetries of a model
   for (const Vector3d& d : {Vector3d(0.267, 0.535, 0.802), Vector3d(-0.713, 0.211, 0.671),
                             Vector3d(0.149, -0.947, -0.283)})
     if (const auto winding = winding_by_ray(shape, p, d.normalized())) return *winding != 0;

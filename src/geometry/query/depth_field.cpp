@@ -47,7 +47,7 @@ const Slope& DepthField::slope(int triangle) const {
   known = true;
   slope = slope_of(surface_, triangle);
   if (slope.inward.isZero(0)) return slope;
-  // faces may look inward
+  // faces may be reversed
   const Corners c = surface_.mesh().corners(triangle);
   const Vector3d middle = (c[0] + c[1] + c[2]) / 3, step = 1e-9 * solid_.radius() * slope.inward;
   const bool ahead = contains(solid_, middle + step), behind = contains(solid_, middle - step);
@@ -72,7 +72,7 @@ GameRow DepthField::box_row(int side, Simplex corners) const {
   return out;
 }
 
-// Least u . (p - q) over the points q of a triangle within `reach` of p, or less.
+// Lower bound of u . (p - q) over the points q of a triangle within `reach` of p.
 static double min_along(const Vector3d& u, const Vector3d& p, const Corners& c, double reach) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vector3d& q : c) least = std::min(least, u.dot(p - q));
@@ -87,7 +87,7 @@ static double min_along(const Vector3d& u, const Vector3d& p, const Corners& c, 
   return std::max(least, along * height - in_plane * radius);
 }
 
-// triangles of which local_rows judges all pairs
+// maximum number of triangles whose pairs local_rows all examines
 static constexpr int few_triangles = 24;
 
 void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const {
@@ -184,11 +184,11 @@ void DepthField::local_rows(Simplex corners, const Sphere& ball, const NearTrian
   }
 }
 
-// At a point x whose nearest surface point is q, the depth increases along u where u . (x - q) > 0.
-// That holds if q is far enough behind, and also if u leads inward at all triangles with the corner
-// q: the surface there is a graph over the plane perpendicular to u, with the solid above it, and
-// the vertical projection w of x on its tangent cone at q has (x - q) . (w - q) <= 0, since q is no
-// farther from x than the points of the cone.
+// At a point x whose nearest surface point is q, the depth increases along u if u . (x - q) > 0.
+// That holds if q is far enough behind, and also if u points inward at all triangles with the
+// corner q: the surface there is a graph over the plane perpendicular to u, with the solid above
+// it, and the vertical projection w of x on its tangent cone at q has (x - q) . (w - q) <= 0, since
+// q is no farther from x than the points of the cone.
 bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles& near) const {
   if (!near.complete) return false;
   const double rounding = rounding_of(solid_.bounds(), ball.centre);
@@ -199,7 +199,7 @@ bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles&
   for (int turn = 0; turn < max_turns; ++turn) {
     if (!(u.norm() > 1e-6)) return near.count == 0;
     u.normalize();
-    // no corner lies farther behind the centre
+    // no corner lies farther behind the center
     double behind = 0;
     for (const Vector3d& p : corners) behind = std::max(behind, u.dot(ball.centre - p));
     double least = std::numeric_limits<double>::infinity();

@@ -12,18 +12,19 @@ static constexpr double infinity = std::numeric_limits<double>::infinity();
 
 namespace {
 
-// The least distance of the pairs of triangles offered, below a limit.
+// The smallest distance of the pairs of triangles offered, below a limit.
 class NearestPair {
  public:
   explicit NearestPair(double limit) : limit_(limit) { start(); }
 
-  // a reach above 0 lets meeting pairs in whatever the limit
+  // a reach above 0 admits intersecting pairs for any limit
   void start() {
     best_ = {.distance = infinity};
     reach_ = {std::max(limit_, std::numeric_limits<double>::min())};
   }
   void offer(const NearPair& pair, const Closest& c) {
-    // of equally near pairs the first in the order of triangles, so that the way here does not show
+    // of equally near pairs the first in the order of triangles, so that the order of traversal
+    // does not matter
     const bool first =
         c.distance == best_.distance &&
         std::pair(pair.triangle_a, pair.triangle_b) < std::pair(best_.triangle_a, best_.triangle_b);
@@ -77,7 +78,8 @@ Distance distance(const Shape& a, const Shape& b, const Pose& X_AB, double limit
 
   NearestPair nearest(limit);
   const auto offer = [&](const NearPair& pair, const Closest& c) { nearest.offer(pair, c); };
-  // the last closest pair bounds the search; a pair that meets says nothing of which is found first
+  // the last closest pair bounds the search; an intersecting pair does not determine which is found
+  // first
   if (cache && a.has_triangle(cache->closest_a) && b.has_triangle(cache->closest_b)) {
     placement.measure({{cache->closest_a, cache->closest_b}}, offer);
     if (nearest.best().distance == 0) nearest.start();

@@ -8,7 +8,7 @@ namespace clench {
 
 namespace {
 
-// so many at a time as fit one vector: what is known of them stays in registers
+// groups that fit one vector: intermediate results stay in registers
 using F = Lanes<double, DoubleLanes::width, DoubleLanes::width>;
 static_assert(nearest_step % F::count == 0);
 using Vector = Triple<F>;
@@ -23,7 +23,7 @@ CLENCH_INLINE void store(const Vector& v, double (&rows)[3][8], int first) {
   v.x.store(rows[0] + first), v.y.store(rows[1] + first), v.z.store(rows[2] + first);
 }
 
-// not a number becomes 0
+// NaN becomes 0
 CLENCH_INLINE F unit_clamp(const F& x) { return min(max(x, F::all(0)), F::all(1)); }
 
 struct NearestLanes {
@@ -47,7 +47,7 @@ CLENCH_INLINE void offer_segments(const Vector& a, const Vector& u, const F& uu,
   const F nn = dot(n, n), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
   const F crossed = select(nn > 0.0, unit_clamp(dot(cross(v, r), n) / nn), zero);
   const F free = (uv * crossed + vr) / vv;
-  // beyond an end, or where v is a point: that end is the nearest, and u's point follows
+  // beyond an end, or if v is a point: that end is the nearest, and u's point is recomputed
   const F t = unit_clamp(free);
   const F s = select((free > 0.0) & (free < 1.0), crossed, unit_clamp((uv * t - ur) / uu));
   const Vector p = a + u.scaled(s), q = b + v.scaled(t), d = (b + v.scaled(t)) - a - u.scaled(s);
@@ -62,7 +62,7 @@ struct Face {
       : corner(at), u(first), v{-back.x, -back.y, -back.z}, n(cross(u, v)) {
     across_u = cross(n, u), across_v = cross(v, n), nn = dot(n, n);
   }
-  // squared distance of x from its foot on the face; infinity where that lies outside
+  // squared distance of x from its foot on the face; infinity if that lies outside
   CLENCH_INLINE F foot(const Vector& x, Vector& at) const {
     const Vector d = x - corner;
     const F along_u = dot(d, across_v) / nn, along_v = dot(d, across_u) / nn;

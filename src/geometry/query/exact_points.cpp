@@ -34,7 +34,7 @@ CLENCH_INLINE PointLanes squared_length(const PointTriple& v) { return dot(v, v)
 
 }  // namespace
 
-// point_triangle step by step, its branches as choices
+// point_triangle step by step, its branches as selections
 void nearest_to_point(const double at[3], const CornerLanes& triangles, NearestToPoint& out) {
   const PointLanes zero = PointLanes::all(0), one = PointLanes::all(1);
   const PointTriple p = {PointLanes::all(at[0]), PointLanes::all(at[1]), PointLanes::all(at[2])};
@@ -43,7 +43,7 @@ void nearest_to_point(const double at[3], const CornerLanes& triangles, NearestT
   Best best;
   for (int i = 0; i < 3; ++i) {
     const PointLanes length = squared_length(edge[i]);
-    // not a number becomes 0
+    // NaN becomes 0
     const PointLanes t = min(max(dot(edge[i], p - a[i]) / length, zero), one);
     const PointTriple q = a[i] + edge[i].scaled(select(length > 0.0, t, zero));
     best.offer(squared_length(p - q), q);

@@ -1,14 +1,14 @@
 // Nearest points of several triangles to one point at once, in double precision. For the queries of
-// this module only. Includes no Eigen: it may be compiled for the machine at hand.
+// this module only. Includes no Eigen: it may be compiled for the host's instruction set.
 #pragma once
 #include "clench/geometry/tree/lanes.h"
 
 namespace clench {
 
-/// So many triangles are judged at once: few points have more that may be the nearest.
+/// Number of triangles processed at once: few points have more candidates for the nearest.
 inline constexpr int point_step = 2;
 
-/// Corner k of triangle i at [k][i]: three coordinates. Lanes without a triangle repeat another.
+/// Corner k of triangle i at [k][i]: three coordinates. Unused lanes repeat another triangle.
 struct CornerLanes {
   const double* at[3][point_step];
 };
@@ -18,7 +18,7 @@ struct alignas(32) NearestToPoint {
   double q[3][point_step];     ///< on the triangle
 };
 
-/// point_triangle of each, to the bit.
+/// point_triangle of each, bit-exactly.
 void nearest_to_point(const double p[3], const CornerLanes& triangles, NearestToPoint& out);
 
 }  // namespace clench

@@ -67,7 +67,7 @@ class CutTriangle {
   Vector2d flat(const Vector3d& p) const { return {x_.dot(p - origin_), y_.dot(p - origin_)}; }
 
   void cut_along(const Segment& segment) {
-    constexpr size_t many = 4096;  // pieces; beyond it some stay uncut
+    constexpr size_t many = 4096;  // maximum number of pieces; beyond it some stay uncut
     const Vector2d along = segment.q - segment.p;
     if (!(along.norm() > 1e-12 * size_)) return;
     const Vector2d normal = Vector2d(-along.y(), along.x()).normalized();
@@ -180,7 +180,7 @@ class Exposure {
   const Shape& shape_;
   const Progress& progress_;
   std::vector<int> part_;                   // of a triangle
-  std::vector<std::vector<int>> crossing_;  // triangles of other parts that meet a triangle
+  std::vector<std::vector<int>> crossing_;  // triangles of other parts that intersect a triangle
 };
 
 // Do the boxes around two parts overlap?
@@ -204,7 +204,7 @@ bool parts_may_overlap(const Mesh& mesh, DisjointSets& parts) {
 
 static ExposedSurface find_exposed_surface(const Shape& shape, const Progress& progress) {
   if (!shape.closed()) return {};
-  // by common vertices: parts that adjoin have corners at the same places
+  // by common vertices: adjacent parts have corners at the same positions
   DisjointSets parts(shape.mesh().vertices.size());
   for (const Triangle& t : shape.mesh().triangles) parts.join(t[0], t[1]), parts.join(t[0], t[2]);
   if (!parts_may_overlap(shape.mesh(), parts)) return {};

@@ -13,8 +13,8 @@ namespace clench {
 
 namespace {
 
-// so many pairs are judged at once, as soon as a leaf is done: fewer would leave lanes idle, more
-// would let the limit wait
+// number of pairs processed at once after a leaf: fewer would leave lanes idle, more would delay
+// the lowering of the limit
 constexpr int patience = 4;
 
 constexpr uint32_t tasks_between_checks = 4096;
@@ -55,7 +55,7 @@ class PairWalk {
   }
 
  private:
-  // boxes are named by eight times their bundle and their lane
+  // boxes are identified by eight times their bundle plus their lane
   struct Task {
     Real bound;
     int32_t box_a, box_b;
@@ -64,13 +64,13 @@ class PairWalk {
   static int child(const Tree& tree, int box) { return tree.boxes(box / 8).child[box % 8]; }
   static Real size(const Tree& tree, int box) { return tree.boxes(box / 8).size[box % 8]; }
 
-  // bounds beyond the limit are let go
+  // bounds beyond the limit are dropped
   void limit_to(Real limit) {
     limit_ = limit;
     constexpr Real up = 1 + 4 * std::numeric_limits<Real>::epsilon();
     squared_limit_ = limit < 0 ? Real{-1} : limit * limit * up;
   }
-  // n, unit, is the way from a to b where they are nearest, as far as is known
+  // n, unit, is an estimate of the direction from a to b at their nearest points
   void guide(const Triple<Real>& n) {
     guided_ = true;
     along_ = n;
@@ -92,7 +92,7 @@ class PairWalk {
         if (judge_leaves(child_a >> 1, child_b >> 1, visit)) return true;
         continue;
       }
-      // open the larger box
+      // opens the larger box
       const bool open_a = !leaf_a && (leaf_b || size(a_, task.box_a) >= size(b_, task.box_b));
       const int below = (open_a ? child_a : child_b) >> 1;
       Real bounds[8];
@@ -109,8 +109,8 @@ class PairWalk {
     return judge(visit);
   }
 
-  // Bounds of the eight boxes of a bundle of one tree against a box of the other.   returns those
-  // in reach
+  // Bounds of the eight boxes of a bundle of one tree against a box of the other.
+  // returns those within reach
   unsigned open(bool open_a, int bundle, int box, Real* bounds) {
     const BoxBundle& from = open_a ? a_.boxes(bundle) : b_.boxes(bundle);
     const auto rows_a = boxes_a_(open_a ? bundle : box / 8);
@@ -119,7 +119,7 @@ class PairWalk {
     const BoxOf<Real> one = one_of<Real>(open_a ? rows_b : rows_a, box % 8);
     unsigned used = used_lanes(from.child);
     if (guided_) {
-      // from the eight to the one, or the other way
+      // from the eight to the one, or the opposite
       const Real sense = open_a ? 1 : -1;
       const Real one_near = dot(one.centre, along_) - sense * shadow(one, along_);
       const F eight_near = dot(eight.centre, along_) + shadow(eight, along_) * sense;
@@ -127,14 +127,15 @@ class PairWalk {
       used &= ~(gap > limit_).set();
       if (!used) return 0;
     }
-    // the axes of edges would cost more than they spare
+    // the products of axes would cost more than they save
     const F gaps = box_gaps(eight, one);
     gaps.store(bounds);
     return used & ~(gaps > limit_).set();
   }
 
-  // The triangles of a leaf in the frame of a, their bounds along the axes, and how far they reach
-  // along the known direction: upwards those of a, downwards those of b. Kept while the leaf stays.
+  // The triangles of a leaf in the frame of a, their bounds along the axes, and their support along
+  // the known direction: upwards for those of a, downwards for those of b. Cached until the leaf
+  // changes.
   struct Side {
     int leaf = -1;
     Real corners[9][8];
@@ -171,8 +172,8 @@ class PairWalk {
     }
   }
 
-  // The pairs of two leaves, a row of eight for each triangle of a; those in reach by the axes of
-  // a's frame and by the known direction.
+  // The pairs of two leaves, a row of eight for each triangle of a; those within reach by the axes
+  // of a's frame and by the known direction.
   struct Rows {
     uint8_t row[8];
   };
@@ -191,7 +192,7 @@ class PairWalk {
         rows.row[i] &= static_cast<uint8_t>(~(b.along > limit_ + top[i]).set());
         if (!rows.row[i]) continue;
       }
-      // how far box b lies beyond either side of box a
+      // distance by which box b lies beyond either side of box a
       const F x = max(max(b.low.x - high[0][i], F::all(low[0][i]) - b.high.x), zero);
       const F y = max(max(b.low.y - high[1][i], F::all(low[1][i]) - b.high.y), zero);
       const F z = max(max(b.low.z - high[2][i], F::all(low[2][i]) - b.high.z), zero);
@@ -206,7 +207,7 @@ class PairWalk {
     return rows;
   }
 
-  // Pairs of two leaves in reach wait until eight are there to be judged at once.
+  // Pairs of two leaves within reach are collected until eight can be processed at once.
   bool judge_leaves(int leaf_a, int leaf_b, PairVisit visit) {
     const TriangleBundle &from_a = a_.leaf(leaf_a), &from_b = b_.leaf(leaf_b);
     load_sides(leaf_a, leaf_b);
@@ -226,11 +227,12 @@ class PairWalk {
           sift(rows);
         }
       }
-    // what may bring the limit down does not wait
+    // pairs that may lower the limit are processed immediately
     return waiting_.count() >= patience && judge(visit);
   }
 
-  // What waits: is it in reach?   returns whether the walk ends
+  // Are the collected pairs within reach?
+  // returns  does the traversal end?
   bool judge(PairVisit visit) {
     return waiting_.take(
         [&](const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all, const NearPair* pairs) {
@@ -253,7 +255,7 @@ class PairWalk {
     return false;
   }
 
-  // No more than the least of the eight distances matters from now on, and its way is a guide.
+  // Lowers the limit to the smallest of the eight distances; its direction guides the search.
   void lower_limit(const NearBounds<F>& bounds, unsigned taken, const NearPair* pairs) {
     Real high[8];
     bounds.high.store(high);
@@ -277,7 +279,7 @@ class PairWalk {
   FrameBoxes<F, true> boxes_b_;
   const Real slack_;
   Real limit_ = 0, squared_limit_ = 0;
-  // what is farther than this part of the nearest found so far does not matter
+  // pairs farther than this fraction of the nearest found so far are irrelevant
   Real part_ = 1, best_ = std::numeric_limits<Real>::infinity();
   NearPair nearest_{-1, -1};
   bool guided_ = false;

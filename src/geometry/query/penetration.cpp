@@ -17,11 +17,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Where the deepest point may be. Triangles of a group are numbers in the search's list.
+// A region that may contain the deepest point. Triangles of a group are indices into the search's
+// list.
 struct Region {
   enum class Kind { group, surface, solid };
   Kind kind = Kind::group;
-  double bound = 0;  // nothing in it is deeper [m]
+  double bound = 0;  // upper bound on the depth in it [m]
   int order = 0;     // of creation; breaks ties between equal bounds
   int begin = 0, end = 0;
   std::array<Vector3d, 4> points{};
@@ -234,7 +235,7 @@ class DeepestPoint {
 
   bool holds(const Vector3d& p) const { return contains(b_, placement_.to_b(p)); }
 
-  // Is the ball outside b? `held` receives: is it inside b?
+  // Is the ball outside b? `held` returns: is it inside b?
   bool is_beside(const Sphere& ball, bool& held) const {
     const Vector3d p_B = placement_.to_b(ball.centre);
     const Vector3d from = p_B - Vector3d::Map(b_.tree().centre());
@@ -346,8 +347,8 @@ class DeepestPoint {
     }
   }
 
-  // A row from the plane of the convex b that p lies beyond: no less than the bound in b, and
-  // steeply falling outside.
+  // A row from the plane of the convex b beyond which p lies: no less than the bound in b, and
+  // steeply decreasing outside.
   GameRow wall(Region& region, double bound, const Vector3d& p) const {
     constexpr double steep = 1e4;
     const std::span<Vector3d> corners = region.corners();
@@ -379,10 +380,10 @@ class DeepestPoint {
   std::vector<Vector3d> vertices_;  // of b
   std::vector<int> triangles_;      // of b that may be inside a
   std::priority_queue<Region, std::vector<Region>, Deeper> queue_;
-  std::vector<Region>* branch_ = nullptr;  // where parts go instead of the queue
+  std::vector<Region>* branch_ = nullptr;  // destination of parts instead of the queue
   NearTriangles near_;                     // of the simplex at hand
   int count_ = 0;
-  double left_out_ = 0;  // no region left out is deeper [m]
+  double left_out_ = 0;  // no omitted region is deeper [m]
   Penetration best_;
 };
 

@@ -19,8 +19,8 @@ double motion_bound(const Shape& b, const Pose& from, const Pose& to) {
   const Eigen::Matrix3d before = from.rotation.normalized().toRotationMatrix(),
                         after = to.rotation.normalized().toRotationMatrix();
   const Vector3d centre = (after - before) * b.centre() + (to.position - from.position);
-  // a turn by t moves points by 2 sin(t/2) of their distance from the centre, and the difference of
-  // the matrices has that times the root of 2 as its norm
+  // a rotation by t moves points by 2 sin(t/2) times their distance from the center, and the norm
+  // of the difference of the matrices is that times the square root of 2
   const double turn = (after - before).norm() * std::sqrt(0.5);
   return (centre.norm() + turn * b.radius()) * (1 + 1e-12) +
          rounding_of(b.bounds(), from.position) + rounding_of(b.bounds(), to.position);
@@ -32,7 +32,7 @@ Pose checked_pose(const Pose& X_AB) {
   if (!(std::abs(norm - 1) < 0.1))
     fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
          q.z());
-  // beyond this, products of lengths leave the range of doubles [m]
+  // beyond this, products of lengths exceed the range of doubles [m]
   constexpr double largest_offset = 1e30;
   const Vector3d& p = X_AB.position;
   if (!p.allFinite() || p.cwiseAbs().maxCoeff() > largest_offset)

@@ -1,4 +1,4 @@
-// Shape b in the frame of shape a: the exact side of every query on a pair. For the queries of this
+// Shape b in the frame of shape a: the exact part of every query on a pair. For the queries of this
 // module only.
 #pragma once
 #include <algorithm>
@@ -12,27 +12,28 @@
 
 namespace clench {
 
-/// What rounding may add to a distance between things within the bounds, or at p or as far away [m]
+/// Rounding error of a distance within the bounds, or at p or at the same distance as p [m]
 double rounding_of(const Bounds& bounds, const Eigen::Vector3d& p);
 
-/// of a pair of shapes: equal for equal meshes in the same order
+/// fingerprint of a pair of shapes: equal for equal meshes in the same order
 inline uint64_t fingerprint(const Shape& a, const Shape& b) {
   return Hasher::mix(a.hash()) ^ b.hash();
 }
 
-/// No point of b moves more between the two poses of it, rounding of coordinates included [m]
+/// Upper bound on the displacement of any point of b between two poses, rounding of coordinates
+/// included [m]
 double motion_bound(const Shape& b, const Pose& from, const Pose& to);
 
 /// X_AB with its quaternion normalized.
-/// throws  Error where the quaternion is far from unit, or the position is not finite or too far
+/// throws  Error if the quaternion is far from unit, or the position is not finite or too far
 Pose checked_pose(const Pose& X_AB);
 
 struct PairCache;
 
-/// All pair queries move corners by the same arithmetic.
+/// All pair queries transform corners by the same arithmetic.
 class Placement {
  public:
-  /// throws Error when the pose is not one
+  /// throws Error if the pose is invalid
   Placement(const Shape& a, const Shape& b, const Pose& X_AB);
 
   Corners corners_a(int triangle) const { return mesh_a_.corners(triangle); }
@@ -45,15 +46,15 @@ class Placement {
   Eigen::Vector3d to_b(const Eigen::Vector3d& p_A) const {
     return rotation_.transpose() * (p_A - position_);
   }
-  /// exact distances of pairs, each given to take(pair, closest) in their order
+  /// computes exact distances of pairs and passes each to take(pair, closest), in order
   template <class Take>
   void measure(const std::vector<NearPair>& pairs, Take&& take) const;
   const Eigen::Matrix3d& rotation() const { return rotation_; }
   const Eigen::Vector3d& position() const { return position_; }
   const TreePair& trees() const { return trees_; }
   double rounding() const { return trees_.rounding; }
-  /// Is it soon seen that the solids are farther apart than reach [m]? Looks first where the cache
-  /// remembers.
+  /// Can it be shown quickly that the solids are farther apart than reach [m]? Starts with the
+  /// cached direction.
   bool clearly_apart(double reach, PairCache* cache = nullptr) const;
 
  private:
@@ -67,7 +68,7 @@ template <class Take>
 void Placement::measure(const std::vector<NearPair>& pairs, Take&& take) const {
   Corners a[8], b[8];
   Closest closest[8];
-  // most triangles come in several pairs
+  // most triangles occur in several pairs
   int kept[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
   Corners kept_b[8];
   StopCheck check(512);

@@ -23,20 +23,21 @@ Triple<Real> triple(const double v[3]) {
   return {static_cast<Real>(v[0]), static_cast<Real>(v[1]), static_cast<Real>(v[2])};
 }
 
-// Depth first, the child of least bound on top. bounds(boxes) gives eight of them, or their squares
-// where limit() is one; judge(leaf) ends the walk by returning true; limit() may sink on the way.
+// Depth first, the child of smallest bound on top. bounds(boxes) returns eight of them, or their
+// squares if limit() is one; judge(leaf) ends the traversal by returning true; limit() may decrease
+// meanwhile.
 template <class F, class Bounds, class Judge, class Limit>
 bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
   using Real = typename F::Real;
   Task<Real> stack[8 * deepest_tree + 8];
   int height = 0;
-  // bundle 0 holds one box alone
+  // bundle 0 contains a single box
   stack[height++] = {std::numeric_limits<Real>::lowest(), tree.boxes(0).child[0]};
   while (height > 0) {
     Task<Real> task = stack[--height];
     if (task.bound > limit()) continue;
-    // down to the child of least bound, while the others wait: their order would cost more than it
-    // spares
+    // descends to the child of smallest bound, while the others wait unsorted: sorting would cost
+    // more than it saves
     while (!(task.child & 1)) {
       const BoxBundle& from = tree.boxes(task.child >> 1);
       const F gaps = bounds(load_boxes<F>(from));
@@ -47,7 +48,7 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
       near ^= 1u << next;
       Real values[8];
       gaps.store(values);
-      // without branches, as none would be foreseen
+      // branch-free, as branches would be mispredicted
       for (int lane = 0; lane < 8; ++lane) {
         stack[height] = {values[lane], from.child[lane]};
         height += near >> lane & 1;
@@ -61,7 +62,8 @@ bool walk(const Tree& tree, Bounds&& bounds, Judge&& judge, Limit&& limit) {
 
 double length_of(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// What may be near, until it is sure what is: the first ones at hand, more of them elsewhere.
+// Candidates for the nearest, until they are certain: the first ones in registers, more of them in
+// memory.
 template <class Real>
 class Candidates {
  public:
@@ -107,7 +109,7 @@ void near_point(const Tree& tree, const double at[3], double extent, double roun
       const Real high = std::sqrt(squared) + 2 * slack;
       if (high < limit) limit = high, squared_limit = limit * limit * up;
     }
-    // lower bounds by squares: those that are no number stay
+    // lower bounds by squares: NaN bounds are kept
     const auto beyond = (bounds.height > Real{0}) &
                         (bounds.height * bounds.height > bounds.squared_high * squared_limit);
     unsigned left = used_lanes(leaf.triangle) & ~beyond.set();
@@ -126,7 +128,7 @@ void near_point(const Tree& tree, const double at[3], double extent, double roun
   found.visit(limit, visit);
 }
 
-// Where a ray enters eight boxes grown by slack, at least 0; infinity where it misses.
+// Distance at which a ray enters eight boxes enlarged by slack, at least 0; infinity if it misses.
 template <class F>
 CLENCH_INLINE F ray_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& origin,
                          const Triple<typename F::Real>& direction, typename F::Real slack) {
@@ -138,7 +140,8 @@ CLENCH_INLINE F ray_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& 
   for (int k = 0; k < 3; ++k) {
     const F middle = dot(eight.axis[k], to), speed = dot(eight.axis[k], direction);
     const F half = eight.half[k] + slack;
-    // a ray along the slab meets it all the way or never; that of a speed lost in rounding too
+    // a ray parallel to the slab is inside it completely or never; one whose component is lost in
+    // rounding, too
     const auto still = abs(speed) < std::numeric_limits<Real>::epsilon();
     const F s = (middle - half) / speed, t = (middle + half) / speed;
     const auto outside = abs(middle) > half;
@@ -153,7 +156,7 @@ CLENCH_INLINE const F& coordinate(const Triple<F>& v, int i) {
   return i == 0 ? v.x : i == 1 ? v.y : v.z;
 }
 
-// Triangles that the ray may meet, by their shadows along it, and how far along they begin.
+// Triangles that the ray may hit, by their projections on it, and lower bounds of their distances.
 template <class F>
 CLENCH_INLINE unsigned crossed(const TrianglesOf<F>& t, const Triple<typename F::Real>& origin,
                                const Triple<typename F::Real>& direction, typename F::Real slack,
@@ -219,7 +222,7 @@ void for_near_triangles(const Tree& tree, const double p[3], double rounding, do
 
 bool for_crossed_triangles(const Tree& tree, const double origin[3], const double direction[3],
                            double rounding, const double& limit, TriangleVisit visit) {
-  // begin where the ray enters the sphere about the tree, so that a far origin costs no digits
+  // starts where the ray enters the sphere about the tree, so that a distant origin costs no digits
   const double along =
       -(origin[0] * direction[0] + origin[1] * direction[1] + origin[2] * direction[2]);
   const double passed = std::max(0.0, along - 2 * tree.radius());

@@ -20,7 +20,7 @@ std::optional<RayHit> cast_ray(const Shape& shape, const Eigen::Vector3d& origin
   ray.for_near_triangles(shape, best.distance, [&](int triangle) {
     const Crossing c = ray.cross(shape.mesh().corners(triangle));
     if (c.kind != Crossing::Kind::hit || c.distance < 0) return false;
-    // on a common edge the lower index, so that the order of the walk does not matter
+    // on a common edge the lower index, so that the order of traversal does not matter
     if (c.distance < best.distance || (c.distance == best.distance && triangle < best.triangle))
       best = {c.distance, origin + c.distance * direction, triangle};
     return false;

@@ -1,5 +1,5 @@
-// A ray against triangles without gaps between neighbours.
-// For the queries of this module only.
+// A ray against triangles without gaps between adjacent triangles. For the queries of this module
+// only.
 // source  Woop, Benthin & Wald (2013), watertight ray/triangle intersection
 #pragma once
 #include <algorithm>
@@ -10,11 +10,11 @@
 namespace clench {
 
 struct Crossing {
-  /// unsure: rounding may have decided; given only if asked for
+  /// unsure: rounding may have decided; returned only on request
   enum class Kind { miss, hit, unsure };
   Kind kind = Kind::miss;
   double distance = 0;  ///< along the ray [m]; negative behind the origin
-  /// +1 when the ray leaves through the outside of the triangle, -1 when it enters
+  /// +1 if the ray leaves through the outside of the triangle, -1 if it enters
   int side = 0;
 };
 
@@ -29,7 +29,7 @@ class Ray {
 
   /// `doubt`: relative size of edge functions that count as unsure, 0 for none
   Crossing cross(const Corners& triangle, double doubt = 0) const {
-    // the ray as z axis: twice the areas that it makes with the three edges
+    // with the ray as z axis: twice the areas that it forms with the three edges
     double x[3], y[3], z[3], extent = 0;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d p = triangle[i] - origin_;
@@ -49,8 +49,8 @@ class Ray {
     return {Crossing::Kind::hit, depth / area, (area > 0) == (direction_[z_] > 0) ? 1 : -1};
   }
 
-  /// Calls visit(triangle) for all triangles that the ray may meet within `limit`, near ones early;
-  /// visit may lower `limit`, and ends the walk by returning true.
+  /// Calls visit(triangle) for all triangles that the ray may hit within `limit`, near ones early;
+  /// visit may lower `limit`, and ends the traversal by returning true.
   bool for_near_triangles(const Shape& shape, const double& limit, TriangleVisit visit) const {
     const Eigen::Vector3d from = origin_ - Eigen::Vector3d::Map(shape.tree().centre());
     return for_crossed_triangles(shape.tree(), from.data(), direction_.data(),

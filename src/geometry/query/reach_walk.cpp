@@ -10,18 +10,17 @@
 
 namespace clench {
 
-// Walks whose reach is known from the start: which triangles may meet, or be within a threshold.
-// What they name is judged exactly, and all of it is named, so neither the order of the walk nor
-// the rounding of its bounds shows in an answer: the compiler may contract products and sums in
-// this file.
+// Traversals whose reach is known from the start: which triangles may intersect, or be within a
+// threshold. All candidates are tested exactly, so neither the order of traversal nor the rounding
+// of bounds affects an answer: the compiler may contract products and sums in this file.
 namespace {
 
-// When one pair that meets is enough, so many are judged as soon as a leaf is done.
+// If one intersecting pair is sufficient, this many are processed as soon as a leaf is done.
 constexpr int reach_patience = 3;
 
 constexpr uint32_t reach_tasks_between_checks = 4096;
 
-// ordered: what overlaps most first
+// ordered: largest overlap first
 template <class F, bool ordered>
 class ReachWalk {
   using Real = typename F::Real;
@@ -58,8 +57,8 @@ class ReachWalk {
   }
 
  private:
-  // boxes are named by eight times their bundle and their lane; leaves have no size, so that what
-  // is opened is always the larger one
+  // boxes are identified by eight times their bundle plus their lane; leaves have no size, so that
+  // the larger one is always opened
   struct Task {
     Real gap;
     int32_t box_a, box_b, child_a, child_b;
@@ -72,7 +71,8 @@ class ReachWalk {
     return from.child[lane] & 1 ? -1 : from.size[lane];
   }
 
-  // Puts the children in reach on the stack.   returns how high it is then
+  // Pushes the children within reach onto the stack.
+  // returns  its new height
   CLENCH_INLINE int open(const Task& task, int height) {
     const bool opens_a = task.size_a >= task.size_b;
     const int bundle = (opens_a ? task.child_a : task.child_b) >> 1;
@@ -85,7 +85,7 @@ class ReachWalk {
     const F gaps = axis_gaps(eight, one);
     unsigned near = used_lanes(from.child) & ~(gaps > limit_).set();
     if (!near) return height;
-    // these part what the faces do not, near an edge
+    // these separate pairs near an edge that the faces do not
     near &= ~(edge_gaps(eight, one) > limit_).set();
     Real values[8];
     gaps.store(values);
@@ -124,7 +124,7 @@ class ReachWalk {
       t.corner[k].y.store(side.corners[3 * k + 1]);
       t.corner[k].z.store(side.corners[3 * k + 2]);
     }
-    // no plane where there is no area to speak of
+    // no plane if the area is negligible
     Triple<F> n = cross(q - p, r - p);
     const F squared = dot(n, n), zero = F::all(0);
     constexpr Real least = std::numeric_limits<Real>::min() * Real{0x1p30};
@@ -199,7 +199,7 @@ class ReachWalk {
     return expected & ~(off_a | off_b).set();
   }
 
-  // Pairs of two leaves in reach wait for others, to be judged at once.
+  // Pairs of two leaves within reach are collected and processed together.
   bool judge_leaves(const Task& task, PairVisit visit) {
     const int leaf_a = task.child_a >> 1, leaf_b = task.child_b >> 1;
     const TriangleBundle &from_a = a_.leaf(leaf_a), &from_b = b_.leaf(leaf_b);
@@ -226,7 +226,8 @@ class ReachWalk {
     return false;
   }
 
-  // What waits: is it in reach?   returns whether the walk ends
+  // Are the collected pairs within reach?
+  // returns  does the traversal end?
   bool judge(PairVisit visit) {
     return waiting_.take(
         [&](const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all, const NearPair* pairs) {

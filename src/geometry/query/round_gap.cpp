@@ -11,8 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Where a function that falls and then rises has its minimum on [low, high]; slope_at(x) is its
-// slope.
+// Minimum on [low, high] of a function that decreases and then increases; slope_at(x) is its slope.
 template <class SlopeAt>
 double minimum_by_slope(double low, double high, SlopeAt&& slope_at) {
   constexpr int max_iterations = 200;
@@ -20,7 +19,7 @@ double minimum_by_slope(double low, double high, SlopeAt&& slope_at) {
   if (below >= 0) return low;
   if (above <= 0) return high;
   // regula falsi that halves the slope at the end it keeps (Illinois), and bisection every third
-  // time
+  // step
   for (int i = 0; i < max_iterations && high - low > 1e-15 * (std::abs(low) + std::abs(high));
        ++i) {
     double x = low + (high - low) * (-below / (above - below));
@@ -69,8 +68,8 @@ NearPlace nearest_on_segment(const PlacedRound& round, const Vector3d& p, const 
   return round.nearest_to(p + s * way);
 }
 
-// A nearest place inside the triangle lies straight below the solid's extreme point. If the plane
-// cuts the solid, the place is taken from the segment between the solid's two extreme points.
+// A nearest point inside the triangle lies straight below the solid's extreme point. If the plane
+// cuts the solid, the point is taken from the segment between the solid's two extreme points.
 NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle) {
   if (round.solid.is_ball()) return round.nearest_to(point_triangle(round.X.position, triangle).q);
   if (round.solid.kind == Round::capsule) {
@@ -104,12 +103,12 @@ namespace {
 
 RoundGap swapped(const RoundGap& gap) { return {gap.gap, gap.p_b, gap.p_a, -gap.normal}; }
 
-// The gap between a and a place of b's surface or solid.
+// The gap between a and a point of b's surface or solid.
 RoundGap gap_at(const NearPlace& place) {
   return {place.distance, place.point - place.distance * place.normal, place.point, place.normal};
 }
 
-// The gap between a and a capsule b: from the axis of b, less its radius.
+// The gap between a and a capsule b: from the axis of b, minus its radius.
 RoundGap gap_of_capsule(const PlacedRound& a, const PlacedRound& b) {
   const double radius = b.solid.radii.x();
   const Vector3d end = axis_end(b);
@@ -118,7 +117,7 @@ RoundGap gap_of_capsule(const PlacedRound& a, const PlacedRound& b) {
           place.point - radius * place.normal, place.normal};
 }
 
-// The place nearest to a on the rim of a cylinder b at z = height.
+// The point nearest to a on the rim of a cylinder b at z = height.
 NearPlace nearest_on_rim(const PlacedRound& a, const PlacedRound& b, double height) {
   constexpr int samples = 24;
   constexpr double step = 2 * std::numbers::pi / samples;
@@ -132,7 +131,7 @@ NearPlace nearest_on_rim(const PlacedRound& a, const PlacedRound& b, double heig
     distances[i] = a.nearest_to(at(i * step)).distance;
     if (distances[i] < distances[best]) best = i;
   }
-  // search beside the best sample, and beside others that are farther by no more than one step
+  // searches beside the best sample, and beside others that are farther by no more than one step
   NearPlace out;
   for (int i = 0; i < samples; ++i) {
     const double before = distances[(i + samples - 1) % samples],
@@ -148,8 +147,8 @@ NearPlace nearest_on_rim(const PlacedRound& a, const PlacedRound& b, double heig
   return out;
 }
 
-// The nearest place of a cylinder lies on a rim, inside a cap, where it is straight above the
-// extreme point of the other solid, or on the side, where it is abreast of the axis.
+// The nearest point of a cylinder lies on a rim, inside a cap straight above the extreme point of
+// the other solid, or on the side at the height of the axis point.
 RoundGap gap_of_cylinder(const PlacedRound& a, const PlacedRound& b) {
   const double radius = b.solid.radii.x(), half = b.solid.half;
   NearPlace best;
@@ -206,7 +205,7 @@ RoundGap gap_of_ellipsoids(const PlacedRound& a, const PlacedRound& b) {
     const Vector3d between = b.farthest(-n) - a.farthest(n);
     const Vector3d slope = between - n.dot(between) * n;
     if (slope.norm() <= 1e-14 * (a.solid.radii.maxCoeff() + b.solid.radii.maxCoeff())) break;
-    // Newton's step on the sphere: the gap curves downwards by H, and by its own size
+    // Newton's step on the sphere: the gap has curvature -H, minus its own size
     Eigen::Matrix3d H = curvature(A, n) + curvature(B, n);
     H += gap * (Eigen::Matrix3d::Identity() - n * n.transpose()) + n * n.transpose();
     Vector3d step = H.ldlt().solve(slope);
@@ -231,7 +230,7 @@ RoundGap gap_between(const PlacedRound& a, const PlacedRound& b) {
   if (a.solid.kind == Round::capsule) return swapped(gap_of_capsule(b, a));
   if (b.solid.kind == Round::cylinder) {
     const RoundGap gap = gap_of_cylinder(a, b);
-    // an overlap of two cylinders may show in one of the two orders alone
+    // an overlap of two cylinders may show in only one of the two orders
     if (gap.gap <= 0 || a.solid.kind != Round::cylinder) return gap;
     const RoundGap back = swapped(gap_of_cylinder(b, a));
     return back.gap < gap.gap ? back : gap;

@@ -1,4 +1,4 @@
-// Where a round solid comes nearest to a segment, a triangle or another round solid.
+// Nearest points of a round solid and a segment, a triangle or another round solid.
 #pragma once
 #include <limits>
 
@@ -7,14 +7,14 @@
 
 namespace clench {
 
-/// A place near a round solid, in the frame that the solid is placed in.
+/// A point near a round solid, in the frame in which the solid is placed.
 struct NearPlace {
   double distance = std::numeric_limits<double>::infinity();  ///< negative inside the solid [m]
-  Eigen::Vector3d point;                                      ///< the place [m]
-  Eigen::Vector3d normal;  ///< unit, of the solid's surface, towards the place
+  Eigen::Vector3d point;                                      ///< the point [m]
+  Eigen::Vector3d normal;  ///< unit, of the solid's surface, towards the point
 };
 
-/// A round solid in the frame of the thing that it is compared with.
+/// A round solid in the frame of the shape that it is compared with.
 struct PlacedRound {
   Round solid;
   Pose X;  ///< frame of the solid in that frame
@@ -30,16 +30,17 @@ struct PlacedRound {
   }
 };
 
-/// The place on the segment from p to q with the least distance.
+/// The point of the segment from p to q with the smallest distance.
 NearPlace nearest_on_segment(const PlacedRound& round, const Eigen::Vector3d& p,
                              const Eigen::Vector3d& q);
 
-/// The same on a triangle. If the triangle passes through the solid, the place is inside the solid.
+/// The same for a triangle. If the triangle passes through the solid, the point is inside the
+/// solid.
 NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle);
 
 /// The gap between two round solids a and b.
 struct RoundGap {
-  /// of the surfaces, to 1e-9 of their size; where the solids overlap, minus the depth [m]
+  /// of the surfaces, to 1e-9 of their size; if the solids overlap, minus the depth [m]
   double gap = 0;
   Eigen::Vector3d p_a, p_b;  ///< the nearest points, on both surfaces [m]
   Eigen::Vector3d normal;    ///< unit, from a into b

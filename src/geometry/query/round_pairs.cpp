@@ -31,7 +31,7 @@ std::vector<int> triangles_near(const Shape& piece_of, int piece, const Shape& f
 
 namespace {
 
-// The place of facets nearest to a round piece, in the frame of the facets.
+// The point of facets nearest to a round piece, in the frame of the facets.
 struct FacetPlace : NearPlace {
   int triangle = -1;
 };
@@ -47,7 +47,7 @@ class FacetQuery {
   }
 
   /// returns  triangle -1 if nothing is nearer than the limit; distance 0 if the piece's axis
-  ///          meets the facets or lies inside their solid
+  ///          intersects the facets or lies inside their solid
   FacetPlace nearest_place(double limit) const {
     const double around = core_of(round_.solid).around;
     const Distance core = distance(facets_, piece_of_.core(piece_), X_FP_, limit + around);
@@ -119,8 +119,9 @@ class PartsQuery {
     for (size_t j = 0; a_.facets && j < b_.rounds.size(); ++j) check(), facets_of_a(j);
   }
 
-  // Parts that overlap so deeply that no way out is seen count before all others.
-  // deepest  how deep the parts may lie in each other
+  // Parts that overlap so deeply that no separating displacement is found take precedence over all
+  // others.
+  // deepest  largest depth that the parts may have
   void offer(const Distance& found, double deepest) {
     if (found.distance <= -deepest || found.distance == 0) {
       if (!deep_) deep_ = found, deep_->distance = 0;

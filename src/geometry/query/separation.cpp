@@ -23,7 +23,7 @@ class PolytopePair {
         b_(pair.b->bounding_polytope()),
         b_to_a_(move_of<float>(pair)) {}
 
-  // from the farthest corner of a to that of b which is farthest back
+  // from the farthest corner of a to the rearmost corner of b
   CLENCH_INLINE Triple<float> between(const Triple<float>& n) const {
     const auto& row = b_to_a_.row;
     const Triple<float> n_b = row[0].scaled(n.x) + row[1].scaled(n.y) + row[2].scaled(n.z);
@@ -43,10 +43,11 @@ class PolytopePair {
 
 }  // namespace
 
-// A direction that fails is mirrored by what it failed for, as long as that does it good.
+// If a direction fails to separate, it is reflected at the violating support vector, while that
+// reduces the overlap.
 // source  Chung & Wang (1996), Quick collision detection of polytopes in virtual environments
 Separation find_separation(const TreePair& pair, double reach, const double start[3]) {
-  // mirrored so often, a direction is still unit up to 2^-14
+  // after this many reflections, a direction is still unit up to 2^-14
   constexpr int max_mirrors = 12;
   Separation out;
   const double extent = extent_of(pair), sizes = pair.a->radius() + pair.b->radius();

@@ -13,10 +13,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-double unit_clamp(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }  // not a number becomes 0
+double unit_clamp(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }  // NaN becomes 0
 
-// Two triangles relative to the first corner of the first one, so that a far origin costs
-// no digits.
+// Two triangles relative to the first corner of the first one, so that a distant origin costs no
+// digits.
 struct Local {
   Vector3d origin;
   Corners a, b, edge_a, edge_b;
@@ -37,7 +37,7 @@ struct Local {
     normal_b = edge_b[0].cross(edge_b[1]);
   }
 
-  // do the triangles lie apart along the axis, by more than rounding can feign?
+  // are the triangles separated along the axis, by more than rounding could cause?
   bool apart_along(const Vector3d& axis) const {
     const auto [low_a, high_a] = std::minmax({axis.dot(a[0]), axis.dot(a[1]), axis.dot(a[2])});
     const auto [low_b, high_b] = std::minmax({axis.dot(b[0]), axis.dot(b[1]), axis.dot(b[2])});
@@ -87,7 +87,7 @@ struct NearestPoints {
   }
 };
 
-// Foot of x on the plane, if it lies inside the triangle and is nearer than what is known.
+// Foot of x on the plane, if it lies inside the triangle and is nearer than the present result.
 bool foot_inside(const Vector3d& x, const Vector3d& corner, const Vector3d& u, const Vector3d& v,
                  const Vector3d& normal, double nearer_than_squared, Vector3d& foot) {
   const double nn = normal.squaredNorm();
@@ -101,7 +101,7 @@ bool foot_inside(const Vector3d& x, const Vector3d& corner, const Vector3d& u, c
   return true;
 }
 
-// The bundle's arithmetic for one pair, so that one and eight give the same bits.
+// The arithmetic of eight lanes for one pair, so that one and eight give the same bits.
 NearestBundle nearest_features(const Local& l) {
   PairBundle pairs;
   for (int k = 0; k < 3; ++k)
@@ -113,7 +113,7 @@ NearestBundle nearest_features(const Local& l) {
   return out;
 }
 
-// A point of both: where an edge of one pierces the other, or where boundaries cross.
+// A common point: where an edge of one pierces the other, or where boundaries cross.
 Vector3d common_point(const Local& l, double nearest_squared, const Vector3d& nearest) {
   double best = nearest_squared;
   Vector3d point = nearest;
@@ -142,7 +142,7 @@ Closest segment_segment(const Vector3d& a0, const Vector3d& a1, const Vector3d& 
 }
 
 Closest point_triangle(const Vector3d& p, const Corners& triangle) {
-  // the boundary first: it is all there is of a triangle without area
+  // the boundary first: a triangle without area consists of nothing else
   NearestPoints best;
   Corners edge;
   for (int i = 0; i < 3; ++i) {
@@ -158,8 +158,9 @@ Closest point_triangle(const Vector3d& p, const Corners& triangle) {
   return {std::sqrt(best.squared), p, best.q};
 }
 
-// Triangles are apart when one of the usual axes says so, or the line between their nearest points:
-// the latter alone would do but for rounding, and it covers coplanar and degenerate triangles.
+// Triangles are disjoint if one of the usual axes separates them, or the line between their nearest
+// points: the latter alone would be sufficient but for rounding, and it covers coplanar and
+// degenerate triangles.
 static Closest closest_of(const Local& l, const NearestBundle& nearest, int lane) {
   const auto at = [&](const double(&rows)[3][8]) {
     return Vector3d(rows[0][lane], rows[1][lane], rows[2][lane]);

@@ -1,5 +1,5 @@
-// Exact tests between two triangles, a point and a triangle, two segments. Degenerate ones
-// included: a triangle without area is the segment or point that it covers.
+// Exact tests between two triangles, a point and a triangle, two segments. Includes degenerate
+// triangles: one without area is the segment or point that it covers.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -21,14 +21,14 @@ Closest segment_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
 /// source  Ericson (2005), ch. 5.1.5
 Closest point_triangle(const Eigen::Vector3d& p, const Corners& triangle);
 
-/// Do they share a point? Touching counts: apart means that some direction shows a gap beyond
-/// rounding, some 1e-14 of the extent of the two.
+/// Do they share a point? Touching counts: disjoint means that some direction shows a gap beyond
+/// rounding, about 1e-14 of the extent of the two.
 bool triangles_meet(const Corners& a, const Corners& b);
 
-/// Distance and witness points; 0 and a common point when they meet, and only then.
+/// Distance and witness points; 0 and a common point if they intersect, and only then.
 Closest triangle_triangle(const Corners& a, const Corners& b);
 
-/// triangle_triangle of `count` pairs, several times as fast; the same bits
+/// triangle_triangle of `count` pairs, several times as fast; same bits
 void triangle_pairs(const Corners* a, const Corners* b, int count, Closest* out);
 
 }  // namespace clench

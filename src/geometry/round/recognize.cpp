@@ -77,7 +77,7 @@ static RoundPiece about_axis(const Mesh& mesh, const Vector3d& centroid, const V
 }
 
 // Candidates for an axis of symmetry: the principal axes of the solid, the vertices and the faces.
-// Where two principal moments of one of them are equal, those of another may differ.
+// If two principal moments of one of them are equal, those of another may differ.
 static std::vector<Vector3d> axes_of(const Mesh& mesh, const MassProperties& solid) {
   Matrix3d points = Matrix3d::Zero(), faces = Matrix3d::Zero();
   for (const Vector3d& v : mesh.vertices)
@@ -137,7 +137,7 @@ std::vector<RoundPiece> round_parts(const Mesh& mesh) {
       for (int& v : t) v = std::ranges::lower_bound(numbers, std::pair(v, 0))->second;
       alone.triangles.push_back(t);
     }
-    if (begun[part]) {  // its triangles do not follow one another
+    if (begun[part]) {  // its triangles are not consecutive
       std::erase_if(out, [&](const RoundPiece& piece) { return part_of(piece.first) == part; });
     } else if (auto piece = round_of(alone); piece && find_faults(alone).closed()) {
       piece->first = first;

@@ -1,5 +1,5 @@
-// Round solids by their formulas. Contacts and rolling use the formulas; pictures, masses and rays
-// use the triangles of the mesh.
+// Round solids given by closed formulas. Contacts and rolling use the formulas; pictures, masses
+// and rays use the triangles of the mesh.
 #pragma once
 #include <Eigen/Core>
 
@@ -15,8 +15,8 @@ struct Round {
     ellipsoid  ///< of semi-axes radii
   };
   Kind kind = capsule;
-  Eigen::Vector3d radii = Eigen::Vector3d::Zero();  ///< > 0 where used, else 0 [m]
-  double half = 0;                                  ///< >= 0; 0 of an ellipsoid [m]
+  Eigen::Vector3d radii = Eigen::Vector3d::Zero();  ///< > 0 if used, otherwise 0 [m]
+  double half = 0;                                  ///< >= 0; 0 for an ellipsoid [m]
 
   static Round ball(double radius) { return {capsule, {radius, 0, 0}, 0}; }
   static Round capsule_of(double radius, double length) {
@@ -43,8 +43,9 @@ Core core_of(const Round& round);
 /// A round solid, and the triangles of a mesh that represent it.
 struct RoundPiece {
   Round solid;
-  Pose X_SR;                 ///< frame of the solid in that of the shape
-  int first = 0, count = 0;  ///< of its triangles: the first, and how many follow one another
+  Pose X_SR;  ///< frame of the solid in that of the shape
+  /// of its triangles: the first index, and the number of consecutive triangles
+  int first = 0, count = 0;
 };
 
 /// The radius of the largest ball inside [m].
@@ -56,15 +57,15 @@ struct NearSkin {
   Eigen::Vector3d normal;  ///< unit, outward, at the nearest point of the surface
 };
 
-/// The surface nearest to p [m], in the solid's frame. The distance is convex in p, and the normal
-/// is its gradient; where several points of the surface are nearest, the normal of one of them.
+/// The surface point nearest to p [m], in the solid's frame. The distance is convex in p, and the
+/// normal is its gradient; if several points of the surface are nearest, the normal of one of them.
 ///
 /// source  D. Eberly (2013), "Distance from a Point to an Ellipse, an Ellipsoid, or a
 ///         Hyperellipsoid", for ellipsoids
 NearSkin nearest(const Round& round, const Eigen::Vector3d& p);
 
-/// The point farthest along a unit direction [m], in the solid's frame; where a segment or a disc
-/// is equally far, its middle.
+/// The point farthest along a unit direction [m], in the solid's frame; if a segment or a disc is
+/// equally far, its middle.
 Eigen::Vector3d support(const Round& round, const Eigen::Vector3d& direction);
 
 /// The flat part of a solid's surface that is farthest along a direction: a point, a segment or a
@@ -79,13 +80,13 @@ struct FlatPart {
   double cut = -1;            ///< near are the points middle + s x + t y with s >= cut
 };
 
-/// Height of the near part of a flat part whose points differ by `drop` in height, where `slack` is
-/// left below the contact threshold: all of it where the drop is no more than the slack, less of
-/// steeper parts, and none where a quarter or less of the drop is within the slack, so that what
-/// rocks or rolls that steeply touches at a point [m].
+/// Height of the near part of a flat part whose points differ by `drop` in height, with `slack`
+/// left below the contact threshold: all of it if the drop is no more than the slack, less for
+/// steeper parts, and none if a quarter or less of the drop is within the slack, so that a body
+/// that rocks or rolls that steeply touches at a point [m].
 double near_height(double slack, double drop);
 
-/// In the solid's frame. The x of a disc points to the farthest point of its rim. A point where no
+/// In the solid's frame. The x of a disc points to the farthest point of its rim. A point if no
 /// flat part lies within 30 degrees of the direction, or nothing of it is near.
 /// direction  unit
 /// slack      > 0, how much less far along the direction near points may lie, as in near_height();

@@ -1,11 +1,11 @@
-// A polytope of some corners that holds a mesh: where two of them lie apart the meshes do, which is
-// soon known. Single precision, about the tree's centre; includes no Eigen.
+// A polytope with few corners that contains a mesh: if two of them are disjoint the meshes are,
+// which is a fast test. Single precision, about the tree's center; includes no Eigen.
 #pragma once
 #include "clench/geometry/tree/lanes.h"
 
 namespace clench {
 
-/// Points side by side; lanes without one repeat the first.
+/// Points side by side; unused lanes repeat the first.
 struct alignas(32) PointBundle {
   float at[3][lane_count];
 };
@@ -14,10 +14,10 @@ struct BoundingPolytope {
   static constexpr int max_bundles = 16;
   static constexpr int max_corners = max_bundles * lane_count;
 
-  /// None is farther than 1.8 r from the centre, r the tree's radius. By rounding, u = 2^-24, the
-  /// mesh may reach 16 u r beyond them.
+  /// All are within 1.8 r of the center, r the tree's radius. By rounding, u = 2^-24, the mesh may
+  /// extend 16 u r beyond them.
   PointBundle corners[max_bundles];
-  int bundles = 0;  ///< that are used, the first ones
+  int bundles = 0;  ///< number of points in use, the first ones
 };
 
 struct FarPoint {
@@ -25,7 +25,7 @@ struct FarPoint {
   float height;  ///< its product with the direction
 };
 
-/// Of the points the farthest along n.
+/// The point farthest along n.
 /// count  of bundles, at least one
 template <class F>
 CLENCH_INLINE FarPoint farthest_point(const PointBundle* bundles, int count,

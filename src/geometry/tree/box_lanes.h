@@ -1,18 +1,19 @@
 // One box, point or ray against eight boxes at once. For the queries of this module only.
 //
-// Bounds are lower bounds of distances up to the slack of the query, which the caller takes off. In
-// single precision, u = 2^-24, lengths at most l (the query's extent): a centre moved into the
-// other frame is off by 5 u l a coordinate, its difference along an axis by 14 u l, the shadow of a
-// box by 16 u l for the rounding of the product of the frames and 8 u l because stored axes are
-// orthonormal up to 2 u only, and the root of the sum of squares by 4 u l: 42 u l in all, 64 u l
-// are taken. In double precision stored axes are made orthonormal, and the boxes grown by that.
+// Bounds are lower bounds of distances up to the slack of the query, which the caller subtracts. In
+// single precision, u = 2^-24, lengths at most l (the query's extent): a center transformed to the
+// other frame has an error of 5 u l per coordinate, its difference along an axis 14 u l, the
+// projection of a box 16 u l for the rounding of the product of the frames and 8 u l because stored
+// axes are orthonormal only up to 2 u, and the root of the sum of squares 4 u l: 42 u l in all, 64
+// u l are used. In double precision stored axes are orthonormalized, and the boxes enlarged by the
+// difference.
 #pragma once
 #include "clench/geometry/tree/lanes.h"
 #include "clench/geometry/tree/tree.h"
 
 namespace clench {
 
-/// Boxes: one alone (F a number), or one per lane.
+/// Boxes: a single one (F a number), or one per lane.
 template <class F>
 struct BoxOf {
   Triple<F> axis[3];
@@ -20,7 +21,7 @@ struct BoxOf {
   F half[3];
 };
 
-// nothing for single precision: the slack covers it
+// zero for single precision: the slack covers it
 template <class F>
 CLENCH_INLINE void straighten(BoxOf<F>& box, const F& grow) {
   const F first = sqrt(dot(box.axis[0], box.axis[0]));
@@ -31,7 +32,7 @@ CLENCH_INLINE void straighten(BoxOf<F>& box, const F& grow) {
   box.axis[2] = cross(box.axis[0], box.axis[1]);
   for (F& half : box.half) half = half + grow;
 }
-// relative to the size of a box: how far its corners lie outside once its axes are straightened
+// relative to the size of a box: how far its corners lie outside after its axes are orthonormalized
 inline constexpr double straightened = 0x1p-20;
 
 template <class F>
@@ -54,7 +55,7 @@ CLENCH_INLINE BoxOf<F> moved(const BoxOf<F>& boxes, const Move<Real>& move) {
           {boxes.half[0], boxes.half[1], boxes.half[2]}};
 }
 
-/// How far the boxes reach from their centres along n.
+/// Half extents of the boxes along n.
 template <class F, class N>
 CLENCH_INLINE F shadow(const BoxOf<F>& box, const Triple<N>& n) {
   using std::abs;
@@ -62,15 +63,15 @@ CLENCH_INLINE F shadow(const BoxOf<F>& box, const Triple<N>& n) {
          abs(dot(box.axis[2], n)) * box.half[2];
 }
 
-/// Lower bounds of the distances of one box from eight, by the axes of both; negative, the
-/// least depth along these axes, where all of them show an overlap.
+/// Lower bounds of the distances of one box from eight, by the axes of both; negative, the smallest
+/// depth along these axes, if all of them show an overlap.
 template <class F>
 CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
   using Real = typename F::Real;
   const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
                              eight.centre.z - one.centre.z};
   const F zero = F::all(0);
-  // along[j]: what of the eight lies along axis j of the one
+  // along[j]: components of the eight along axis j of the one
   F along[3] = {zero, zero, zero};
   F squared_eight = zero, squared_one = zero,
     min_deep = F::all(std::numeric_limits<Real>::lowest());
@@ -96,8 +97,8 @@ CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& o
   return select(squared > Real{0}, sqrt(squared), min_deep);
 }
 
-/// The largest gap along any axis of the two, or the least depth where all of them show an overlap:
-/// a lower bound of the distance too, not as tight as box_gaps, and cheaper.
+/// The largest gap along any axis of the two, or the smallest depth if all of them show an overlap:
+/// also a lower bound of the distance, less tight than box_gaps, and cheaper.
 template <class F>
 CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
   const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
@@ -118,9 +119,9 @@ CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& 
   return most;
 }
 
-/// The largest gap along the products of their axes, which are at most 1 long; 0 for none: a lower
-/// bound too. Its rounding, by the count above: 37 u l of the products, 17 u l of the shadows, 8 u
-/// l of the axes.
+/// The largest gap along the products of their axes, of length at most 1; 0 for none: also a lower
+/// bound. Its rounding, counted as above: 37 u l of the products, 17 u l of the projections, 8 u l
+/// of the axes.
 template <class F>
 CLENCH_INLINE F edge_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
   const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,

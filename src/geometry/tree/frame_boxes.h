@@ -1,5 +1,5 @@
-// The boxes of a tree in the frame of a query: a bundle is moved when first asked for, and kept, as
-// a query comes back to most of them. For the walks only.
+// The boxes of a tree in the frame of a query: a bundle is transformed on first use and cached, as
+// a query returns to most of them. For the traversals only.
 #pragma once
 #include <cstddef>
 
@@ -30,7 +30,7 @@ CLENCH_INLINE BoxOf<Real> one_of(BoxRows<Real> rows, int lane) {
           {rows[8 * 12 + lane], rows[8 * 13 + lane], rows[8 * 14 + lane]}};
 }
 
-/// Moved: into the frame of the other tree; else about the tree's own centre.
+/// Transformed: to the frame of the other tree; otherwise about the tree's own center.
 template <class F, bool Moved>
 class FrameBoxes {
   using Real = typename F::Real;

@@ -1,6 +1,6 @@
-// Eight numbers side by side, by the compiler's vectors: SSE, AVX, NEON or none. Every lane goes
-// through the same operations of IEEE arithmetic at any width, so widths agree to the bit.
-// Includes no Eigen: the files built on it may be compiled for the machine at hand.
+// Eight numbers side by side, by the compiler's vectors: SSE, AVX, NEON or none. Every lane
+// undergoes the same operations of IEEE arithmetic at any width, so widths agree bit-exactly.
+// Includes no Eigen: the files built on it may be compiled for the host's instruction set.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -10,14 +10,14 @@
 #include <immintrin.h>
 #endif
 
-// operations are too small to be called
+// operations are too small for calls
 #define CLENCH_INLINE __attribute__((always_inline)) inline
 
 namespace clench {
 
 inline constexpr int lane_count = 8;
 
-/// Real: float or double; Width: how many fit one vector, 1, 2, 4 or 8; Count: of all lanes.
+/// Real: float or double; Width: numbers per vector, 1, 2, 4 or 8; Count: number of lanes.
 template <class Scalar, int Width, int Count = lane_count>
 struct Lanes {
   using Real = Scalar;
@@ -26,7 +26,7 @@ struct Lanes {
   typedef Int Bits __attribute__((vector_size(sizeof(Real) * Width)));
   static constexpr int width = Width, count = Count, chunks = Count / Width;
 
-  /// which lanes fulfil a condition
+  /// which lanes satisfy a condition
   struct Mask {
     Bits bits[chunks];
 
@@ -73,7 +73,7 @@ struct Lanes {
       for (int i = 0; i < Count; ++i) out.chunk[i / Width][i % Width] = from[i];
     return out;
   }
-  /// what store has put there
+  /// lanes written by store
   static CLENCH_INLINE Lanes stored(const Real* from) {
     Lanes out;
     std::memcpy(out.chunk, from, sizeof out.chunk);
@@ -119,7 +119,7 @@ struct Lanes {
     for (int i = 0; i < chunks; ++i) out.chunk[i] = -chunk[i];
     return out;
   }
-  // the second where one is not a number
+  // the second argument if one is NaN
   friend CLENCH_INLINE Lanes max(const Lanes& x, const Lanes& y) {
     Lanes out;
     for (int i = 0; i < chunks; ++i)
@@ -186,7 +186,7 @@ using FloatLanes = Lanes<float, 4>;
 using DoubleLanes = Lanes<double, 2>;
 #endif
 
-/// bit i where number i is not negative: bundles fill the lanes that they do not use with -1
+/// bit i if number i is not negative: unused lanes of a bundle have -1
 CLENCH_INLINE unsigned used_lanes(const int32_t* numbers) {
   FloatLanes::Mask negative;
   std::memcpy(&negative, numbers, sizeof negative);
@@ -194,7 +194,7 @@ CLENCH_INLINE unsigned used_lanes(const int32_t* numbers) {
   return ~negative.set() & 0xff;
 }
 
-/// A vector in each lane, or one alone when F is a number.
+/// A vector in each lane, or a single one if F is a number.
 template <class F>
 struct Triple {
   F x, y, z;
@@ -225,7 +225,7 @@ CLENCH_INLINE Triple<F> select(const typename F::Mask& mask, const Triple<F>& ye
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
-/// a rotation, rows of a matrix, then a shift: p -> R p + offset
+/// a rotation, rows of a matrix, followed by a translation: p -> R p + offset
 template <class Real>
 struct Move {
   Triple<Real> row[3];

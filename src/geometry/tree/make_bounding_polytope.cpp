@@ -11,7 +11,7 @@ namespace {
 
 class PointBundles {
  public:
-  // every so many of the points
+  // a sample of the points
   PointBundles(const std::vector<Vector3d>& points, size_t step) {
     const size_t count = (points.size() + step - 1) / step;
     bundles_.resize((count + lane_count - 1) / lane_count);
@@ -32,8 +32,7 @@ class PointBundles {
   std::vector<PointBundle> bundles_;
 };
 
-// A box whose corners are cut off, the one farthest from the points first, as long as there is
-// room.
+// A box whose corners are cut off, the one farthest from the points first, while there is space.
 class PolytopeCutter {
  public:
   PolytopeCutter(const std::vector<Vector3d>& points, const Eigen::Matrix3d& axes)
@@ -58,7 +57,7 @@ class PolytopeCutter {
   }
 
   std::vector<Vector3d> corners() {
-    // where a corner goes, three come, or more
+    // cutting off a corner creates three, or more
     while (corners_.size() + 2 <= BoundingPolytope::max_corners) {
       const auto worst =
           std::max_element(corners_.begin(), corners_.end(),
@@ -72,7 +71,7 @@ class PolytopeCutter {
   }
 
  private:
-  // where three planes meet; should more of them do, some corners lie at one place
+  // intersection of three planes; if more planes intersect there, some corners coincide
   struct Corner {
     Vector3d at = Vector3d::Zero();
     std::array<int, 3> planes{};
@@ -82,7 +81,7 @@ class PolytopeCutter {
     bool on(int plane) const { return std::ranges::find(planes, plane) != planes.end(); }
   };
 
-  // From about the nearest point of their hull.
+  // From approximately the nearest point of their hull.
   // source  Gilbert (1966), an iterative procedure for the minimum of a quadratic form on a convex
   //         set
   void find_excess(Corner& corner) const {
@@ -102,8 +101,8 @@ class PolytopeCutter {
     corner.excess = corner.at.dot(corner.out) - height;
   }
 
-  // cuts off what lies beyond the points on the corner's side, if there is room for what comes
-  // instead
+  // cuts off what lies beyond the points on the corner's side, if there is space for the new
+  // corners
   bool cut(const Corner& worst) {
     const Vector3d n = worst.out;
     double offset;

@@ -1,4 +1,4 @@
-// Which precision a walk may use, and what its bounds may be off by. For the walks only.
+// Precision of a traversal, and the error of its bounds. For the traversals only.
 #pragma once
 #include <limits>
 
@@ -8,13 +8,13 @@ namespace clench {
 
 /// extent  of a query: no coordinate in it is larger [m]
 /// sizes   sum of the radii of the trees in it
-/// Single precision where it tells parts of the trees from each other, and no product of four
-/// lengths leaves its range.
+/// Single precision if it resolves parts of the trees, and no product of four lengths overflows.
 CLENCH_INLINE bool single_is_enough(double extent, double sizes) {
   return extent > 1e-4 && extent < 1e6 && extent < 256 * sizes;
 }
 
-/// What a bound may be too large by, computed in Real. See box_lanes.h and triangle_lanes.h.
+/// Maximum amount by which a bound may be too large, computed in Real. See box_lanes.h and
+/// triangle_lanes.h.
 template <class Real>
 CLENCH_INLINE Real slack_of(double extent, double sizes, double rounding) {
   constexpr double stored = 0x1p-24, computed = std::numeric_limits<Real>::epsilon() / 2;

@@ -36,10 +36,10 @@ bool Shape::has_volume() const {
 }
 
 void Shape::find_parts() {
-  // beyond that many, their extremes would take more room than the mesh
+  // beyond that number of parts, their extremes would take more memory than the mesh
   constexpr size_t few = 64;
   DisjointSets parts = connected_vertices(mesh_);
-  // the number of the part by the vertex that stands for it
+  // the index of the part by the vertex that represents it
   std::vector<int> numbers(mesh_.vertices.size(), -1);
   for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
     int& number = numbers[parts.find(mesh_.triangles[i][0])];

@@ -1,4 +1,4 @@
-// A mesh ready to be queried: immutable, shared between worlds and threads.
+// A mesh prepared for queries: immutable, shared between worlds and threads.
 #pragma once
 #include <array>
 #include <atomic>
@@ -13,13 +13,13 @@
 
 namespace clench {
 
-// bounding volumes over the triangles; its layout is nobody's business but the queries'
+// bounding volumes over the triangles; its layout is private to the queries
 class Tree;
 
-/// Which queries treat round pieces by their formulas instead of their triangles.
+/// Which queries treat round pieces by closed formulas instead of their triangles.
 enum class RoundIn {
   all,    ///< all distances and contacts
-  motion  ///< those of dynamics alone
+  motion  ///< only those of dynamics
 };
 
 /// The round solids of a mesh, in the order of their triangles; no triangle belongs to two solids.
@@ -33,8 +33,8 @@ class Shape {
   using Extremes = std::array<Eigen::Vector3d, 6>;
 
   /// A closed mesh without `rounds` that is a tessellation of a ball, capsule or cylinder gets that
-  /// as its round piece, for motion alone.
-  /// throws Error when check_mesh does, `subject` names the mesh in it; Stopped
+  /// as its round piece, for motion only.
+  /// throws Error as check_mesh does, `subject` names the mesh in it; Stopped
   static std::shared_ptr<const Shape> make(Mesh mesh, const std::string& subject = "mesh",
                                            const Progress& progress = {}, RoundPieces rounds = {});
   ~Shape();
@@ -44,12 +44,13 @@ class Shape {
   const MassProperties& solid() const { return solid_; }
   bool has_triangle(int i) const { return i >= 0 && i < static_cast<int>(mesh_.triangles.size()); }
   const Bounds& bounds() const { return bounds_; }
-  /// Of the vertices, in the frame that the shape stands in at X.
+  /// Bounds of the vertices, transformed by X.
   Bounds bounds_at(const Pose& X) const;
   bool closed() const { return faults_.closed(); }
-  /// Is it closed, with a volume that its surface can hold? A sheet folded on itself has none.
+  /// Is it closed, with a volume that is consistent with its surface? A sheet folded on itself has
+  /// none.
   bool has_volume() const;
-  /// closed and convex, and small enough to tell: see is_convex
+  /// closed and convex, and small enough for the test: see is_convex
   bool convex() const { return convex_; }
   /// centre and radius [m] of a sphere that contains the mesh, and round pieces of RoundIn::all
   const Eigen::Vector3d& centre() const { return centre_; }
@@ -59,8 +60,8 @@ class Shape {
   bool is_round(RoundIn where) const {
     return !rounds_.pieces.empty() && (where == RoundIn::motion || rounds_.in == RoundIn::all);
   }
-  /// The triangles that belong to no round piece, as a shape; null if there are none. Set for
-  /// shapes with round pieces only.
+  /// The triangles that belong to no round piece, as a shape; null if there are none. Only set for
+  /// shapes with round pieces.
   const std::shared_ptr<const Shape>& facets() const { return facets_; }
   /// The index in mesh() of a triangle of facets().
   int facet(int number) const { return facet_numbers_[number]; }
@@ -68,15 +69,17 @@ class Shape {
   int facet_vertex(int number) const { return facet_vertices_[number]; }
   /// The axis of a round piece, as a triangle without area.
   const Shape& core(int piece) const { return *cores_[piece]; }
-  /// one triangle of each connected part (vertices at one place connect), in index order
+  /// one triangle of each connected part (vertices at the same position are connected), in index
+  /// order
   const std::vector<int>& parts() const { return parts_; }
-  /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty where parts are many
+  /// of each part, its vertices farthest along -x, x, -y, y, -z and z; empty if there are many
+  /// parts
   const std::vector<Extremes>& part_extremes() const { return part_extremes_; }
   /// fingerprint of vertices, triangles and round pieces: equal for equal bits
   uint64_t hash() const { return hash_; }
-  /// that it takes, about, with its tree
+  /// approximate memory of the shape with its tree
   size_t bytes() const;
-  /// built when first asked: who reads, checks or converts a mesh needs none. Any thread may ask.
+  /// built on first use: reading, checking or converting a mesh needs none. Any thread may call it.
   /// throws Stopped, and then has none
   const Tree& tree(const Progress& progress = {}) const {
     const Tree* const built = built_.load(std::memory_order_acquire);

@@ -20,7 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 static constexpr int bin_count = 16;
-// beyond so many halvings groups are split in the middle, which bounds the depth
+// after this many splits by area groups are split in the middle, which bounds the depth
 static constexpr int deep = 38;
 
 static float rounded_up(double x) {
@@ -41,7 +41,7 @@ class TreeBuilder {
   TreeBuilder(const Mesh& mesh, Tree& tree, const Progress& progress)
       : mesh_(mesh), tree_(tree), progress_(progress) {
     const int count = static_cast<int>(mesh.triangles.size());
-    // unused vertices count for nothing
+    // unused vertices are ignored
     Bounds bounds;
     for (const Triangle& t : mesh.triangles)
       for (const int v : t) bounds.add(mesh.vertices[v]);
@@ -92,7 +92,7 @@ class TreeBuilder {
     tree_.bounding_polytope_ = make_bounding_polytope(points, axes);
   }
 
-  // a bundle of the groups' boxes, then what is below
+  // a bundle of the groups' boxes, followed by what is below
   void fill(int bundle, const std::vector<Group>& groups) {
     progress_.check();
     BoxBundle out;
@@ -140,8 +140,8 @@ class TreeBuilder {
 
   const Vector3d& point(int triangle, int k) const { return points_[mesh_.triangles[triangle][k]]; }
 
-  // up to eight groups: the one of largest surface is split next; those that fill one more
-  // bundle of leaves stay whole as long as there are larger ones
+  // up to eight groups: the one of largest surface is split next; those that fill one more bundle
+  // of leaves stay complete as long as there are larger ones
   std::vector<Group> split_up(const Group& group) {
     const int whole = group.count() > 64 ? 64 : 8;
     std::vector<Group> groups = {group};
@@ -172,7 +172,7 @@ class TreeBuilder {
     bounds.high = bounds.high.cwiseMax(other.high);
   }
 
-  // what a group costs to visit: its surface, for each leaf that it fills
+  // cost of visiting a group: its surface, for each leaf that it fills
   static double cost(const Bounds& bounds, int count) {
     return count == 0 ? 0 : surface(bounds.size()) * ((count + 7) / 8);
   }
@@ -206,7 +206,8 @@ class TreeBuilder {
     }
   }
 
-  // parts the items of a group.   returns where the second half begins
+  // partitions the items of a group.
+  // returns  start of the second half
   int split(const Group& group) {
     check_stop();
     Bounds centres;
@@ -247,8 +248,8 @@ class TreeBuilder {
     return middle;
   }
 
-  // Puts the smallest of a few boxes around a group into a lane: along the mesh's axes, along the
-  // principal directions, for small groups along edges, and near the best of these.
+  // Stores the smallest of several boxes around a group in a lane: along the mesh's axes, along the
+  // principal directions, for small groups along edges, and close to the best of these.
   void fit(const Group& group, BoxBundle& bundle, int lane) {
     gather(group);
     Matrix3d axes = Matrix3d::Identity();
@@ -268,7 +269,7 @@ class TreeBuilder {
       for (int i = group.begin; i < group.end; ++i) offer_sides(items_[i].triangle, offer);
     else if (group.count() <= 64)
       offer(axes_of(longest_edge(group), principal.col(0)));
-    // then turned a little about each of its axes, one way or the other
+    // then rotated slightly about each of its axes, in both directions
     for (const double angle : {0.4, 0.2, 0.1})
       for (int k = 0; k < 3; ++k)
         for (const double turn : {angle, -angle})
@@ -373,7 +374,7 @@ class TreeBuilder {
     return longest;
   }
 
-  // along the edge, and as near to the normal as may be
+  // along the edge, and as close to the normal as possible
   static Matrix3d axes_of(const Vector3d& edge, const Vector3d& normal) {
     Matrix3d axes = Matrix3d::Identity();
     const Vector3d x = edge.stableNormalized();
@@ -390,8 +391,8 @@ class TreeBuilder {
   const Progress& progress_;
   std::vector<Vector3d> points_;  // vertices about the centre
   std::vector<Item> items_;
-  std::array<std::vector<double>, 3> corners_;  // of the group that is fitted
-  std::vector<int> gathered_;                   // by vertex: the last group that it was fitted for
+  std::array<std::vector<double>, 3> corners_;  // of the group being fitted
+  std::vector<int> gathered_;                   // by vertex: the last group that used it
   int fitted_ = 0;                              // groups so far
 };
 

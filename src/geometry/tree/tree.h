@@ -1,5 +1,6 @@
-// A tree of oriented boxes, eight children a node, over the triangles of a mesh: single precision,
-// outward. Boxes and corners are about the tree's centre. Includes no Eigen, as lanes.h does not.
+// A tree of oriented boxes, eight children per node, over the triangles of a mesh: single
+// precision, rounded outward. Boxes and corners are about the tree's center. Includes no Eigen, as
+// lanes.h does not.
 // source  Gottschalk, Lin & Manocha (1996), OBBTree; Dammertz, Hanika & Keller (2008), wide trees
 #pragma once
 #include <cstddef>
@@ -23,13 +24,13 @@ struct alignas(32) BoxBundle {
   float centre[3][8];
   float half[3][8];  ///< half extents along the axes, rounded up
   float size[8];     ///< half the diagonal
-  int32_t child[8];  ///< leaf: 2 * number + 1, node: 2 * number; -1 where there is none
+  int32_t child[8];  ///< leaf: 2 * index + 1, node: 2 * index; -1: none
 };
 
-/// Up to eight triangles: a leaf. Lanes without one repeat the first.
+/// Up to eight triangles: a leaf. Unused lanes repeat the first.
 struct alignas(32) TriangleBundle {
   float corners[9][8];  ///< coordinate m of corner k of triangle i at [3 k + m][i], rounded
-  int32_t triangle[8];  ///< in the mesh; -1 where there is none
+  int32_t triangle[8];  ///< in the mesh; -1: none
 };
 
 class Tree {
@@ -37,16 +38,16 @@ class Tree {
   /// at least one triangle; coordinates finite   throws Stopped
   Tree(const Mesh& mesh, const Progress& progress);
 
-  /// number 0 holds one box alone, that of the whole mesh
+  /// index 0 contains a single box, that of the complete mesh
   const BoxBundle& boxes(int i) const { return boxes_[i]; }
   const TriangleBundle& leaf(int i) const { return leaves_[i]; }
   const BoundingPolytope& bounding_polytope() const { return bounding_polytope_; }
   const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
-  double radius() const { return radius_; }         ///< no vertex is farther from the centre [m]
+  double radius() const { return radius_; }         ///< no vertex is farther from the center [m]
   std::size_t bytes() const;
 
   using ExposedPtr = std::shared_ptr<const ExposedSurface>;
-  /// The boundary of a union, which `find` computes on first use. Any thread may ask.
+  /// The boundary of a union, which `find` computes on first use. Any thread may call it.
   /// throws as find, and then keeps none
   ExposedPtr exposed(FunctionRef<ExposedPtr()> find) const {
     const std::lock_guard lock(exposing_);

@@ -1,4 +1,4 @@
-// What a walk over two trees needs of how they stand. For the walks only.
+// Relative pose of two trees for a traversal. For the traversals only.
 #pragma once
 #include <cmath>
 

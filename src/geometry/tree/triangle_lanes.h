@@ -1,10 +1,11 @@
-// Eight pairs of triangles at once, and a point or ray against eight triangles: bounds that let
-// most of them go before the exact tests in double. For the queries of this module only.
+// Eight pairs of triangles at once, and a point or ray against eight triangles: bounds that
+// eliminate most of them before the exact tests in double precision. For the queries of this module
+// only.
 //
-// Any direction n gives a lower bound, the gap between the two shadows along it over |n|, so how n
-// was found need not be exact. The shadows are: corners off by 9 u l a coordinate at most (moved
-// into the other frame), 16 u l along n, products and sums by 4 u l more, of both triangles and the
-// root 44 u l in all; the query's slack of 64 u l covers it.
+// Any direction n gives a lower bound, the gap between the two projections on it divided by |n|, so
+// n need not be computed accurately. Errors of projections: corners 9 u l per coordinate at most
+// (transformed to the other frame), 16 u l along n, products and sums 4 u l more, for both
+// triangles and the root 44 u l in all; the query's slack of 64 u l covers it.
 #pragma once
 #include <limits>
 
@@ -13,7 +14,7 @@
 
 namespace clench {
 
-// squares of lengths are off by less
+// error bound of squares of lengths
 template <class Real>
 inline constexpr Real slightly_more = 1 + 16 * std::numeric_limits<Real>::epsilon();
 
@@ -36,7 +37,7 @@ CLENCH_INLINE TrianglesOf<F> moved(const TrianglesOf<F>& from, const Move<typena
   return {{move(from.corner[0]), move(from.corner[1]), move(from.corner[2])}};
 }
 
-/// The gap of a's shadow below b's along n, not divided by the length of n.
+/// The gap between a's projection and b's beyond it along n, not divided by the length of n.
 template <class F>
 CLENCH_INLINE F projected_gap(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
                               const Triple<F>& n) {
@@ -47,7 +48,7 @@ CLENCH_INLINE F projected_gap(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
 
 namespace lanes_detail {
 
-// from the point nearest on segment p + s u to that nearest on q + t v, roughly
+// from the point nearest on segment p + s u to that nearest on q + t v, approximately
 template <class F>
 CLENCH_INLINE Triple<F> between_segments(const Triple<F>& p, const Triple<F>& u, const F& uu,
                                          const Triple<F>& q, const Triple<F>& v, const F& vv) {
@@ -70,7 +71,8 @@ struct Face {
       : corner(at), u(first), v{-back.x, -back.y, -back.z}, n(cross(u, v)) {
     across_u = cross(n, u), across_v = cross(v, n), nn = dot(n, n);
   }
-  // From x to a point of the face, roughly its foot. Where that lies outside, `inside` says so.
+  // From x to a point of the face, approximately its foot. `inside` tells whether the foot lies
+  // inside.
   CLENCH_INLINE Triple<F> to_foot(const Triple<F>& x, typename F::Mask& inside) const {
     const Triple<F> d = x - corner;
     const F along_u = dot(d, across_v) / nn, along_v = dot(d, across_u) / nn, zero = F::all(0);
@@ -81,7 +83,7 @@ struct Face {
 
 }  // namespace lanes_detail
 
-/// From a point of each a to one of b, roughly the nearest ones.
+/// From a point of each a to one of b, approximately the nearest ones.
 template <class F>
 CLENCH_INLINE Triple<F> nearest_way(const TrianglesOf<F>& a, const TrianglesOf<F>& b, F& least) {
   Triple<F> edge_a[3], edge_b[3];
@@ -121,10 +123,10 @@ CLENCH_INLINE Triple<F> nearest_way(const TrianglesOf<F>& a, const TrianglesOf<F
   return best;
 }
 
-/// What of the distances of eight pairs is sure, up to slack.
+/// Certain bounds on the distances of eight pairs, up to slack.
 template <class F>
 struct NearBounds {
-  F low, high;    ///< low is not a number where single precision does not tell
+  F low, high;    ///< low is NaN if single precision is not sufficient
   Triple<F> way;  ///< from a to b, `high` long
 };
 
@@ -138,7 +140,7 @@ CLENCH_INLINE NearBounds<F> near_bounds(const TrianglesOf<F>& a, const Triangles
   return out;
 }
 
-/// Do the shadows along n stay apart by more than reach, >= 0?
+/// Are the projections on n separated by more than reach, >= 0?
 template <class F>
 CLENCH_INLINE typename F::Mask part(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
                                     const Triple<F>& n, typename F::Real reach) {
@@ -153,7 +155,7 @@ CLENCH_INLINE typename F::Mask part(const TrianglesOf<F>& a, const TrianglesOf<F
   return (gap > Real{0}) & (gap * gap > within) & (nn > least) & (within > least * Real{0x1p30});
 }
 
-/// Lanes of those that may be as near as reach, >= 0, by the products of their edges.
+/// Lanes of pairs that may be within reach, >= 0, by the products of their edges.
 template <class F>
 CLENCH_INLINE unsigned edges_within_reach(const TrianglesOf<F>& a, const TrianglesOf<F>& b,
                                           typename F::Real reach, unsigned expected) {
@@ -169,11 +171,11 @@ CLENCH_INLINE unsigned edges_within_reach(const TrianglesOf<F>& a, const Triangl
   return expected;
 }
 
-/// What of the distances of a point from eight triangles is sure, up to slack.
+/// Certain bounds on the distances of a point from eight triangles, up to slack.
 template <class F>
 struct PointBounds {
   F squared_high;  ///< the square of an upper bound
-  F height;  ///< the square root of that times a lower bound; that bound itself may not be a number
+  F height;        ///< its square root times a lower bound; that bound itself may be NaN
 };
 
 template <class F>

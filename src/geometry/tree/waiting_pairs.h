@@ -1,4 +1,5 @@
-// Pairs of triangles that wait until eight of them can be judged at once. For the walks only.
+// Pairs of triangles that are collected until eight can be processed at once. For the traversals
+// only.
 #pragma once
 #include "clench/geometry/tree/triangle_lanes.h"
 #include "clench/geometry/tree/walk.h"
@@ -16,7 +17,7 @@ class WaitingPairs {
   int count() const { return count_; }
   bool full() const { return count_ == lane_count; }
 
-  /// there is room: not full
+  /// requires space: not full
   CLENCH_INLINE void add(const Corners& a, int lane_a, const Corners& b, int lane_b,
                          const NearPair& pair) {
     for (int k = 0; k < 9; ++k) {
@@ -26,14 +27,14 @@ class WaitingPairs {
     pairs_[count_++] = pair;
   }
 
-  /// Calls judge(a, b, lanes, pairs) for those that wait, if there are any; none do then.   returns
-  /// what judge does
+  /// Calls judge(a, b, lanes, pairs) for the collected pairs, if there are any, and removes them.
+  /// returns what judge does
   template <class Judge>
   CLENCH_INLINE bool take(Judge&& judge) {
     const int count = count_;
     if (count == 0) return false;
     count_ = 0;
-    // lanes without a pair repeat the first
+    // unused lanes repeat the first
     for (int k = 0; k < 9; ++k)
       for (int i = count; i < lane_count; ++i) a_[k][i] = a_[k][0], b_[k][i] = b_[k][0];
     return judge(load(a_), load(b_), (1u << count) - 1, pairs_);
