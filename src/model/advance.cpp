@@ -11,15 +11,16 @@
 
 namespace clench {
 
-// a stop is deep in the threshold, so that the whole of a patch is within it, and far above
-// rounding: steps aim at the one part of the threshold, and what is below the other is there
+// a stop is well within the threshold, so that the complete patch is within it, and far above
+// rounding: steps aim at the first fraction of the threshold, and gaps below the second count as a
+// touch
 static constexpr double aim = 0.2;
 static constexpr double there = 0.3;
-// a bound is at least this part of the distance, and used beyond so many thresholds
+// a bound is at least this fraction of the distance, and used beyond this many thresholds
 static constexpr double bound_part = 0.85, bound_beyond = 4;
-// the least gap that a pair is taken to have, as a part of the threshold; 0 says that it is unknown
+// minimum gap assumed for a pair, as a fraction of the threshold; 0 means unknown
 static constexpr double touching_gap = 1e-9;
-// rounding of positions must stay this much below the threshold
+// rounding of positions must be smaller than the threshold by this factor
 static constexpr double precise = 1e-3;
 
 namespace {
@@ -29,19 +30,19 @@ struct Advancing {
   double end;
   double threshold = world.contact_threshold();
 
-  // the gap that a step must leave: a touching pair may use up half of what it has
+  // the gap that a step must leave: a touching pair may use up half of its gap
   double keep(const PairBound& watch) const {
     return watch.touching ? std::min(aim * threshold, watch.gap / 2) : aim * threshold;
   }
 
-  // a distance of the pair at s, or a lower bound of it that leaves the pair well apart [m]
+  // the distance of the pair at s, or a lower bound that shows that it is well apart [m]
   double measure(PairBound& watch, double s, int& queries) const {
     const Body &a = world.body(watch.a), &b = world.body(watch.b);
     const double spheres = sphere_gap(world, watch.a, watch.b);
     if (spheres > 0.1 * (a.shape->radius() + b.shape->radius())) return spheres;
-    // beyond what the rest of the motion can cover, the distance is of no interest
+    // distances beyond what the rest of the motion can cover are irrelevant
     const double reach = watch.speed * (end - s) + 2 * threshold;
-    // far from a touch most of the distance will do; a pair that was near is measured at once
+    // far from a touch a lower bound is sufficient; a pair that was near is measured exactly
     if (watch.gap == 0 || watch.gap > bound_beyond * threshold) {
       ++queries;
       const double bound =
@@ -51,12 +52,13 @@ struct Advancing {
     }
     ++queries;
     const std::array one{watch.a}, other{watch.b};
-    // faces that lie on each other to rounding come apart from there as from a gap
+    // faces that coincide up to rounding separate as from a gap
     const double gap = distance(world, one, other, reach, &world.context()).distance;
     return std::clamp(gap, touching_gap * threshold, reach);
   }
 
-  // measures the pair at s.   returns whether it stops the motion there
+  // measures the pair at s.
+  // returns  does it stop the motion there?
   bool stops(PairBound& watch, double s, int& queries) const {
     const double gap = measure(watch, s, queries);
     const bool first = watch.gap == 0;
@@ -102,14 +104,14 @@ Advance advance(World& world, std::vector<PairBound>& watches, double end,
   const auto go = [&](double to) {
     if (to != s) place(s = to);
   };
-  // what is known of each pair where the motion stands
+  // data of each pair at the present s
   const auto arrive = [&](std::optional<PairBound> stopped_by, bool iteration_limit = false) {
     for (PairBound& watch : watches) watch.clear = std::max(0.0, (watch.safe - s) * watch.speed);
     return Advance{s, std::move(stopped_by), iteration_limit};
   };
   check_precision(world, watches);
   for (int step = 0; true; ++step) {
-    // the pair that is known to be apart for the shortest while
+    // the pair whose guarantee of separation ends first
     const auto next =
         std::min_element(watches.begin(), watches.end(),
                          [](const PairBound& x, const PairBound& y) { return x.safe < y.safe; });

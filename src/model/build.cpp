@@ -8,11 +8,11 @@
 
 namespace clench {
 
-// world files keep six digits of a metre and of a radian
+// world files have six digits of a meter and of a radian
 static constexpr double file_digits = 1e-5;
 
-// inside its limits a joint of a compliant DOF may stand anywhere, and has broken away where its
-// breakaway DOF has gone on beyond it; any other follows its DOF
+// within its limits a joint of a compliant DOF may have any position, and a joint has broken away
+// if its breakaway DOF has moved on beyond it; any other follows its DOF
 static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
                                                           const Eigen::VectorXd& q,
                                                           const std::vector<JointPosition>& given,
@@ -72,7 +72,7 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
     const Pose as_written = X_WL.inverse() * X_WB;
     const Pose off = X_LB.inverse() * as_written;
     if (off.position.norm() < file_digits && off.angle() < file_digits)
-      // both as they are when they agree to the bit
+      // both as given if they agree bit-exactly
       X_LB = X_WL * X_LB == X_WB ? X_LB : as_written;
     else if (listeners.warn)
       listeners.warn(
@@ -115,7 +115,7 @@ Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const
 
 namespace {
 
-/// Makes the world of a spec, entry by entry.
+/// Builds the world of a spec, entry by entry.
 class Builder {
  public:
   Builder(const WorldSpec& spec, const Listeners& listeners)
@@ -144,7 +144,7 @@ class Builder {
 
 void Builder::add_robot(int index) {
   const PlacedRobot& placed = spec_.robots[index];
-  // who tells all that is off needs no search for what overlaps
+  // with all collisions off there is no need to search for overlaps
   robots_[index] = spec_.collision
                        ? world_.add_robot(placed.robot, placed.X_WB)
                        : clench::add_robot(world_, placed.robot, placed.X_WB, "", listeners_);

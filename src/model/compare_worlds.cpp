@@ -47,8 +47,8 @@ bool same_shape(const ShapePtr& a, const ShapePtr& b) {
   return true;
 }
 
-/// Free bodies in their order, then those of each robot: a file may give an adapter another place
-/// among the bodies, but no other role.
+/// Free bodies in their order, then those of each robot: a file may give an adapter a different
+/// position among the bodies, but no other role.
 std::vector<Id<Body>> by_role(const World& world) {
   std::vector<Id<Body>> out;
   for (const auto id : world.bodies())
@@ -164,7 +164,7 @@ void Comparer::frictions() {
         return found == two.names().end() ? -1 : static_cast<int>(found - two.names().begin());
       };
       const int k = at(i), l = at(j);
-      // of a new material only what rubs
+      // of a new material only its friction
       const Friction f = one.friction(i, j), g = k < 0 || l < 0 ? Friction{} : two.friction(k, l);
       if (f.statics != g.statics || f.kinetic != g.kinetic || f.restitution != g.restitution)
         pairs.emplace_back(i, j);
@@ -233,7 +233,7 @@ std::vector<std::string> Comparer::compare() {
     add("its number of bodies");
     return std::move(out_);
   }
-  // what concerns all of the world is not lost among many bodies
+  // differences of the complete world are not lost among many bodies
   switches();
   for (size_t i = 0; i < a_bodies_.size(); ++i) bodies(a_bodies_[i], b_bodies_[i]);
   for (size_t i = 0; i < a_.robots().size(); ++i) robots(a_.robots()[i], b_.robots()[i]);

@@ -1,4 +1,4 @@
-// What of a world another one does not have: what a file format could not hold.
+// Differences between two worlds: what a file format could not store.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace clench {
 
-/// Phrases such as "the mass of 'mug'", "the name 'cup'" for what differs by more than the rounding
-/// of a file that holds all digits: 1e-12 of a metre, of a radian, or of the value. Free bodies,
-/// robots and their parts are matched by their order.
+/// Phrases such as "the mass of 'mug'", "the name 'cup'" for differences beyond the rounding of a
+/// file with all digits: 1e-12 of a meter, of a radian, or of the value. Free bodies, robots and
+/// their parts are matched by their order.
 std::vector<std::string> differences(const World& world, const World& other);
 
 }  // namespace clench

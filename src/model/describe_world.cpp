@@ -114,7 +114,7 @@ void Describer::add_connection(Id<Robot> child) {
   out_.connections.push_back(std::move(c));
 }
 
-/// Those without a piece, whose place in the order nobody sees, as soon as both robots are there.
+/// Connections without an adapter, whose order is invisible, as soon as both robots exist.
 void Describer::add_connections(Id<Robot> robot) {
   for (const auto child : world_.robots()) {
     const auto& mounting = world_.robot(child).mounting;
@@ -147,7 +147,7 @@ void Describer::add_friction() {
     const Friction f = table.friction(a, b);
     out_.friction.push_back({table.name(a), table.name(b), f.statics, f.kinetic, f.restitution});
   };
-  // new names first, each with itself, so that they keep their order
+  // new names first, each paired with itself, so that they keep their order
   for (int i = known; i < count; ++i) add(i, i);
   for (int i = 0; i < count; ++i)
     for (int j = 0; j <= i; ++j) {
@@ -175,7 +175,7 @@ void Describer::add_collision() {
   out_.collision = std::move(spec);
 }
 
-/// What was removed since is in no keyframe.
+/// Removed bodies are in no keyframe.
 void Describer::add_keyframes() {
   for (const Keyframe& keyframe : world_.keyframes()) {
     KeyframeSpec spec{keyframe.name, {}, {}};

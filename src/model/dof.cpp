@@ -33,7 +33,8 @@ bool dof_slides(const Robot& robot, int dof) {
   return first != robot.joints.end() && first->kind == JointKind::prismatic;
 }
 
-// a hint at a unit in which the value would lie within the limits; a few radians are no degrees
+// a hint at a unit in which the value would lie within the limits; a few radians are unlikely to be
+// degrees
 static std::string other_unit(const std::array<double, 2>& range, double value, bool slides) {
   const double meant = slides ? value / 1000 : value * std::numbers::pi / 180;
   if (std::abs(value) < (slides ? 1 : 4) || meant < range[0] - limit_rounding ||
@@ -62,7 +63,7 @@ static bool nearly_within(const std::array<double, 2>& range, double value, doub
   return value >= low - excess && value <= high + excess;
 }
 
-// of numbers up to the limits' size
+// for numbers up to the size of the limits
 static double rounding_of(const std::array<double, 2>& range) {
   return limit_rounding * std::max({1.0, std::abs(range[0]), std::abs(range[1])});
 }

@@ -1,4 +1,4 @@
-// What holds for the dynamics of a world.
+// Settings of the dynamics of a world.
 #pragma once
 #include <map>
 #include <optional>
@@ -11,7 +11,7 @@ namespace clench {
 enum class DynamicsEngine { clench, ode };
 enum class FrictionCone {
   round,   ///< |r_t| <= mu r_n
-  pyramid  ///< a polygon of some corners on that circle
+  pyramid  ///< a polygon inscribed in that circle
 };
 
 /// Gains of a DOF's motor.
@@ -23,11 +23,11 @@ struct Gains {
 };
 
 struct RobotDynamics {
-  /// does its base move freely? else it stands, or moves as its velocity says
+  /// does its base move freely? otherwise it is fixed, or moves with its prescribed velocity
   bool floating = false;
-  bool gravity_compensation = true;         ///< do its motors carry its own weight?
-  std::vector<std::optional<Gains>> gains;  ///< in place of those of its file; empty: none
-  /// do joints leave breakaway DOFs? else these drive them rigidly, as in the original's dynamics
+  bool gravity_compensation = true;         ///< do its motors compensate its own weight?
+  std::vector<std::optional<Gains>> gains;  ///< replace those of its file; empty: none
+  /// can joints leave breakaway DOFs? otherwise these drive them rigidly, as in GraspIt!'s dynamics
   bool breakaway = false;
   /// of motors without a limit, > 0 [N m or N]; empty: none
   std::optional<double> max_effort = {};
@@ -40,10 +40,10 @@ struct DynamicSettings {
   DynamicsEngine engine = DynamicsEngine::clench;
   FrictionCone cone = FrictionCone::round;
   int cone_edges = 8;                         ///< of a pyramid
-  std::map<Id<Robot>, RobotDynamics> robots;  ///< others are as RobotDynamics begins
+  std::map<Id<Robot>, RobotDynamics> robots;  ///< others have the default RobotDynamics
   /// of conveyor belts, in their bodies' frames [m/s]
   std::map<Id<Body>, Eigen::Vector3d> surface_velocities;
-  /// objects, and the body with which each moves as one piece; no cycles
+  /// objects, and the body to which each is welded; no cycles
   std::map<Id<Body>, Id<Body>> welds;
 
   bool operator==(const DynamicSettings&) const = default;

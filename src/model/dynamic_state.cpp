@@ -2,7 +2,7 @@
 
 namespace clench {
 
-// source  the polynomial that begins and ends at rest, without acceleration (Craig (2005),
+// source  the polynomial that starts and ends at rest, without acceleration (Craig (2005),
 //         Introduction to Robotics, 7.3)
 static double quintic(const Trajectory& t, double s, bool slope) {
   const double d = t.to - t.from;

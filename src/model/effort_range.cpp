@@ -7,7 +7,7 @@
 
 namespace clench {
 
-// an end without a given limit
+// a side without a given limit
 static EffortRange limited(const World& world, Id<Robot> robot, EffortRange range) {
   const auto& most = world.dynamic_settings().robot(robot).max_effort;
   if (!most) return range;

@@ -1,18 +1,18 @@
-// Efforts that the motors of a robot can exert as it stands: what force programs, verdicts and the
-// motors of a run have in common.
+// Efforts that the motors of a robot can exert in its present posture: used by force programs,
+// verification and simulation alike.
 #pragma once
 #include "clench/model/world.h"
 #include "clench/spec/dof_drive.h"
 
 namespace clench {
 
-/// Efforts that hold the DOF at rest where it stands, by any control that its actuators take;
-/// infinite where no limit is given, {0, 0} of a DOF that is not driven [N m or N].
-/// RobotDynamics::max_effort replaces limits that are not given.
+/// Efforts on the DOF at rest in its present position, over all controls of its actuators; infinite
+/// without a given limit, {0, 0} for a DOF that is not driven [N m or N]. RobotDynamics::max_effort
+/// replaces limits that are not given.
 EffortRange effort_range(const World& world, Id<Robot> robot, int dof);
 
-/// Efforts that its motor can exert at any position and velocity, see DofDrive::limits. Of a DOF that
-/// is not driven: those of the motor that a script gives it [N m or N].
+/// Efforts that its motor can exert at any position and velocity, see DofDrive::limits. For a DOF
+/// that is not driven: those of the motor that a script adds [N m or N].
 EffortRange effort_limits(const World& world, Id<Robot> robot, int dof);
 
 /// Can its motor push the DOF in the direction of its default velocity, at either end of its range?

@@ -11,7 +11,7 @@
 
 namespace clench {
 
-// the caller's context, or one of its own
+// the caller's context, or a temporary one
 class Remember {
  public:
   Remember(const World& world, QueryContext* context)
@@ -105,7 +105,7 @@ BodyDistance distance(const World& world, std::span<const Id<Body>> a, std::span
   return best;
 }
 
-// which of the two owns the contact: the thing that is held, else the second
+// which of the two owns the contact: the grasped object, otherwise the second
 static bool first_is_held(const Body& first, const Body& second) {
   return !first.robot && second.robot;
 }
@@ -121,15 +121,16 @@ static const Manifold* manifold_of(const World& world, Id<Body> a, Id<Body> b) {
   return nullptr;
 }
 
-// Does something press there, and has nobody placed the two elsewhere since?
+// Does something press there, and has neither of the two been placed from outside since?
 static bool presses(const World& world, const Manifold& m) {
   return std::ranges::any_of(m.points, [](const ManifoldPoint& p) { return !p.force.isZero(0); }) &&
          relative_pose(world, m.a, m.b) == m.X_AB_end;
 }
 
-// The touch of each point of the last step: that on the same features, else the nearest. A point
-// that presses where there is no touch becomes one. If a shape is round in motion alone, the points
-// of the step replace the touches of its triangles.   returns  indices into touches; -1: none
+// The touch of each point of the last step: that on the same features, otherwise the nearest. A
+// point that presses without a touch becomes one. If a shape is round for motion only, the points
+// of the step replace the touches of its triangles.
+// returns  indices into touches; -1: none
 static std::vector<int> match(const World& world, const Manifold& manifold, const Pose& X_AB,
                               std::vector<Touch>& touches) {
   constexpr double near = 1e-3;
@@ -167,7 +168,7 @@ static std::vector<int> match(const World& world, const Manifold& manifold, cons
   return out;
 }
 
-// Pairs that press and are not among those that are near by their facets.
+// Pairs that press but whose facets are not near.
 template <typename Wanted>
 static void add_pressing(const World& world, const Wanted& wanted, std::vector<BodyPair>& pairs) {
   if (!world.dynamics()) return;

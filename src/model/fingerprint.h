@@ -15,7 +15,7 @@ uint64_t fingerprint(const Shape& shape);
 uint64_t fingerprint(const World& world, Id<Body> id);
 
 /// Fingerprint of the bodies of base and links, of joints, DOFs, limits and motors, of the number
-/// of joint tendons and of the approach frame. The posture does not count.
+/// of joint tendons and of the approach frame. The posture is ignored.
 uint64_t fingerprint(const World& world, Id<Robot> id);
 
 }  // namespace clench

@@ -75,7 +75,7 @@ void World::set_keyframe(std::string_view name) {
          names.empty() ? ", which has none" : instead_of(name, names));
   }
   const Keyframe* found = &keyframes()[number->second];
-  // one that is carried goes where its parent takes it
+  // a carried robot moves with its parent
   for (const auto& placed : found->robots) {
     if (!alive(placed.robot)) continue;
     const Robot& r = robot(placed.robot);

@@ -24,7 +24,7 @@ void find_box(const World& world, QueryContext& context, SweepItem& item) {
   item.box = &context.box(item.body, world.body(item.body), world.pose(item.body));
 }
 
-// the axis along which the boxes stand farthest apart
+// the axis along which the separation of the boxes is largest
 int widest_axis(const std::vector<SweepItem>& items) {
   Vector3d mean = Vector3d::Zero(), spread = Vector3d::Zero();
   for (const SweepItem& item : items) mean += item.box->centre / static_cast<double>(items.size());
@@ -34,8 +34,8 @@ int widest_axis(const std::vector<SweepItem>& items) {
   return axis;
 }
 
-// By the boxes' lower ends: by insertion, which is quick where they are nearly in order, until too
-// much has been moved.
+// Sorts by the boxes' lower ends: by insertion, which is fast if they are nearly in order, until
+// too much has been moved.
 void sort_along(int axis, std::vector<SweepItem>& items) {
   const auto before = [axis](const SweepItem& x, const SweepItem& y) {
     return x.box->low[axis] < y.box->low[axis];
@@ -74,8 +74,7 @@ void sweep(std::vector<SweepItem>& items, double reach, Visit visit) {
   });
 }
 
-// with so few bodies the pairs that may collide are looked at one by one, with more a sweep finds
-// them
+// for so few bodies the pairs that may collide are examined one by one, for more by a sweep
 constexpr size_t few = 64;
 
 std::vector<BodyPair> near_of_few(const World& world, double reach, QueryContext& context) {
@@ -193,7 +192,7 @@ std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> 
                                   std::span<const Id<Body>> b, double reach,
                                   QueryContext& context) {
   context.attend(world.lineage(), world.model());
-  // those of b are numbered on after those of a
+  // indices of b follow those of a
   const int count = static_cast<int>(a.size());
   std::vector<SweepItem> items;
   for (int i = 0; i < count; ++i) items.push_back({a[i], i});
@@ -207,7 +206,7 @@ std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> 
   });
   std::sort(near.begin(), near.end());
   std::vector<BodyPair> out;
-  // bodies of both groups would come twice
+  // bodies of both groups would be listed twice
   std::set<BodyPair> seen;
   for (const auto& [i, j] : near)
     if (world.may_collide(a[i], b[j]) && seen.insert(std::minmax(a[i], b[j])).second)

@@ -1,5 +1,5 @@
-// Which bodies of a world are near enough to be looked at: a sweep over their boxes, then their
-// spheres.
+// Broad phase: bodies of a world that are near each other, by a sweep over their boxes, then by
+// their spheres.
 // source  Cohen, Lin, Manocha & Ponamgi (1995), I-COLLIDE: sweep and prune
 #pragma once
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace clench {
 
-/// Least distance that the bounding spheres of two bodies with geometry allow; negative when they
-/// overlap [m].
+/// Lower bound on the distance of two bodies with geometry, from their bounding spheres; negative
+/// if these overlap [m].
 double sphere_gap(const World& world, Id<Body> a, Id<Body> b);
 
-/// Pairs of the world that may collide and may be as near as reach [m]: the earlier body first, in
-/// creation order. None that is as near is missing.
+/// Pairs of the world that may collide and may be within reach [m]: the earlier body first, in
+/// creation order. Complete: no pair within reach is missing.
 std::vector<BodyPair> near_bodies(const World& world, double reach, QueryContext& context);
 
 /// One of each group, each pair once, in the groups' order.
@@ -23,7 +23,7 @@ std::vector<BodyPair> near_bodies(const World& world, std::span<const Id<Body>> 
                                   std::span<const Id<Body>> b, double reach, QueryContext& context);
 
 /// Is there a pair of bodies near enough to touch for which collides(pair, its memory) is true?
-/// Pairs that collided often of late are asked first, and when one does, no others are looked for.
+/// Pairs that often collided recently are tested first, and the search ends at the first that does.
 bool any_near(const World& world, QueryContext& context,
               FunctionRef<bool(const BodyPair&, PairCache&)> collides);
 

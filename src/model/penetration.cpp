@@ -6,7 +6,7 @@
 
 namespace clench {
 
-// depth of a body in another one, with the point in the world frame
+// depth of one body in another, with the point in the world frame
 static BodyPenetration pair_penetration(const World& world, Id<Body> body, Id<Body> other,
                                         const PenetrationOptions& options) {
   const Shape &mine = *world.body(body).shape, &theirs = *world.body(other).shape;

@@ -1,4 +1,4 @@
-// Depth of the overlap of bodies of a world.
+// Penetration depth of bodies of a world.
 #pragma once
 #include <span>
 
@@ -8,15 +8,16 @@
 namespace clench {
 
 struct BodyPenetration {
-  /// [m]; 0 where nothing overlaps, infinite where two open meshes cross: neither has an inside
+  /// [m]; 0 without an overlap, infinite if two open meshes intersect: neither has an inside
   double depth = 0;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< the deepest point found
-  Id<Body> a, b;                                  ///< the pair that overlaps most
+  Id<Body> a, b;                                  ///< the pair with the deepest overlap
 };
 
 /// The largest distance, from the surface of a body of `b`, of a point of a body of `a` inside it.
-/// Where the mesh in `b` is open, and so has no inside, the roles of the two are exchanged.
-/// Switched-off pairs are measured too.   throws Stopped
+/// If the mesh in `b` is open, and so has no inside, the roles of the two are exchanged.
+/// Switched-off pairs are measured, too.
+/// throws Stopped
 BodyPenetration penetration(const World& world, std::span<const Id<Body>> a,
                             std::span<const Id<Body>> b, const PenetrationOptions& options = {});
 

@@ -4,7 +4,7 @@ namespace clench {
 
 using Eigen::Vector3d;
 
-// do the boxes along the bodies' own axes lie apart along one of these?
+// are the boxes along the bodies' own axes separated along one of these?
 static bool apart_along_axes(const BodyBox& a, const BodyBox& b, double reach) {
   const Vector3d between = b.middle - a.middle;
   const Eigen::Matrix3d turn = (a.axes.transpose() * b.axes).cwiseAbs();
@@ -15,7 +15,7 @@ static bool apart_along_axes(const BodyBox& a, const BodyBox& b, double reach) {
 }
 
 bool within_reach(const BodyBox& a, const BodyBox& b, double reach) {
-  // all axes at once: which one parts them is hard to foretell
+  // all axes at once: which one separates them is hard to predict
   if ((a.low - b.high).cwiseMax(b.low - a.high).maxCoeff() > reach) return false;
   const double far = reach + a.radius + b.radius;
   return far >= 0 && (a.centre - b.centre).squaredNorm() <= far * far * (1 + 1e-12) &&
@@ -73,7 +73,7 @@ QueryContext::Candidates& QueryContext::candidates(const WorldModel& model,
 
 std::vector<SweepItem>& QueryContext::sweep_order(const WorldModel& model) {
   if (order_stamp_ == model.stamp) return sweep_order_;
-  order_stamp_ = 0;  // until the list is whole
+  order_stamp_ = 0;  // until the list is complete
   sweep_order_.clear();
   for (size_t i = 0; i < model.body_order.size(); ++i)
     if (const Id<Body> id = model.body_order[i]; model.bodies[id.index].value.shape)
@@ -84,13 +84,13 @@ std::vector<SweepItem>& QueryContext::sweep_order(const WorldModel& model) {
 
 PairCache& QueryContext::pair(Id<Body> a, Id<Body> b) {
   Pair& known = pairs_[uint64_t{a.index} << 32 | b.index];
-  // another body may have had the place
+  // the index may have been reused by another body
   if (known.a != a || known.b != b) known = {a, b, {}};
   return known.cache;
 }
 
 void QueryContext::forget(Id<Body> body) {
-  model_stamp_ = 0;  // the candidates know the pairs' memories
+  model_stamp_ = 0;  // the candidates have the indices of the pairs' memories
   std::erase_if(
       pairs_, [&](const auto& entry) { return entry.second.a == body || entry.second.b == body; });
 }

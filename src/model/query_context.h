@@ -1,4 +1,4 @@
-// What queries remember of a world from one to the next.
+// Cache of queries of a world.
 #pragma once
 #include <cstdint>
 #include <unordered_map>
@@ -10,44 +10,43 @@
 
 namespace clench {
 
-/// What holds a body in the world, its rounding included: a box along the world's axes, one along
-/// its own, and a sphere.
+/// Bounds of a body in the world, with rounding: a box along the world's axes, one along its own,
+/// and a sphere.
 struct BodyBox {
   Eigen::Vector3d low, high;
-  Eigen::Matrix3d axes;  ///< of its own box, a column each
+  Eigen::Matrix3d axes;  ///< of its own box, one per column
   Eigen::Vector3d middle, half;
   Eigen::Vector3d centre;  ///< of the sphere
   double radius = 0;
 };
 
-/// A body of a sweep, and its number in the list that was given.
+/// A body of a sweep, and its index in the given list.
 struct SweepItem {
   Id<Body> body;
   int position = 0;
   const BodyBox* box = nullptr;
 };
 
-/// May two bodies be as near as reach [m]? True where they are.
+/// May two bodies be within reach [m]? Never false for a pair that is.
 bool within_reach(const BodyBox& a, const BodyBox& b, double reach);
 
-/// One for each thread that asks. It makes answers faster and changes no bit of them: whatever it
-/// remembers it compares with how the world is now, so that nobody has to tell it of changes,
-/// restored snapshots or removed bodies.
+/// One per thread. It makes answers faster without changing their bits: cached data is compared
+/// with the present world, so that it need not be notified of changes, restored snapshots or
+/// removed bodies.
 class QueryContext {
  public:
-  /// Begins a query of a world; of another family than the last, and all that was remembered is
-  /// forgotten: ids mean other bodies there.
+  /// Begins a query of a world; if the world belongs to a different family than the last, the cache
+  /// is cleared: ids refer to other bodies there.
   void attend(const std::shared_ptr<const void>& lineage, const WorldModel& model);
   /// body     with geometry
-  /// returns  stays where it is until attend() is called for a larger model
+  /// returns  a reference that is valid until attend() is called for a larger model
   const BodyBox& box(Id<Body> id, const Body& body, const Pose& X_WB);
-  /// Bodies with geometry of a small world, and the pairs of them that may collide, as numbers in
-  /// that list, both in creation order; found anew where the world is made or set otherwise than it
-  /// was.
+  /// Bodies with geometry of a small world, and the pairs of them that may collide, as indices into
+  /// that list, both in creation order; updated if the world's model or settings have changed.
   struct Candidates {
     std::vector<Id<Body>> bodies;
     std::vector<std::pair<int, int>> pairs;
-    /// The same pairs, those first that collided often of late, each with its memory once it has
+    /// The same pairs, those first that often collided recently, each with its memory if it has
     /// one.
     struct Likely {
       int i, j;
@@ -57,13 +56,14 @@ class QueryContext {
     std::vector<Likely> likely;
   };
   Candidates& candidates(const WorldModel& model, const WorldSettings& settings);
-  /// Bodies with geometry of a large world, in creation order where the world is made otherwise
-  /// than it was, else as the last sweep has left them: nearly in order, when little has moved.
+  /// Bodies with geometry of a large world, in creation order if the world's model has changed,
+  /// otherwise in the order of the last sweep: nearly sorted if little has moved.
   std::vector<SweepItem>& sweep_order(const WorldModel& model);
-  /// Coherence memory of a pair, as ordered() gives it.
+  /// Coherence memory of a pair, as returned by ordered().
   PairCache& pair(Id<Body> a, Id<Body> b);
   void forget(Id<Body> body);
-  /// Who watches the queries, and the motions of a world that has this context; they throw Stopped.
+  /// Progress of queries, and of motions of a world with this context; a stop request makes them
+  /// throw Stopped.
   void watch(Progress progress) { progress_ = std::move(progress); }
   const Progress& progress() const { return progress_; }
   size_t bytes() const;

@@ -1,4 +1,4 @@
-// What a ray meets first in a world.
+// Ray casting in a world.
 #pragma once
 #include "clench/model/world.h"
 
@@ -12,8 +12,8 @@ struct WorldHit {
   Eigen::Vector3d n_W;  ///< unit, of the triangle, outward
 };
 
-/// The nearest surface along a ray, nearer than reach [m]; of equally near ones the body that was
-/// made first.
+/// The nearest surface along a ray, nearer than reach [m]; of equally near ones the body created
+/// first.
 /// direction  unit
 std::optional<WorldHit> raycast(const World& world, const Eigen::Vector3d& origin,
                                 const Eigen::Vector3d& direction, double reach);

@@ -4,8 +4,8 @@
 
 namespace clench {
 
-// A pose that is put together of many; its rotation is made unit once, at the end. Half of what
-// joints of the original stand in is where the joint before ends, and not turned.
+// A pose composed of many; its rotation is normalized once, at the end. Many joint frames of
+// GraspIt! robots only have a translation or nothing.
 [[gnu::always_inline]] static inline void append(Pose& X, const Pose& next) {
   if (!next.position.isZero(0)) X.position += turned(X.rotation, next.position);
   if (!next.rotation.vec().isZero(0)) X.rotation = X.rotation * next.rotation;

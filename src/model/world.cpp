@@ -17,7 +17,7 @@ static bool holds(const std::vector<Slot<T>>& slots, Id<T> id) {
   return id.index < slots.size() && slots[id.index].used && slots[id.index].serial == id.serial;
 }
 
-// the thing behind an id, or a sentence that names what stood there
+// the object of an id, or an error that names what the id referred to
 template <class T>
 static const T& follow(const std::vector<Slot<T>>& slots, Id<T> id, const char* what) {
   if (holds(slots, id)) return slots[id.index].value;
@@ -40,12 +40,12 @@ std::string World::the_body(const std::string& name) {
 const Body& World::body(Id<Body> id) const { return follow(model_->bodies, id, "body"); }
 const Robot& World::robot(Id<Robot> id) const { return follow(model_->robots, id, "robot"); }
 
-// --- parts that are shared ---
+// --- shared parts ---
 
 template <class Part>
 static Part& own(std::shared_ptr<Part>& part) {
   if (part.use_count() > 1) part = std::make_shared<Part>(*part);
-  // who was the last of others to let go of it may have done so in another thread
+  // the last other owner may have released it in another thread
   std::atomic_thread_fence(std::memory_order_acquire);
   return *part;
 }
@@ -85,7 +85,7 @@ Id<Robot> World::find_robot(std::string_view name) const {
 std::string World::unique_name(const std::string& expected) {
   const std::string stem = expected.empty() ? "body" : expected;
   std::string name = stem;
-  // the count of a name is remembered, so that a thousand boxes are named in no time
+  // the count of a name is cached, so that naming a thousand boxes is fast
   int& count = edit_model().counts[stem];
   while (find_body(name) || find_robot(name)) name = fmt::format("{}_{}", stem, ++count + 1);
   return name;
@@ -100,7 +100,7 @@ void World::set_name(Id<Body> id, const std::string& name) {
   WorldModel& model = edit_model();
   std::string& current = model.bodies[id.index].value.name;
   if (current == name) return;
-  // allocations first: where memory ends, the body keeps its name
+  // allocations first: if memory runs out, the body keeps its name
   std::string changed = name;
   model.body_names[name] = id;
   model.body_names.erase(current);
@@ -116,7 +116,7 @@ Id<Body> World::insert(Body body, Pose X_WB, const std::string& name) {
   body.name = name.empty() ? unique_name(body.name) : name;
   Id<Body>& named = edit_model().body_names[body.name];
   const auto id = insert_slot(model_->bodies, std::move(body), next_serial());
-  // by index: where memory ends between the two, the next body still has the place of its own
+  // by index: if memory runs out between the two, the next body still gets its own entry
   state_.X_WB.resize(id.index + 1);
   state_.X_WB[id.index] = X_WB;
   model_->body_order.push_back(id);
@@ -133,7 +133,7 @@ Id<Body> World::add_body(const BodySpec& spec, BodyKind kind, Pose X_WB, const s
   return insert(std::move(body), X_WB, name);
 }
 
-// a part's name follows its robot's when that had to be changed
+// a part's name follows its robot's if that had to be changed
 static std::string part_name(const std::string& part, const std::string& was,
                              const std::string& is) {
   return part.starts_with(was) ? is + part.substr(was.size()) : part;
@@ -192,7 +192,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
     state_.follows_dof.push_back(true);
   }
 
-  // the robot first, so that its parts know it
+  // the robot first, so that its parts refer to it
   const size_t count = bodies().size();
   const std::string own_name = robot.name;
   Id<Robot>& named = edit_model().robot_names[own_name];
@@ -216,7 +216,7 @@ Id<Robot> World::add_robot(const RobotSpec& spec, Pose X_WB, const std::string& 
   return id;
 }
 
-// base and links, and what of them never meets
+// base and links, and their pairs that never collide
 void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
   const std::string robot_name = robot(id).name;
   const auto add_part = [&](const BodySpec& part, BodyKind kind, int link) {
@@ -241,10 +241,11 @@ void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
     set_collision(false, made.body_of(a), made.body_of(b));
 }
 
-// Neighbours never meet: a link and the nearest body with a shape on the way to the base. In robots
-// of the original no two links of a chain do, and the base meets no chain's first link.
+// Neighbors never collide: a link and the nearest body with a shape on the way to the base. In
+// GraspIt! robots no two links of a chain do, and the base never collides with a chain's first
+// link.
 void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) {
-  std::vector<Id<Body>> shaped;  // by link: itself or what carries it
+  std::vector<Id<Body>> shaped;  // by link: itself or its carrier
   for (const Link& link : robot.links) {
     const Id<Body> before = link.parent < 0 ? robot.base : shaped[link.parent];
     if (chain_links_collide || link.parent < 0) set_collision(false, before, link.body);
@@ -344,7 +345,7 @@ void World::remove(Id<Robot> id) {
   for (const auto body : bodies_of(id)) erase(body);
   for (const auto other : robots())
     if (robot(other).mounting && robot(other).mounting->parent == id) {
-      // its adapter goes with the arm that it was screwed to
+      // its adapter is removed with the arm to which it was attached
       if (const auto piece = robot(other).mounting->piece) erase(*piece);
       edit(other).mounting.reset();
     }
@@ -363,7 +364,7 @@ std::vector<Id<Body>> World::bodies_of(Id<Robot> id) const {
   return out;
 }
 
-// --- what things are ---
+// --- properties of things ---
 
 void World::set_eigengrasps(Id<Robot> id, std::shared_ptr<const EigengraspSet> set) {
   const Robot& r = robot(id);
@@ -411,7 +412,7 @@ void World::set_com(Id<Body> id, const Eigen::Vector3d& com) {
   BodySpec spec;
   spec.shape = b.shape;
   spec.com = b.com;
-  // an inertia that the shape gave is the shape's about the new centre
+  // an inertia that was computed from the shape is computed again about the new center
   const bool from_shape = b.inertia_per_mass == inertia_of(spec);
   b.com = spec.com.emplace(com);
   if (from_shape) b.inertia_per_mass = inertia_of(spec);
@@ -499,7 +500,7 @@ void WorldState::make_room_for(const WorldState& other) {
 void World::restore(const Snapshot& snapshot) {
   if (snapshot.lineage != lineage_)
     fail("world: the snapshot was taken of another one, of which this is no clone");
-  // where memory ends nothing has happened yet
+  // if memory runs out nothing has been changed yet
   state_.make_room_for(snapshot.state);
   // both are copied before they are changed
   model_ = std::const_pointer_cast<WorldModel>(snapshot.model);

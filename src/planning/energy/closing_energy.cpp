@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// what an energy moves is put back, whatever happens
+// restores all that an energy moves, also after an exception
 class PutBack {
  public:
   explicit PutBack(World& world) : world_(world), snapshot_(world.snapshot()) {}
@@ -39,7 +39,7 @@ bool hand_collides(World& world, Id<Robot> hand) {
   return !colliding_pairs(world, parts, world.bodies(), &world.context()).empty();
 }
 
-// Backs off along the approach direction until nothing collides, then comes to the first touch.
+// Backs off along the approach direction until nothing collides, then moves to the first touch.
 bool find_first_contact(World& world, Id<Robot> hand, double reach) {
   constexpr int most = 20;
   const Vector3d back = -turned(

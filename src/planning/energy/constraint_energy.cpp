@@ -39,7 +39,7 @@ EnergyPtr keep_out_energy(Id<Robot> hand, const Pose& X_WK, const Vector3d& low,
         for (const Id<Body> id : world.bodies_of(hand)) {
           if (!world.body(id).shape) continue;
           const Bounds box = world.body(id).shape->bounds_at(X_KW * world.pose(id));
-          // the shortest way out
+          // the shortest separating displacement
           const double depth = std::min((box.high - low).minCoeff(), (high - box.low).minCoeff());
           deepest = std::max(deepest, depth);
         }
@@ -72,7 +72,7 @@ EnergyPtr reach_energy(Id<Robot> hand, const Vector3d& p_W, double radius) {
 
 // --- penetration ---
 
-// points that cover the vertices evenly: each time the one farthest from those before
+// points distributed evenly over the vertices: each the farthest from those before
 static std::vector<Vector3d> spread_points(const std::vector<Vector3d>& vertices, int count) {
   std::vector<Vector3d> out;
   std::vector<double> away(vertices.size(), infinite);
@@ -120,7 +120,7 @@ EnergyPtr penetration_energy(const World& world, Id<Robot> hand, int count) {
   }
   return std::make_unique<PlainEnergy>([parts, points](World& now) {
     constexpr double touch = 1e-3;  // of a pair that collides, however shallow [mm]
-    // 0 for what is no part of the hand
+    // 0 for bodies that are not part of the hand
     const auto depth = [&](Id<Body> part, Id<Body> other) {
       const auto at = std::ranges::find(parts, part);
       return at == parts.end() ? 0 : sampled_depth(now, part, points[at - parts.begin()], other);

@@ -45,9 +45,9 @@ double ContactEnergy::of(const SiteTerm& term) const {
 double ContactEnergy::bounded_value(World& world, double bound) {
   sites_.attend(world);
   const int count = sites_.size();
-  // rounding must not cut off what lies on the bound
+  // rounding must not exclude a value at the bound
   const double enough = bound * count + 1e-9 * count;
-  // no term is less than the distance counts
+  // no term is less than its distance
   min_rest_.assign(count + 1, 0);
   if (bound < infinite)
     for (int i = count - 1; i >= 0; --i)
@@ -72,7 +72,7 @@ PotentialQuality::PotentialQuality(const World& world, const HandAndObject& who,
 }
 
 double PotentialQuality::lower_bound() const {
-  // no wrench space reaches farther in all directions than a contact that counts twice can push
+  // the support of no wrench space exceeds, in all directions, the force of two coincident contacts
   double mu = 0;
   for (int i = 0; i < sites_.size(); ++i) mu = std::max(mu, sites_.site(i).mu);
   return -2 * std::sqrt(1 + mu * mu);

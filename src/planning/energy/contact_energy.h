@@ -1,16 +1,16 @@
-// Energies of places that should touch: how far they are and how they face the object, without
-// closing the hand.
+// Energies of contact sites: their distances and angles to the object, without closing the hand.
 // source  Ciocarlie & Allen (2009), Hand posture subspaces for dexterous robotic grasping, sec. 5
 #pragma once
 #include "clench/planning/energy/contact_sites.h"
 
 namespace clench {
 
-/// What a site's normal should point against.
+/// Direction with which a site's normal is compared.
 enum class Facing {
-  nearest,  ///< the way to the nearest point
-  surface,  ///< the surface there, against its outward normal
-  away,  ///< the way back from the nearest point: the sign of GraspIt!'s GUIDED_AUTO_GRASP_QUALITY
+  nearest,  ///< the direction to the nearest point
+  surface,  ///< the inward normal of the surface there
+  /// the direction from the nearest point back: the sign of GraspIt!'s GUIDED_AUTO_GRASP_QUALITY
+  away,
 };
 
 /// Mean over the sites of distance + weight * (1 - cosine of the angle), the distance in mm.
@@ -21,13 +21,13 @@ class ContactEnergy : public Energy {
     double normal_weight = 50;  ///< >= 0 [mm]
     Facing facing = Facing::nearest;
   };
-  /// throws  Error as ContactSites, or for a weight that is not finite or below 0
+  /// throws  Error as ContactSites, or for a weight that is not finite or negative
   ContactEnergy(const World& world, const HandAndObject& who, const Options& options);
   double bounded_value(World& world, double bound) override;
   double lower_bound() const override { return 0; }
   EnergyPtr clone() const override { return std::make_unique<ContactEnergy>(*this); }
 
-  /// How a site lies, and the cosine that counts.
+  /// Pose of a site relative to the object, and the cosine in use.
   struct SiteTerm {
     SiteDistance at;
     double cosine = 0;
@@ -39,23 +39,23 @@ class ContactEnergy : public Energy {
  private:
   ContactSites sites_;
   Options options_;
-  std::vector<double> min_rest_;  ///< the terms from each on come to no less
+  std::vector<double> min_rest_;  ///< lower bound of the sum of the terms from each on
 };
 
-/// What the sites could hold if they touched: each counts by (cos(pi d / reach) + 1) where it faces
-/// the object and is within reach. Minus epsilon of the forces that they exert; 1 where these do
-/// not surround the origin.
+/// Potential quality of the sites if they touched: each has the weight (cos(pi d / reach) + 1) if
+/// it faces the object and is within reach. Minus epsilon of the forces that they exert; 1 if these
+/// do not surround the origin.
 class PotentialQuality : public Energy {
  public:
   struct Options {
     SiteKind contacts = SiteKind::preset;
     double reach = 0.05;      ///< > 0 [m]
     double min_facing = 0.7;  ///< cosine of the largest angle
-    double min_share = 0.25;  ///< of a site that counts
-    int min_count = 3;        ///< of them
-    bool torques = false;     ///< wrenches, not forces alone
+    double min_share = 0.25;  ///< of a site that is used
+    int min_count = 3;        ///< number of them
+    bool torques = false;     ///< wrenches, not only forces
   };
-  /// throws  Error as ContactSites, or when an option is out of range
+  /// throws  Error as ContactSites, or if an option is out of range
   PotentialQuality(const World& world, const HandAndObject& who, const Options& options);
   double bounded_value(World& world, double bound) override;
   double lower_bound() const override;
@@ -66,8 +66,8 @@ class PotentialQuality : public Energy {
   Options options_;
 };
 
-/// The first where it is at most 0, else the second: one that leads to where the first says
-/// something.
+/// The first if it is at most 0, otherwise the second: one that guides the search to where the
+/// first is meaningful.
 class GuidedEnergy : public Energy {
  public:
   GuidedEnergy(EnergyPtr first, EnergyPtr second)

@@ -14,7 +14,7 @@ EnergySum::EnergySum(std::vector<Term> terms) : terms_(std::move(terms)) {
 }
 
 double EnergySum::bounded_value(World& world, double bound) {
-  // what the terms that are still to come have at least
+  // lower bounds of the remaining terms
   double rest = 0;
   for (const Term& term : terms_)
     if (term.weight > 0) rest += term.weight * term.energy->lower_bound();
@@ -24,7 +24,7 @@ double EnergySum::bounded_value(World& world, double bound) {
     const double least = term.energy->lower_bound();
     const bool known = std::isfinite(rest);
     if (known) rest -= term.weight * least;
-    // rounding must not cut off what lies on the bound
+    // rounding must not exclude a value at the bound
     const double room = known ? (bound - sum - rest) / term.weight : infinite;
     const double slack = 1e-12 * (std::abs(room) + 1);
     sum += term.weight * term.energy->value(world, room + slack);
@@ -57,7 +57,7 @@ EnergyWithin::EnergyWithin(EnergyPtr energy, double low, double high)
 
 double EnergyWithin::bounded_value(World& world, double bound) {
   if (low_ > bound) return low_;
-  // what lies above the bound may still be held down by high
+  // a value above the bound may still be limited by high
   return std::clamp(energy_->value(world, high_ <= bound ? high_ : bound), low_, high_);
 }
 

@@ -1,4 +1,5 @@
-// What a search makes small: a number for how a hand stands to an object now.
+// Objective functions and constraints of grasp searches: numbers that depend on the present state
+// of hand and object.
 #pragma once
 #include <functional>
 #include <limits>
@@ -11,28 +12,28 @@ namespace clench {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The hand and the object that an energy is about, in a world or any of its clones.
+/// The hand and the object of an energy, in a world or any of its clones.
 struct HandAndObject {
   Id<Robot> hand;
   Id<Body> object;
 };
 
-/// Lengths count in millimetres here, as in the energies of GraspIt!, so that its numbers, weights
-/// and temperatures hold.
+/// Lengths are in millimeters here, as in the energies of GraspIt!, so that its numbers, weights
+/// and temperatures remain valid.
 inline constexpr double energy_length = 1e3;
 
-/// A term of an energy, or a tree of them. It remembers where it looked last, which changes no bit
-/// of an answer; each thread has a copy of its own.
+/// A term of an energy, or a tree of them. It caches data of the last query, which does not affect
+/// results; each thread has its own copy.
 class Energy {
  public:
   virtual ~Energy() = default;
-  /// Exact where it is at most the bound; otherwise anything above it, found sooner. The world
-  /// stands on return as it did.
+  /// Exact if it is at most the bound; otherwise any value above it, faster. The world is restored
+  /// on return.
   double value(World& world, double bound = infinite) { return bounded_value(world, bound); }
-  /// No state has less; -infinite: not known.
+  /// Lower bound over all states; -infinite: unknown.
   virtual double lower_bound() const { return -infinite; }
   virtual std::unique_ptr<Energy> clone() const = 0;
-  /// May any thread ask it? A script's function may be asked by the script's thread alone.
+  /// May any thread evaluate it? A script's function may be called only by the script's thread.
   virtual bool any_thread() const { return true; }
 
  private:
@@ -41,14 +42,14 @@ class Energy {
 
 using EnergyPtr = std::unique_ptr<Energy>;
 
-/// The sum of terms, each times a weight >= 0.
+/// The weighted sum of terms, with weights >= 0.
 class EnergySum : public Energy {
  public:
   struct Term {
     double weight = 1;
     EnergyPtr energy;
   };
-  /// throws  Error for a weight that is not finite or below 0
+  /// throws  Error for a weight that is not finite or negative
   explicit EnergySum(std::vector<Term> terms);
   double bounded_value(World& world, double bound) override;
   double lower_bound() const override;
@@ -59,10 +60,10 @@ class EnergySum : public Energy {
   std::vector<Term> terms_;
 };
 
-/// A term kept within [low, high]: below low it counts as low, above high as high.
+/// A term clamped to [low, high].
 class EnergyWithin : public Energy {
  public:
-  /// throws  Error when low exceeds high, or one is not a number
+  /// throws  Error if low exceeds high, or one is NaN
   EnergyWithin(EnergyPtr energy, double low, double high);
   double bounded_value(World& world, double bound) override;
   double lower_bound() const override { return std::max(low_, energy_->lower_bound()); }
@@ -74,7 +75,7 @@ class EnergyWithin : public Energy {
   double low_, high_;
 };
 
-/// A function of the world, >= 0, that remembers nothing: copies of it are good for any thread.
+/// A stateless function of the world, >= 0: any thread may use copies of it.
 class PlainEnergy : public Energy {
  public:
   using Function = std::function<double(World&)>;
@@ -87,8 +88,8 @@ class PlainEnergy : public Energy {
   Function function_;
 };
 
-/// A function as a term, a script's for instance.   throws what the function throws, and Error when
-/// it gives no number
+/// A function as a term, for example a script's.
+/// throws   what the function throws, and Error if it returns a value that is not a number
 class EnergyFunction : public Energy {
  public:
   explicit EnergyFunction(std::function<double()> function) : function_(std::move(function)) {}

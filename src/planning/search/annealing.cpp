@@ -13,7 +13,7 @@ namespace clench {
 
 namespace {
 
-constexpr int max_draws = 100;      // of a variable, until it lies in its range
+constexpr int max_draws = 100;      // draws for a variable, until it lies in its range
 constexpr int max_stuck = 10'000;   // tries in a row without a legal neighbour
 constexpr double coldest = 1e-100;  // a temperature of 0 has no neighbours
 
@@ -21,10 +21,11 @@ double temperature(double t0, double decay, double dimensions, double step) {
   return std::max(t0 * std::exp(-decay * std::pow(step, 1 / dimensions)), coldest);
 }
 
-// log(1 + 1 / T) of a temperature: how far changes reach
+// log(1 + 1 / T) of a temperature: size of changes
 double reach(double temperature) { return std::log(1 + 1 / temperature); }
 
-// an even draw x in [-1, 1] as a change that is the longer the warmer: T ((1 + 1 / T)^|x| - 1)
+// maps a uniform x in [-1, 1] to a change that is longer at higher temperatures: T ((1 + 1 / T)^|x|
+// - 1)
 double spread(double x, double temperature, double reach) {
   return std::copysign(temperature * (std::exp(reach * std::abs(x)) - 1), x);
 }
@@ -90,7 +91,7 @@ Annealing::Annealing(World& world, const HandAndObject& who, SearchSpace space, 
 void Annealing::go_to(const Values& values) {
   values_ = values;
   const HandState state = space_.state(values);
-  // from where the hand collides, any legal neighbour is better
+  // if the hand collides, any legal neighbor is better
   energy_value_ = place(state) == Verdict::collides ? infinite : energy_->value(world_);
   if (std::isfinite(energy_value_)) best_.add(space_, {values, state, energy_value_, 0});
 }
@@ -102,8 +103,8 @@ Annealing::Verdict Annealing::place(const HandState& state) {
   return Verdict::legal;
 }
 
-// A value near this one. With a target, one between it and the target more likely than others: the
-// more so, the more the target is trusted.
+// A value near this one. With a target, values between it and the target are more likely than
+// others, in proportion to the confidence in the target.
 double Annealing::jump(const Variable& v, double value, double temperature, double reach) {
   double x;
   if (v.target && v.confidence > 0) {
@@ -159,7 +160,8 @@ bool Annealing::take_step() {
   }
   if (!legal) return ++counts_.stuck, false;
 
-  // how much worse a state may be is drawn first: what is worse need not be known
+  // the largest acceptable increase is drawn first: the energy of worse states need not be computed
+  // exactly
   const double warmth =
       options_.schedule.error_temperature(static_cast<double>(k_)) / options_.schedule.error_scale;
   const double bound = energy_value_ - warmth * std::log(1 - random_.uniform());

@@ -23,39 +23,40 @@ struct AnnealingSchedule {
   double error_temperature(double step) const;
 };
 
-/// "default", "loop", "modified", "strict", "online".   throws Error with the nearest name
+/// "default", "loop", "modified", "strict", "online".
+/// throws Error that suggests the nearest name
 AnnealingSchedule annealing_schedule(const std::string& name);
 
 struct AnnealingOptions {
   AnnealingSchedule schedule = {};
   uint64_t seed = 0;
-  int max_tries = 11;      ///< of neighbours, for a legal one, >= 1
-  bool collisions = true;  ///< is a hand that collides illegal?
+  int max_tries = 11;      ///< tries of neighbors until one is legal, >= 1
+  bool collisions = true;  ///< is a colliding hand illegal?
   BestListOptions best = {};
 };
 
-/// What became of the steps.
+/// Statistics of the steps.
 struct AnnealingCounts {
   int64_t steps = 0;  ///< with a legal neighbour
   int64_t accepted = 0;
-  int64_t improved = 0;  ///< accepted ones that lowered the energy
-  int64_t stuck = 0;  ///< tries of steps that found no legal neighbour; they do not count as steps
+  int64_t improved = 0;      ///< accepted ones that lowered the energy
+  int64_t stuck = 0;         ///< tries without a legal neighbor; they do not count as steps
   int64_t in_collision = 0;  ///< neighbours
-  int64_t avoided = 0;       ///< neighbours near a state of the avoid list
-  int64_t outside = 0;  ///< neighbours that 100 draws did not bring into the range of a variable
+  int64_t avoided = 0;       ///< neighbors rejected because of the avoid list
+  int64_t outside = 0;  ///< neighbors for which 100 draws did not bring a variable into its range
 };
 
-/// A chain of its own world: each thread one. It stands at a state, and the best it met are in its
-/// list.
+/// A chain in its own world, one per thread. It has a present state, and keeps the best states in
+/// its list.
 class Annealing {
  public:
-  /// world   is moved by every step; the hand is carried by nobody
-  /// throws  Error when an option is out of range or the hand is carried
+  /// world   every step moves the hand; the hand must not be carried
+  /// throws  Error if an option is out of range or the hand is carried
   Annealing(World& world, const HandAndObject& who, SearchSpace space, EnergyPtr energy,
             const AnnealingOptions& options = {});
 
-  /// Takes `count` more steps with a legal neighbour.
-  /// returns  fewer where 10,000 tries in a row found none
+  /// Takes `count` more steps with a legal neighbor.
+  /// returns  fewer if 10,000 consecutive tries found none
   /// throws   Stopped, between two steps, and what an energy throws
   int run(int count, const Progress& progress = {});
 
@@ -67,9 +68,10 @@ class Annealing {
   BestList& best() { return best_; }
   const BestList& best() const { return best_; }
   int64_t step() const { return k_; }  ///< of the schedule
-  /// The schedule begins anew; the state stays.
+  /// Restarts the schedule; the state is unchanged.
   void reset_schedule() { k_ = options_.schedule.first_step; }
-  /// Goes to a state.   throws Error as SearchSpace::state
+  /// Sets the state.
+  /// throws Error as SearchSpace::state
   void go_to(const Values& values);
   bool any_thread() const { return energy_->any_thread(); }
   World& world() const { return world_; }

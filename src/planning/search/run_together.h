@@ -1,5 +1,4 @@
-// Several searches at once, each in a world of its own: what they find does not depend on how many
-// threads there are.
+// Several searches at once, each in its own world: results do not depend on the number of threads.
 #pragma once
 #include <span>
 
@@ -13,11 +12,11 @@ struct Share {
   int taken = 0;  ///< of them, on return
 };
 
-/// Runs each its steps, on at most so many threads; those whose energy only the caller's thread may
-/// ask run on it.
+/// Runs the steps of each search, on at most `threads` threads; those whose energy only the
+/// caller's thread may evaluate run on that.
 /// threads  >= 1
-/// throws   Error when two share a world; what the first of them, in their order, threw; Stopped
-///          once all have ended
+/// throws   Error if two share a world; the exception of the first of them, in their order; Stopped
+///          after all have ended
 void run_together(std::span<Share> shares, int threads, const Progress& progress = {});
 
 }  // namespace clench

@@ -27,12 +27,12 @@ Pose axis_angle_pose(const Eigen::Ref<const Values>& v) {
 
 Pose complete_pose(const Eigen::Ref<const Values>& v) {
   Quaterniond q(v[3], v[4], v[5], v[6]);
-  // as good as any where there is no direction
+  // an arbitrary choice if there is no direction
   if (!(q.norm() > 1e-9)) q = Quaterniond::Identity();
   return {q.normalized(), v.head<3>()};
 }
 
-// x and y of a frame whose z is known: y along z x e1, as the ellipsoid's frames have it
+// x and y of a frame with given z: y along z x e1, as in the ellipsoid's frames
 Quaterniond frame_about(const Vector3d& z) {
   Vector3d y = z.cross(Vector3d::UnitX());
   if (!(y.norm() > 1e-9)) y = Vector3d::UnitY();
@@ -51,7 +51,7 @@ Pose ellipsoid_pose(const Eigen::Ref<const Values>& v, const Vector3d& semi) {
   return Pose{frame_about(n), p - v[3] * n} * Pose::turn(v[2], Vector3d::UnitZ());
 }
 
-// the point whose inward normal is the frame's z, how far off it lies, and how it is rolled
+// the point whose inward normal is the frame's z, the distance from it, and the roll angle
 void find_ellipsoid(const Pose& X_RA, const Vector3d& semi, Eigen::Ref<Values> out) {
   const Vector3d n = turned(X_RA.rotation, Vector3d::UnitZ());
   const Vector3d p = -n.cwiseProduct(semi.cwiseAbs2()) / n.cwiseProduct(semi).norm();
@@ -111,7 +111,7 @@ void SearchSpace::add_posture() {
   for (size_t i = 0; i < ranges.size(); ++i) {
     auto [low, high] = ranges[i];
     const double at = now[static_cast<int>(i)];
-    // of joints that turn without end: a turn about where they are
+    // for joints without stops: one turn about their present position
     const bool endless = !std::isfinite(high - low);
     if (endless) low = std::max(low, at - pi), high = std::min(high, at + pi);
     Variable v{.name = amplitudes ? fmt::format("EG {}", i) : dof_names_[i],

@@ -1,7 +1,7 @@
-// Search spaces of grasps: a few variables that say where a hand stands about a reference, and in
-// which posture.
+// Search spaces of grasps: a few variables that determine the pose of a hand relative to a
+// reference, and its posture.
 // source  Ciocarlie & Allen (2009), Hand posture subspaces for dexterous robotic grasping; spaces
-//         as GraspIt! has them
+//         as in GraspIt!
 #pragma once
 #include "clench/model/robot.h"
 #include "clench/motion/eigengrasps.h"
@@ -9,19 +9,18 @@
 
 namespace clench {
 
-/// How variables say where the hand's base stands; R is the reference, A the approach frame in the
-/// base.
+/// Parametrization of the hand's base; R is the reference, A the approach frame in the base.
 enum class PositionKind {
-  complete,    ///< Tx Ty Tz, Qw Qx Qy Qz: X_RH = T(t) R(q), q brought to unit length
+  complete,    ///< Tx Ty Tz, Qw Qx Qy Qz: X_RH = T(t) R(q), with q normalized
   axis_angle,  ///< Tx Ty Tz, theta phi alpha: X_RH = T(t) R(alpha about (theta, phi)) X_HA^-1
-  ellipsoid,   ///< beta gamma tau dist: on an ellipsoid about R, looking in, rolled by tau
+  ellipsoid,   ///< beta gamma tau dist: on an ellipsoid about R, facing inwards, rolled by tau
   approach,    ///< dist, wrist_1 wrist_2: along the approach direction from the start, tilted
-  fixed,       ///< it stays where it is
+  fixed,       ///< fixed
 };
 enum class PostureKind {
-  eigengrasps,  ///< "EG 0" and on: amplitudes
+  eigengrasps,  ///< "EG 0" and so on: amplitudes
   dofs,         ///< the names of the DOFs
-  fixed,        ///< it stays as it is
+  fixed,        ///< fixed
 };
 
 struct SpaceOptions {
@@ -36,34 +35,35 @@ struct HandState {
   Eigen::VectorXd dofs;
 };
 
-/// A value: variables, and what they mean for one hand.
+/// Variables, and their meaning for one hand.
 class SearchSpace {
  public:
-  /// start  where the hand is: what is fixed stays there, and the approach goes from there
+  /// start  pose of the hand: its fixed components keep these values, and the approach starts there
   SearchSpace(const Robot& hand, const HandState& start, const SpaceOptions& options = {});
 
-  /// Those of the posture first. Scripts set ranges, jumps, targets; names and number stay.
+  /// Those of the posture first. Scripts set ranges, jumps and targets; names and number are fixed.
   std::vector<Variable>& variables() { return variables_; }
   const std::vector<Variable>& variables() const { return variables_; }
   const SpaceOptions& options() const { return options_; }
-  /// A variable of the user's own, which moves nothing: energies read it.
+  /// A user-defined variable, which moves nothing: energies read it.
   void add_variable(Variable variable);
-  /// throws  Error as check_variable, or when a name comes twice
+  /// throws  Error as check_variable, or if a name is repeated
   void check() const;
 
   Values start() const;  ///< value of each variable
-  /// values  one per variable; those outside are brought inside, as are DOFs that they lead outside
+  /// values  one per variable; those outside their range are moved into it, as are DOFs that they
+  ///         lead outside
   HandState state(const Values& values) const;
-  /// The values whose state is nearest, those of the user's own variables as they start: a pose
-  /// that the space does not hold (off the ellipsoid's normals, tilted otherwise than two wrists
-  /// can) comes as near as it can.
+  /// The values whose state is nearest, with user-defined variables at their start: a pose that the
+  /// space does not contain (off the ellipsoid's normals, tilted in a way that two wrist angles
+  /// cannot represent) is approximated.
   Values values(const HandState& state) const;
 
-  /// How different two states are: the largest of the distance of the approach frames' origins by
-  /// the radius, half the rotation by pi, and, where it counts, the largest difference of a DOF by
-  /// its range.
+  /// Dissimilarity of two states: the maximum of the distance of the approach frames' origins
+  /// divided by the radius, half the rotation angle divided by pi, and, if it is included, the
+  /// largest difference of a DOF divided by its range.
   double distance(const HandState& a, const HandState& b, double radius, bool posture) const;
-  /// Is that below a limit? Found sooner.
+  /// Is that below a limit? Faster.
   bool alike(const HandState& a, const HandState& b, double radius, bool posture,
              double limit) const;
 
