@@ -12,11 +12,16 @@ namespace {
 // nothing to keep
 struct Renderer::Kept {};
 struct Renderer::Framed {};
-Renderer::Renderer() = default;
+Renderer::Renderer(Context context) : context_(context) {}
 Renderer::~Renderer() = default;
 void Renderer::clear() {}
 size_t Renderer::bytes() const { return 0; }
 Picture Renderer::draw(const Scene&, const RenderOptions&, const Font&) { refuse(); }
+void Renderer::draw_to(const DrawTarget&, const Scene&, const Eye&, const RenderOptions&) {
+  refuse();
+}
+Picture Renderer::read() { refuse(); }
+void Renderer::finish() {}
 Eye Renderer::frame_all(const Scene& scene, double aspect, bool ortho) {
   return frame(scene, aspect, ortho);
 }

@@ -8,10 +8,10 @@
 #include "clench/base/error.h"
 #include "clench/render/figure/canvas.h"
 #include "clench/render/gl/gl_context.h"
+#include "clench/render/gl/gl_state.h"
 #include "clench/render/mesh/pieces.h"
 #include "clench/render/paint/draft.h"
 #include "clench/render/paint/painter.h"
-#include "clench/render/paint/tile.h"
 #include "clench/render/view/framed.h"
 #include "clench/render/view/label_layout.h"
 
@@ -19,7 +19,8 @@ namespace clench {
 
 namespace {
 
-constexpr size_t max_kept = size_t{256} << 20;  // of meshes, and of a scene [bytes]
+constexpr size_t max_kept = size_t{256} << 20;       // of meshes, and of a scene [bytes]
+constexpr size_t max_kept_frame = size_t{64} << 20;  // after a picture [bytes]
 
 // what was stopped half way leaves nothing behind
 void reset_state() {
@@ -36,37 +37,118 @@ void reset_state() {
   }
 }
 
+double aspect_of(const RenderOptions& options) {
+  return static_cast<double>(options.width) / options.height;
+}
+
+bool is_frame(const RenderOptions& options) {
+  return options.quality == Quality::draft && options.draft_scale == 1;
+}
+
+}  // namespace
+
+// what a context holds
+struct RendererLoaded {
+  Programs programs;
+  DraftKept drafts{max_kept};
+  std::optional<FrameTarget> frame;
+  RenderOptions framed;  // options of that frame
+  std::optional<SceneKey> key;
+  std::optional<PaperScene> scene;
+};
+
+namespace {
+
+void draw_frame(RendererLoaded& loaded, const Scene& scene, const Eye& eye,
+                const RenderOptions& options) {
+  auto& frame = loaded.frame;
+  if (!frame || frame->width != options.width || frame->height != options.height) {
+    frame.reset();
+    frame.emplace(options.width, options.height);
+  }
+  loaded.framed = options;
+  draft_to(loaded.programs, loaded.drafts, scene, eye, options, {frame->target});
+}
+
+Picture read_loaded(const RendererLoaded& loaded) {
+  glBindFramebuffer(GL_FRAMEBUFFER, loaded.frame->target);
+  return read_frame(loaded.framed);
+}
+
+Picture draw_draft(RendererLoaded& loaded, const Scene& scene, const Eye& eye,
+                   const RenderOptions& options) {
+  if (!is_frame(options)) return draft_reduced(loaded.programs, loaded.drafts, scene, eye, options);
+  draw_frame(loaded, scene, eye, options);
+  Picture picture = read_loaded(loaded);
+  if (loaded.frame->bytes() > max_kept_frame) loaded.frame.reset();
+  return picture;
+}
+
+Picture draw_paper(RendererLoaded& loaded, const Scene& scene, const Eye& eye,
+                   const RenderOptions& options) {
+  if (!loaded.scene || !loaded.key->matches(scene)) {
+    loaded.scene.reset();
+    loaded.key.emplace(scene);
+    loaded.scene.emplace(loaded.programs, scene);
+  }
+  Picture picture =
+      paint(loaded.programs, *loaded.scene, loaded.scene->list().to_scene(eye), options);
+  if (loaded.scene->bytes() > max_kept) loaded.scene.reset(), loaded.key.reset();
+  return picture;
+}
+
 }  // namespace
 
 // in this order, so that the context goes last
 struct Renderer::Kept {
-  GlContext context;
-  struct Loaded {
-    Programs programs;
-    MeshStore meshes{max_kept};
-    std::optional<SceneKey> key;
-    std::optional<PaperScene> scene;
-  };
-  std::optional<Loaded> loaded;
+  std::optional<GlContext> context;  // empty: the caller's
+  std::optional<RendererLoaded> loaded;
 
-  ~Kept() {
-    if (!loaded) return;
-    try {
-      const GlContext::Entered entered(context);
-      loaded.reset();
-    } catch (const Error&) {
-      // no context, no names to free in it: they go with it
-      loaded->scene.reset(), loaded.reset();
-    }
-  }
+  ~Kept();
 };
+
+// the context of the renderer, or the state of the caller's, while it lives
+class Renderer::Entered {
+ public:
+  explicit Entered(Kept& kept) {
+    if (kept.context)
+      own_.emplace(*kept.context);
+    else
+      saved_.emplace();
+    reset_state();
+  }
+
+ private:
+  std::optional<GlContext::Entered> own_;
+  std::optional<gl::SavedState> saved_;
+};
+
+Renderer::Kept::~Kept() {
+  if (!loaded) return;
+  try {
+    const Entered entered(*this);
+    loaded.reset();
+  } catch (const Error&) {
+    // no context, no names to free in it: they go with it
+    loaded->scene.reset(), loaded.reset();
+  }
+}
 
 struct Renderer::Framed {
   std::optional<FramedScene> last;
 };
 
-Renderer::Renderer() : framed_(std::make_unique<Framed>()) {}
+Renderer::Renderer(Context context) : context_(context), framed_(std::make_unique<Framed>()) {}
 Renderer::~Renderer() = default;
+
+Renderer::Kept& Renderer::kept() {
+  if (!kept_) {
+    auto fresh = std::make_unique<Kept>();
+    if (context_ == Context::own) fresh->context.emplace();
+    kept_ = std::move(fresh);
+  }
+  return *kept_;
+}
 
 void Renderer::clear() {
   kept_.reset();
@@ -76,35 +158,23 @@ void Renderer::clear() {
 size_t Renderer::bytes() const {
   if (!kept_ || !kept_->loaded) return 0;
   const auto& loaded = *kept_->loaded;
-  return loaded.meshes.bytes() + (loaded.scene ? loaded.scene->bytes() : 0);
+  return loaded.drafts.bytes() + (loaded.frame ? loaded.frame->bytes() : 0) +
+         (loaded.scene ? loaded.scene->bytes() : 0);
 }
 
 Picture Renderer::draw(const Scene& scene, const RenderOptions& options, const Font& font) {
   check(options);
   check(scene);
-  const double aspect = static_cast<double>(options.width) / options.height;
   if (scene.eye) view_axes(*scene.eye);
-  const Eye eye = scene.eye ? *scene.eye : frame_all(scene, aspect);
-
-  if (!kept_) kept_ = std::make_unique<Kept>();
+  const Eye eye = scene.eye ? *scene.eye : frame_all(scene, aspect_of(options));
   Picture picture;
   {
-    const GlContext::Entered entered(kept_->context);
-    if (!kept_->loaded) kept_->loaded.emplace();
-    auto& loaded = *kept_->loaded;
-    reset_state();
-    if (options.quality == Quality::draft) {
-      picture = draft(loaded.programs, loaded.meshes, scene, eye, options);
-      loaded.meshes.trim();
-    } else {
-      if (!loaded.scene || !loaded.key->matches(scene)) {
-        loaded.scene.reset();
-        loaded.key.emplace(scene);
-        loaded.scene.emplace(loaded.programs, scene);
-      }
-      picture = paint(loaded.programs, *loaded.scene, loaded.scene->list().to_scene(eye), options);
-      if (loaded.scene->bytes() > max_kept) loaded.scene.reset(), loaded.key.reset();
-    }
+    auto& loaded = kept().loaded;
+    const Entered entered(*kept_);
+    if (!loaded) loaded.emplace();
+    picture = options.quality == Quality::draft ? draw_draft(*loaded, scene, eye, options)
+                                                : draw_paper(*loaded, scene, eye, options);
+    loaded->drafts.meshes.trim();
   }
   if (options.backdrop == Backdrop::white) picture = on_white(picture);
   Canvas canvas(picture, font);
@@ -114,6 +184,41 @@ Picture Renderer::draw(const Scene& scene, const RenderOptions& options, const F
     canvas.bright_text({text.text, {text.box.low.x(), text.box.high.y()}, text.height}, text.color);
   picture.eye = eye;
   return picture;
+}
+
+void Renderer::draw_to(const DrawTarget& target, const Scene& scene, const Eye& eye,
+                       const RenderOptions& options) {
+  check(options);
+  check(scene);
+  view_axes(eye);
+  if (!is_frame(options)) fail("picture: frames are drafts with one sample a pixel");
+  if (target.framebuffer && context_ == Context::own)
+    fail("picture: a framebuffer needs a renderer that draws in the caller's context");
+  if (!target.framebuffer && (target.x != 0 || target.y != 0))
+    fail("picture: a frame of the renderer's own begins at 0, 0, got {}, {}", target.x, target.y);
+  auto& loaded = kept().loaded;
+  const Entered entered(*kept_);
+  if (!loaded) loaded.emplace();
+  if (target.framebuffer)
+    draft_to(loaded->programs, loaded->drafts, scene, eye, options,
+             {*target.framebuffer, target.x, target.y});
+  else
+    draw_frame(*loaded, scene, eye, options);
+  loaded->drafts.meshes.trim();
+}
+
+Picture Renderer::read() {
+  if (!kept_ || !kept_->loaded || !kept_->loaded->frame)
+    fail("picture: there is no frame to read: draw_to draws one");
+  const Entered entered(*kept_);
+  Picture picture = read_loaded(*kept_->loaded);
+  return kept_->loaded->framed.backdrop == Backdrop::white ? on_white(picture) : picture;
+}
+
+void Renderer::finish() {
+  if (!kept_ || !kept_->loaded) return;
+  const Entered entered(*kept_);
+  glFinish();
 }
 
 Eye Renderer::frame_all(const Scene& scene, double aspect, bool ortho) {

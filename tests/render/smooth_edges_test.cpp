@@ -1,8 +1,9 @@
-#include "clench/render/figure/smooth_edges.h"
+#include "smooth_edges.h"
 
 #include <doctest/doctest.h>
 
 using namespace clench;
+using clench::test::smooth_edges;
 
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include "clench/base/error.h"
 #include "clench/render/gl/draft_shaders.h"
+#include "clench/render/gl/edge_shader.h"
 #include "clench/render/gl/shaders.h"
 
 namespace clench {
@@ -30,6 +31,7 @@ Programs::Programs() {
       gl::make_program("", cover_vertex, backdrop + draft_curve_part + draft_behind_fragment);
   draft_shadow = gl::make_program("", draft_shadow_vertex, depth_fragment);
   draft_outline = gl::make_program("", draft_vertex, draft_seen_fragment);
+  edges = gl::make_program("", cover_vertex, edge_fragment);
 }
 
 }  // namespace clench

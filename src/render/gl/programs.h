@@ -14,7 +14,7 @@ struct Programs {
   gl::Object first, shade, mark, through, outline, add, develop;  ///< what is seen
   gl::Object shadow, gather, smooth;                              ///< light
   gl::Object draft, draft_glass, draft_marks, draft_floor, draft_behind, draft_outline,
-      draft_shadow;
+      draft_shadow, edges;
 };
 
 }  // namespace clench

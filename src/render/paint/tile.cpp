@@ -54,19 +54,19 @@ Eigen::Vector3f shading_eye(const Eye& eye) {
   return (eye.target + far * view_axes(eye).col(2)).cast<float>();
 }
 
-void read_tile(const Tile& tile, Picture& out) {
+void read_tile(const Tile& tile, Picture& out, const Eigen::Vector2i& first) {
   std::vector<uint8_t> pixels(4 * static_cast<size_t>(tile.width) * tile.height);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(tile.border, tile.border, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE,
-               pixels.data());
+  glReadPixels(first.x() + tile.border, first.y() + tile.border, tile.width, tile.height, GL_RGBA,
+               GL_UNSIGNED_BYTE, pixels.data());
   // rows from the bottom to rows from the top
   for (int y = 0; y < tile.height; ++y) {
-    const size_t row = out.height - 1 - tile.y - y, first = row * out.width + tile.x;
+    const size_t row = out.height - 1 - tile.y - y, start = row * out.width + tile.x;
     const uint8_t* from = &pixels[4 * static_cast<size_t>(y) * tile.width];
-    uint8_t* to = &out.pixels[3 * first];
+    uint8_t* to = &out.pixels[3 * start];
     for (int x = 0; x < tile.width; ++x, from += 4, to += 3) {
       to[0] = from[0], to[1] = from[1], to[2] = from[2];
-      if (!out.alpha.empty()) out.alpha[first + x] = from[3];
+      if (!out.alpha.empty()) out.alpha[start + x] = from[3];
     }
   }
 }

@@ -30,8 +30,9 @@ Eigen::Vector2d depth_range(const Eye& eye);
 /// scene units.
 Eigen::Vector3f shading_eye(const Eye& eye);
 
-/// Of the framebuffer that is bound, which holds the tile: red, green, blue, alpha.
-void read_tile(const Tile& tile, Picture& out);
+/// Of the framebuffer that is bound, which holds the tile with its border from `first` on: red, green,
+/// blue, alpha.
+void read_tile(const Tile& tile, Picture& out, const Eigen::Vector2i& first = {0, 0});
 
 /// Size of a map of shadows, its texels about as wide as the pixels of the picture: a power of two
 /// times `min_size`, at most `max_size`.

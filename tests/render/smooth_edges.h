@@ -1,15 +1,16 @@
-#include "clench/render/figure/smooth_edges.h"
-
+// Edges smoothed pixel by pixel: the reference for what the graphics card does.
+#pragma once
 #include <algorithm>
 #include <cmath>
 
-namespace clench {
+#include "clench/render/figure/picture.h"
 
-namespace {
+namespace clench::test {
 
-constexpr int reach_along = 12;                         // of a step that is followed [pixels]
-constexpr int min_contrast = 12;                        // that is smoothed, of 255
-constexpr float part_contrast = 0.1f, max_spot = 0.6f;  // of the brightest; of a single pixel
+inline constexpr int reach_along = 12;   // of a step that is followed [pixels]
+inline constexpr int min_contrast = 12;  // that is smoothed, of 255
+inline constexpr float part_contrast = 0.1f,
+                       max_spot = 0.6f;  // of the brightest; of a single pixel
 
 struct Brightness {
   int width, height;
@@ -18,7 +19,7 @@ struct Brightness {
 };
 
 // as on white
-Brightness brightness_of(const Picture& p) {
+inline Brightness brightness_of(const Picture& p) {
   Brightness out{p.width, p.height, {}};
   out.values.resize(static_cast<size_t>(p.width) * p.height);
   for (size_t i = 0; i < out.values.size(); ++i) {
@@ -35,7 +36,7 @@ struct Mix {
   int dx = 0, dy = 0;
 };
 
-Mix mix_at(const Brightness& b, int x, int y) {
+inline Mix mix_at(const Brightness& b, int x, int y) {
   const int m = b.at(x, y), n = b.at(x, y - 1), s = b.at(x, y + 1), e = b.at(x + 1, y),
             w = b.at(x - 1, y);
   const int high = std::max({m, n, s, e, w}), low = std::min({m, n, s, e, w}), range = high - low;
@@ -85,7 +86,7 @@ Mix mix_at(const Brightness& b, int x, int y) {
 
 // between each pixel of a row and its four neighbours. Bytes alone, so that many are found at once:
 // few are worth more
-void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts) {
+inline void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts) {
   const uint8_t* row = &b.values[static_cast<size_t>(y) * b.width];
   const uint8_t *above = row - b.width, *below = row + b.width;
   uint8_t* out = contrasts.data();
@@ -98,9 +99,10 @@ void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts)
   }
 }
 
-}  // namespace
-
-void smooth_edges(Picture& picture) {
+/// Mixes pixels at edges with those across, by where along a step of the edge they lie. Colours are
+/// multiplied by alpha where there is alpha.
+/// source  Lottes (2009), FXAA
+inline void smooth_edges(Picture& picture) {
   const Brightness b = brightness_of(picture);
   const Picture from = picture;
   const auto mixed = [](const std::vector<uint8_t>& values, size_t here, size_t across,
@@ -124,4 +126,4 @@ void smooth_edges(Picture& picture) {
   }
 }
 
-}  // namespace clench
+}  // namespace clench::test
