@@ -34,6 +34,18 @@ const grid = new THREE.GridHelper(2, 40, 0x76828e, 0x9aa5b0);
 grid.rotation.x = Math.PI / 2;
 const hasObstacles = data.parts.some(part => part.kind === "obstacle");
 if (!hasObstacles) { scene.add(grid); view.querySelector(".note").append(" \u00b7 squares: 5 cm"); }
+// the distance at which all corners of a box are in the view, with a margin
+function distanceTo(box) {
+  const {azimuth, elevation, target} = orbit, tangent = Math.tan(camera.fov * Math.PI / 360), aspect = view.clientWidth / view.clientHeight || 1;
+  const back = new THREE.Vector3(Math.cos(azimuth) * Math.cos(elevation), Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation));
+  const right = new THREE.Vector3(-Math.sin(azimuth), Math.cos(azimuth), 0), up = back.clone().cross(right);
+  let distance = 1e-3;
+  for (const x of [box.min.x, box.max.x]) for (const y of [box.min.y, box.max.y]) for (const z of [box.min.z, box.max.z]) {
+    const corner = new THREE.Vector3(x, y, z).sub(target);
+    distance = Math.max(distance, corner.dot(back) + 1.06 * Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / aspect) / tangent);
+  }
+  return distance;
+}
 function frame() {
   const box = new THREE.Box3(), now = Number(slider.value);
   for (const time of [last, first]) {
@@ -45,9 +57,9 @@ function frame() {
   showAt(now);
   const sphere = box.getBoundingSphere(new THREE.Sphere());
   orbit.target.copy(sphere.center);
-  orbit.distance = 0.85 * Math.max(1e-3, sphere.radius) / Math.sin(camera.fov * Math.PI / 360);
   orbit.azimuth = -0.9;
   orbit.elevation = 0.45;
+  orbit.distance = distanceTo(box);
   grid.position.set(sphere.center.x, sphere.center.y, box.min.z - 0.002);
 }
 

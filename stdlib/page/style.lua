@@ -6,7 +6,7 @@ body { margin: 0; font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: v
 header { padding: 14px 24px 10px; background: #fff; border-bottom: 1px solid var(--line); }
 h1 { font-size: 20px; margin: 0; overflow-wrap: anywhere; }
 header p { margin: 2px 0 0; color: var(--soft); overflow-wrap: anywhere; }
-main { display: grid; grid-template-columns: minmax(340px, 1fr) minmax(560px, 1fr); gap: 18px; padding: 18px 24px; align-items: start; }
+main { display: grid; grid-template-columns: minmax(340px, 0.8fr) minmax(560px, 1fr); gap: 18px; padding: 18px 24px; align-items: start; }
 @media (max-width: 1000px) { main { grid-template-columns: 1fr; } #side { position: static !important; } }
 #side { position: sticky; top: 18px; }
 #view { position: relative; height: min(66vh, 640px); background: linear-gradient(#fdfefe, #dfe6ec); border: 1px solid var(--line);
@@ -33,6 +33,12 @@ th[aria-sort=ascending] button::after { content: " \25B4"; }
 td { text-align: right; padding: 4px 10px; border-bottom: 1px solid #eef1f4; font-variant-numeric: tabular-nums; }
 td.picture, th.picture { text-align: left; width: 112px; padding: 4px 6px 4px 10px; }
 td img { display: block; width: 96px; height: 72px; border-radius: 4px; }
+@media (max-width: 1500px) {
+  th, td { padding-left: 6px; padding-right: 6px; }
+  td { font-size: 14px; }
+  td.picture, th.picture { width: 92px; }
+  td img { width: 80px; height: 60px; }
+}
 tbody tr { cursor: pointer; }
 tbody tr:hover { background: #f2f6fb; }
 tbody tr[aria-selected=true] { background: #e4effd; box-shadow: inset 3px 0 var(--accent); }
