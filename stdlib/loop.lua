@@ -9,21 +9,27 @@ local loop_task = require "clench.loop_task"
 local line_of = require "clench.line_of"
 local poller = require "clench.poller"()
 local raise = require "clench.raise"
+local new_queue = require "clench.time_queue"
 
 local loop = {}
-local ready = {}      -- tasks to resume, in order
-local waiting = {}    -- tasks that wait, by task: true
-local watches = {}    -- by descriptor: {readable = handles, writable = handles}
-local count = 0       -- number of tasks created; orders tasks of equal times
+local ready = {}           -- tasks to resume, in order
+local timed = new_queue()  -- tasks that wait for a time
+local for_jobs = {}        -- tasks that wait for a job, by task: true
+local waiting_count = 0    -- number of tasks that wait
+local watches = {}         -- by descriptor: {readable = handles, writable = handles}
+local count = 0            -- number of tasks created; orders tasks of equal times
 local running, in_run, stop_asked = nil, false, false
-local run             -- defined below
+local run  -- defined below
 
 local Task = class "task of clench.loop"
 
 function Task:__tostring() return ("task of clench.loop (%s)"):format(self.status) end
 
 local function drop(task)
-  waiting[task] = nil
+  if task.is_waiting then waiting_count = waiting_count - 1 end
+  task.is_waiting = false
+  timed:remove(task)
+  for_jobs[task] = nil
   if task.watch then task.watch:remove() end
   task.at, task.job, task.watch = nil, nil, nil
 end
@@ -133,7 +139,10 @@ end
 
 -- Yields from the calling coroutine until `task` is woken; returns the values of `wake`.
 local function pause(task)
-  waiting[task] = true
+  task.is_waiting = true
+  waiting_count = waiting_count + 1
+  if task.at then timed:add(task, task.at, task.number) end
+  if task.job then for_jobs[task] = true end
   return coroutine.yield(task)
 end
 
@@ -285,22 +294,17 @@ function loop.descriptor() return poller:descriptor() end
 --- > clench.loop.run()
 function loop.stop() stop_asked = true end
 
--- the earliest time at which a task is due; nil if no task waits for a time
-local function first_time()
-  local first
-  for task in pairs(waiting) do
-    if task.at and (not first or task.at < first) then first = task.at end
-  end
-  return first
-end
-
 -- wakes, in order of time and number, tasks whose time has come or whose job is over
 local function wake_due()
   local now, due = clock(), {}
-  for task in pairs(waiting) do
-    local over = task.job and task.job:wait(0)
-    if over or task.at and task.at <= now then due[#due + 1] = {task = task, over = over == true, at = task.at or now} end
+  for task in pairs(for_jobs) do
+    if task.job:wait(0) then due[#due + 1] = {task = task, over = true, at = math.min(task.at or now, now)} end
   end
+  for _, item in ipairs(due) do timed:remove(item.task) end
+  repeat
+    local task, at = timed:take(now)
+    due[#due + 1] = task and {task = task, over = false, at = at}
+  until not task
   table.sort(due, function(a, b)
     if a.at ~= b.at then return a.at < b.at end
     return a.task.number < b.task.number
@@ -337,7 +341,7 @@ local function call_watches(descriptor, event)
   end
 end
 
-local function has_work() return #ready > 0 or next(waiting) ~= nil or next(watches) ~= nil or has_jobs() end
+local function has_work() return #ready > 0 or waiting_count > 0 or next(watches) ~= nil or has_jobs() end
 
 -- One round: resumes ready tasks, then waits at most `patience` seconds for events.
 local function round(patience)
@@ -356,7 +360,7 @@ local function round(patience)
     if stop_asked then return end
   end
   if #ready > 0 then patience = 0 end
-  local first = first_time()
+  local first = timed:first_time()
   if first then patience = math.min(patience, math.max(0, first - clock())) end
   local events = poller:wait(patience)
   for i = 1, #events, 2 do call_watches(events[i], events[i + 1]) end
@@ -365,7 +369,7 @@ end
 
 -- The descriptor becomes readable when the next task is due.
 local function arm()
-  local first = first_time()
+  local first = timed:first_time()
   poller:set_timer(#ready > 0 and 0 or first and math.max(0, first - clock()) or -1)
 end
 

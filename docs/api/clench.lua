@@ -740,7 +740,7 @@ function job:wait(seconds) end
 ---@return any ...
 function job:result() end
 
----Stops it within some 100 ms, in Lua and in calls of the engine; in a call of another program or of string.find with a hostile pattern it ends after that call. What is over stays as it is.
+---Stops it within some 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. In a call of string.find with a hostile pattern it ends after that call. What is over stays as it is.
 function job:stop() end
 
 ---Holds it at its next instruction in Lua; a call of the engine ends first.
@@ -1437,5 +1437,10 @@ clench.parallel = {}
 ---@return table results # an item that failed gives {error: string, kind?: string}, the kind of an error of Clench, and so does one that was not done when it was stopped
 ---@return integer failed
 function clench.parallel.map(task, items, options) end
+
+---Niceness of the threads that `map` and `clench.job` start from now on: where a window is open, 10 lets it come first.
+---@param level? integer # from 0, as the script itself, to 19; without it the level stays
+---@return integer level
+function clench.parallel.nice(level) end
 
 return clench

@@ -222,3 +222,40 @@ test("a program ends, whatever its jobs do", function(t)
     t.equal(code, case[2], case[1])
   end
 end)
+
+test("a job ends with the programs that it waits for", function(t)
+  local function is_alive(mark)
+    for line in io.popen "ps -eo args" :lines() do
+      if line:find(mark, 1, true) and not line:find "ps -eo" then return true end
+    end
+    return false
+  end
+  local mark = ("sleep 60.0%d"):format(os.time() % 100000)
+  local waits = clench.job(function(command) os.execute(command) end, {args = {mark .. "; true"}})
+  local reads = clench.job(function(command) return io.popen(command):read "a" end, {args = {mark .. "; true"}})
+  while not is_alive(mark) do clench.loop.sleep(0.01) end
+  local began = clench.clock()
+  waits:stop()
+  reads:stop()
+  t.ok(waits:wait(30) and reads:wait(30))
+  t.ok(clench.clock() - began < 30)
+  t.equal(waits.state .. reads.state, "stoppedstopped")
+  t.equal(is_alive(mark), false)
+end)
+
+test("threads of jobs and of maps let the script come first where it asks for that", function(t)
+  local function nice()
+    local fields = {}
+    for word in io.open "/proc/thread-self/stat":read "a":match "%) (.*)":gmatch "%S+" do fields[#fields + 1] = word end
+    return math.tointeger(tonumber(fields[17]))
+  end
+  local own = nice()
+  if own > 9 then t.skip "the tests themselves run at a higher niceness" end
+  t.equal(clench.parallel.nice(10), 10)
+  t.equal(clench.parallel.map(nice, {1})[1], 10)
+  local inside = clench.job(nice)
+  inside:wait(30)
+  t.equal(inside:result(), 10)
+  t.equal(clench.parallel.nice(0), 0)
+  t.equal(nice(), own)
+end)

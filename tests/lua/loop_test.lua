@@ -16,6 +16,49 @@ test("coroutines wait for times, in order", function(t)
   for i = 1, 40 do t.equal(order[i], (i - 1) % 20 + 1) end
 end)
 
+test("a queue of times gives its things in the order of times and numbers, whatever is removed meanwhile", function(t)
+  local queue, random, left = require "clench.time_queue"(), clench.random(5), {}
+  local function check(now)
+    local expected = {}
+    for thing, at in pairs(left) do
+      if at <= now then expected[#expected + 1] = {thing = thing, at = at} end
+    end
+    table.sort(expected, function(a, b) return a.at < b.at or a.at == b.at and a.thing < b.thing end)
+    for _, item in ipairs(expected) do
+      t.equal(queue:first_time(), item.at)
+      t.equal(table.pack(queue:take(now)), {n = 2, item.thing, item.at})
+      left[item.thing] = nil
+    end
+    t.equal(queue:take(now), nil)
+  end
+  for number = 1, 2000 do
+    left[number] = random:integer(number // 10, number // 10 + 60)
+    queue:add(number, left[number], number)
+    if random:integer(1, 3) == 1 then
+      local other = random:integer(1, number)
+      queue:remove(other)
+      left[other] = nil
+    end
+    if number % 50 == 0 then check(number // 10) end
+  end
+  check(math.huge)
+  t.equal(queue:first_time(), nil)
+end)
+
+test("the cost of waiting grows no faster than the number of coroutines, whatever their times", function(t)
+  local function cost(count)
+    local random, began = clench.random(1), os.clock()
+    for _ = 1, count do
+      local seconds = 0.02 * random:uniform()
+      loop.spawn(function() loop.sleep(seconds) end)
+    end
+    loop.run()
+    return os.clock() - began
+  end
+  local few = math.min(cost(1000), cost(1000))
+  t.ok(cost(10000) < 40 * few)  -- ten times as many; 100 where each turn looks at all
+end)
+
 test("run ends in time, when it is stopped, and when nothing is left", function(t)
   local began = loop.time()
   loop.run(10)

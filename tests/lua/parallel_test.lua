@@ -112,3 +112,86 @@ test("states share the memory that the caller may have", function(t)
   t.equal(failed, 2)
   for _, result in ipairs(results) do t.ok(result.error:find("not enough memory", 1, true), result.error) end
 end)
+
+test("maps within maps and jobs share the cores, with the same results at any number of threads", function(t)
+  local function outer(i, shared)
+    local function inner(x) return {x * x, math.random(1000000)} end
+    local items = {}
+    for k = 1, 5 do items[k] = 10 * i + k end
+    local results = require("clench").parallel.map(inner, items, {threads = shared.threads})
+    return results
+  end
+  local items = {1, 2, 3, 4, 5, 6}
+  local one = clench.json.encode((clench.parallel.map(outer, items, {threads = 1, shared = {threads = 1}})))
+  for _, threads in ipairs {{2, 2}, {6, 3}, {1, 5}} do
+    local again = clench.parallel.map(outer, items, {threads = threads[1], shared = {threads = threads[2]}})
+    t.equal(clench.json.encode(again), one)
+  end
+  -- more jobs than cores, each waiting for a map
+  local jobs = {}
+  for k = 1, 2 * clench.parallel.cores + 3 do
+    jobs[k] = clench.job(function() return require("clench").parallel.map(function(x) return x + 1 end, {1, 2, 3}, {threads = 3}) end)
+  end
+  for _, job in ipairs(jobs) do
+    t.ok(job:wait(100))
+    t.equal(job:result(), {2, 3, 4})
+  end
+end)
+
+test("no more threads compute at once than there are cores, on two levels", function(t)
+  local folder = test.folder()
+  -- each item marks its run by a file, and counts the marks
+  local function outer(i, shared)
+    local function inner(k, s)
+      local name = ("%s/%d_%d"):format(s.folder, s.i, k)
+      io.open(name, "w"):close()
+      local last = require("clench").clock() + 0.02
+      repeat until require("clench").clock() > last
+      local count = 0
+      for _ in io.popen("ls " .. s.folder):lines() do count = count + 1 end
+      os.remove(name)
+      return count
+    end
+    return (require("clench").parallel.map(inner, {1, 2, 3, 4}, {threads = 4, shared = {folder = shared.folder, i = i}}))
+  end
+  local most = 0
+  for _, counts in ipairs(clench.parallel.map(outer, {1, 2, 3, 4, 5, 6}, {threads = 6, shared = {folder = folder}})) do
+    for _, count in ipairs(counts) do most = math.max(most, count) end
+  end
+  t.ok(most >= 1 and most <= math.max(2, clench.parallel.cores), most)
+end)
+
+test("a map within a paused job is held, too", function(t)
+  local path = test.path ".txt"
+  local job = clench.job(function(name)
+    local function write(i, shared)
+      local file = io.open(shared, "a")
+      file:write(i, "\n")
+      file:close()
+      local last = require("clench").clock() + 0.002
+      repeat until require("clench").clock() > last
+    end
+    local items = {}
+    for i = 1, 100000 do items[i] = i end
+    require("clench").parallel.map(write, items, {threads = 2, shared = name})
+  end, {args = {path}})
+  local function size()
+    local file = io.open(path)
+    local bytes = file and file:seek "end" or 0
+    if file then file:close() end
+    return bytes
+  end
+  while size() == 0 do clench.loop.sleep(0.005) end
+  job:pause()
+  -- it is held within the next turns of its threads
+  local before, after = -1, size()
+  while before ~= after do
+    clench.loop.sleep(0.3)
+    before, after = after, size()
+  end
+  t.equal(job.state, "paused")
+  job:resume()
+  while size() == after do clench.loop.sleep(0.005) end
+  job:stop()
+  t.ok(job:wait(30))
+end)

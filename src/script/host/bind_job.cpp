@@ -38,8 +38,9 @@ namespace {
 struct StartedJobs {
   std::vector<JobPtr> jobs;
 
-  // All at once, as one may wait for what another holds. One that is in a call of C that cannot be
-  // stopped is left behind, and ends with the program.
+  // All at once, as one may wait for what another holds. Programs that they wait for are ended with
+  // them. One that is in a call of C that cannot be stopped is left behind, and ends with the
+  // program.
   ~StartedJobs() {
     for (const JobPtr& job : jobs) job->stop();
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(2);
@@ -235,8 +236,11 @@ What its function returned. Raises the function's error, and an error if the job
 > job:wait()
 > job:result()  --> error: no luck)"},
     {"stop", method<[](const JobPtr& x) { x->stop(); }>, R"(
-Stops it within some 100 ms, in Lua and in calls of the engine; in a call of another program or of string.find with a hostile pattern it ends after that call. What is over stays as it is.
+Stops it within some 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. In a call of string.find with a hostile pattern it ends after that call. What is over stays as it is.
 > job = clench.job(function() while true do end end)
+> job:stop()
+> job:wait(5), job.state  --> true, stopped
+> job = clench.job(function() os.execute "sleep 60" end)
 > job:stop()
 > job:wait(5), job.state  --> true, stopped)"},
     {"pause", method<[](const JobPtr& x) { x->pause(); }>, R"(

@@ -1,12 +1,12 @@
 #include "clench/script/host/job.h"
 
-#include <algorithm>
-#include <functional>
 #include <thread>
 #include <utility>
 
 #include "clench/base/error.h"
 #include "clench/base/watched.h"
+#include "clench/script/host/child_processes.h"
+#include "clench/script/host/slots.h"
 #include "clench/script/host/state.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
@@ -18,62 +18,6 @@ namespace {
 
 struct RunningJob {
   Job* job = nullptr;
-};
-
-// Limits the jobs of the process that run at once to the number of cores, and to two on one core,
-// so that an endless job does not block all others.
-class Slots {
- public:
-  void take(const std::function<bool()>& given_up) {
-    std::unique_lock lock(mutex_);
-    while (free_ <= 0 && !given_up()) changed_.wait_for(lock, std::chrono::milliseconds(20));
-    --free_;
-  }
-  void give() {
-    const std::lock_guard lock(mutex_);
-    ++free_;
-    changed_.notify_one();
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int free_ = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
-};
-
-Slots& slots() {
-  static Slots& all = *new Slots;  // never destroyed: jobs may outlive the statics of the program
-  return all;
-}
-
-thread_local bool holds_slot = false;
-thread_local const Job* job_of_thread = nullptr;
-
-// returns  did the thread hold one?
-bool lend_slot() {
-  if (!std::exchange(holds_slot, false)) return false;
-  slots().give();
-  return true;
-}
-
-void take_slot_back() {
-  // one that is stopped ends without waiting for others to give theirs
-  slots().take([] { return job_of_thread && job_of_thread->is_stop_asked(); });
-  holds_slot = true;
-}
-
-// Releases the slot of a job while it waits for another one, so that a queued job can run.
-class SlotLent {
- public:
-  SlotLent() : lent_(lend_slot()) {}
-  ~SlotLent() {
-    if (lent_) take_slot_back();
-  }
-  SlotLent(const SlotLent&) = delete;
-  SlotLent& operator=(const SlotLent&) = delete;
-
- private:
-  bool lent_;
 };
 
 }  // namespace
@@ -105,12 +49,14 @@ bool Job::is_over() const { return is_end(phase()); }
 
 Watcher::State Job::progress() const {
   const std::lock_guard lock(mutex_);
-  return watcher_ ? watcher_->state() : Watcher::State();
+  return watcher_ ? watcher_->shown() : Watcher::State();
 }
 
 bool Job::wait(std::chrono::milliseconds time) const {
   const SlotLent lent;
   std::unique_lock lock(mutex_);
+  // a program that was started while the job was being stopped
+  if (stop_asked_ && state_) end_children(thread_);
   return changed_.wait_for(lock, time, [this] { return is_end(phase_); });
 }
 
@@ -122,7 +68,9 @@ bool Job::is_stop_asked() const {
 void Job::stop() {
   const std::lock_guard lock(mutex_);
   stop_asked_ = true;
-  if (state_) state_->end();
+  if (!state_) return;
+  state_->end();
+  end_children(thread_);
 }
 
 void Job::pause() {
@@ -214,28 +162,27 @@ bool Job::run_function(State& state) {
   return false;
 }
 
-void Job::run() {
-  job_of_thread = this;
-  slots().take([this] {
+void Job::open_and_run() {
+  auto state = std::make_unique<State>(start_.memory);
+  State& opened = *state;
+  opened.on_hold(lend_while_held);
+  {
     const std::lock_guard lock(mutex_);
-    return stop_asked_;
-  });
-  holds_slot = true;
-  bool done = false;
+    state_ = std::move(state);
+    thread_ = thread_number();
+    watcher_ = bar_of(opened.lua());
+    phase_ = Phase::running;
+    if (stop_asked_) opened.end();
+    if (pause_asked_) opened.pause();
+  }
+  is_done_ = run_function(opened);
+}
+
+void Job::run() {
+  set_thread_nice(start_.task.nice);
+  std::optional<CoreSlot> slot(std::in_place, [this] { return is_stop_asked(); });
   try {
-    auto state = std::make_unique<State>(start_.memory);
-    State& opened = *state;
-    // a paused job leaves its core to others
-    opened.on_hold([](bool held) { held ? void(lend_slot()) : take_slot_back(); });
-    {
-      const std::lock_guard lock(mutex_);
-      state_ = std::move(state);
-      watcher_ = bar_of(opened.lua());
-      phase_ = Phase::running;
-      if (stop_asked_) opened.end();
-      if (pause_asked_) opened.pause();
-    }
-    done = run_function(opened);
+    open_and_run();
   } catch (const std::exception& error) {
     failure_ = {error.what(), "limit"};
   }
@@ -247,11 +194,11 @@ void Job::run() {
   state.reset();  // before the end is announced, so that nothing of the job runs after it
   {
     const std::lock_guard lock(mutex_);
-    phase_ = stop_asked_ ? Phase::stopped : done ? Phase::done : Phase::failed;
+    phase_ = stop_asked_ ? Phase::stopped : is_done_ ? Phase::done : Phase::failed;
     pause_asked_ = false;
     changed_.notify_all();
   }
-  if (std::exchange(holds_slot, false)) slots().give();
+  slot.reset();
   start_.bell->ring();
 }
 

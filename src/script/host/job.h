@@ -15,6 +15,7 @@
 
 namespace clench {
 
+class Bar;
 class State;
 
 class Job {
@@ -65,6 +66,7 @@ class Job {
  private:
   explicit Job(Start start) : start_(std::move(start)) {}
   void run();
+  void open_and_run();
   bool run_function(State& state);
   static int call_function(lua_State* L);
 
@@ -74,7 +76,9 @@ class Job {
   Phase phase_ = Phase::queued;
   bool stop_asked_ = false, pause_asked_ = false;
   std::unique_ptr<State> state_;  // null before it runs and after
-  std::shared_ptr<Watcher> watcher_;
+  int thread_ = 0;                // that runs it; 0 before
+  bool is_done_ = false;          // has the function returned?
+  std::shared_ptr<Bar> watcher_;
   std::deque<Parcel> events_;
   std::shared_ptr<const Parcel> snapshot_;
   std::vector<Parcel> results_;

@@ -1,21 +1,28 @@
 // clench.parallel.map: a function for each item of a list, in as many states of Lua as there are
 // threads.
+#include <atomic>
 #include <condition_variable>
-#include <deque>
+#include <cstdlib>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "clench/base/error.h"
 #include "clench/base/watched.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/parcel.h"
+#include "clench/script/host/child_processes.h"
+#include "clench/script/host/slots.h"
 #include "clench/script/host/state.h"
 #include "clench/script/host/worker.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/read.h"
+#include "clench/script/lua/setting.h"
 #include "clench/script/lua/stack.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -32,15 +39,15 @@ struct Outcome {
 // what the states do
 struct Task : WorkerTask {
   std::vector<Parcel> items;
+  size_t memory = 0;  // limit of each state [bytes]
 };
 
 // --- in a worker's state: slot 1 of its stack is the function, slot 2 what is shared ---
 
 struct Worker {
-  explicit Worker(size_t memory) : state(memory) {}
-
-  State state;
   Parcel shared;
+  std::unique_ptr<State> state;  // null before it works and after
+  int thread = 0;
   std::vector<std::pair<WorldPtr, std::shared_ptr<const Snapshot>>>
       moments;  // of the shared worlds
 };
@@ -84,8 +91,8 @@ int take_turn(lua_State* L) {
 }
 
 bool make_ready(Worker& worker, const Task& task, WorkerError& failure) {
-  lua_State* L = worker.state.lua();
-  if (!open_worker(worker.state, task, failure)) return false;
+  lua_State* L = worker.state->lua();
+  if (!open_worker(*worker.state, task, failure)) return false;
   lua_pushcfunction(L, guarded<unpack_shared>);
   lua_pushlightuserdata(L, &worker);
   if (lua_pcall(L, 1, 1, 0) == LUA_OK) return true;
@@ -95,7 +102,7 @@ bool make_ready(Worker& worker, const Task& task, WorkerError& failure) {
 
 // as if no other item had been before it
 void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
-  lua_State* L = worker.state.lua();
+  lua_State* L = worker.state->lua();
   for (const auto& [world, moment] : worker.moments) world->restore(*moment);
   Turn turn{&task.items[i], static_cast<lua_Integer>(i) + 1, &outcome,
             fmt::format("{}: items[{}]", task.name.substr(1), i + 1)};
@@ -111,20 +118,29 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
 
 class Crew {
  public:
-  /// memory  that all workers together may have [bytes]
-  Crew(const Task& task, std::vector<Parcel> shared, size_t memory)
-      : task_(task), outcomes_(task.items.size()) {
-    for (Parcel& parcel : shared) {
-      workers_.push_back(std::make_unique<Worker>(memory / shared.size()));
-      workers_.back()->shared = std::move(parcel);
-    }
-    for (auto& worker : workers_) threads_.emplace_back([this, w = worker.get()] { run(*w); });
+  Crew(const Task& task, std::vector<Parcel> shared) : task_(task), outcomes_(task.items.size()) {
+    workers_.resize(shared.size());
+    for (size_t i = 0; i < shared.size(); ++i) workers_[i].shared = std::move(shared[i]);
+    for (Worker& worker : workers_) threads_.emplace_back([this, &worker] { run(worker); });
   }
   ~Crew() { end(); }
 
   void end() {
     ended_ = true;
-    for (auto& worker : workers_) worker->state.end();
+    const std::lock_guard lock(mutex_);
+    for (Worker& worker : workers_) {
+      if (!worker.state) continue;
+      worker.state->end();
+      end_children(worker.thread);
+    }
+  }
+
+  /// Holds all workers, or lets them continue.
+  void pause(bool paused) {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(paused_, paused) == paused) return;
+    for (Worker& worker : workers_)
+      if (worker.state) paused ? worker.state->pause() : worker.state->resume();
   }
 
   /// Waits at most so long for the outcome of item i.   returns null when it is not there
@@ -147,11 +163,25 @@ class Crew {
  private:
   bool broken() const { return !broken_.empty(); }
 
-  void run(Worker& worker) {
-    const Watched watched{Progress(bar_of(worker.state.lua()))};
+  // Opens the state, in the thread that uses it.
+  void open(Worker& worker) {
+    auto state = std::make_unique<State>(task_.memory);
+    state->on_hold(lend_while_held);
+    const std::lock_guard lock(mutex_);
+    worker.state = std::move(state);
+    worker.thread = thread_number();
+    if (ended_) worker.state->end();
+    if (paused_) worker.state->pause();
+  }
+
+  void do_items(Worker& worker) {
+    const Watched watched{Progress(bar_of(worker.state->lua()))};
     WorkerError failure;
-    const bool ready = make_ready(worker, task_, failure);
-    for (size_t i; ready && !ended_ && (i = next_++) < outcomes_.size();) {
+    if (!make_ready(worker, task_, failure)) {
+      if (!ended_) fail("{}", failure.words);
+      return;
+    }
+    for (size_t i; !ended_ && (i = next_++) < outcomes_.size();) {
       Outcome outcome;
       do_item(worker, task_, i, outcome);
       const std::lock_guard lock(mutex_);
@@ -159,8 +189,30 @@ class Crew {
       ++done_;
       changed_.notify_one();
     }
+  }
+
+  void run(Worker& worker) {
+    set_thread_nice(task_.nice);
+    const CoreSlot slot([this] { return ended_.load(); });
+    std::string problem;
+    try {
+      // one that had to wait for a core may find nothing left to do
+      if (!ended_ && next_ < outcomes_.size()) {
+        open(worker);
+        do_items(worker);
+      }
+    } catch (const std::exception& error) {
+      problem = error.what();
+    }
+    std::unique_ptr<State> state;
+    {
+      const std::lock_guard lock(mutex_);
+      state = std::move(worker.state);
+    }
+    worker.moments.clear();
+    state.reset();
     const std::lock_guard lock(mutex_);
-    if (!ready && !ended_) broken_ = failure.words;
+    if (broken_.empty()) broken_ = problem;
     ++idle_;
     changed_.notify_one();
   }
@@ -173,7 +225,8 @@ class Crew {
   size_t idle_ = 0, done_ = 0;
   std::atomic<size_t> next_ = 0;
   std::atomic<bool> ended_ = false;
-  std::vector<std::unique_ptr<Worker>> workers_;
+  bool paused_ = false;
+  std::vector<Worker> workers_;
   std::vector<std::jthread> threads_;  // the last member: joined before all else goes
 };
 
@@ -204,7 +257,7 @@ void push_outcome(lua_State* L, const Outcome* outcome) {
 int map(lua_State* L) {
   lua_settop(L, 3);
   const std::string subject = clench::subject(L);
-  Task task{read_worker_task(L, 1), {}};
+  Task task{read_worker_task(L, 1), {}, 0};
   read_items(L, task, subject);
   Table options(L, 3);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -237,12 +290,16 @@ int map(lua_State* L) {
   bool interrupted = false;
   lua_Integer failed = 0;
   if (count > 0) {
-    Crew crew(task, std::move(copies), State::memory_of(L));
+    // the workers compute, and this thread only hands over what they have done
+    const SlotLent lent;
+    task.memory = State::memory_of(L) / copies.size();
+    Crew crew(task, std::move(copies));
     const Watching watching(L);
     for (size_t i = 0; i < count; ++i) {
       const Outcome* outcome = nullptr;
       while (!(outcome = crew.wait(i, std::chrono::milliseconds(20)))) {
         if (watching.progress().stop_asked()) crew.end();
+        crew.pause(State::is_paused(L));
         if (crew.is_over() && !(outcome = crew.wait(i, {}))) break;
         if (!watching.progress().stop_asked())
           watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count),
@@ -268,6 +325,15 @@ int map(lua_State* L) {
   return 2;
 }
 
+int nice(lua_State* L) {
+  if (given(L, 1)) {
+    const auto level = check_integer(L, 1, "level");
+    if (level < 0 || level > 19) fail("{}: level: expected 0 to 19, got {}", subject(L), level);
+    set_setting(L, Setting::worker_nice, std::to_string(level));
+  }
+  return push(L, std::atoi(get_setting(L, Setting::worker_nice).c_str()));
+}
+
 int get_cores(lua_State* L) {
   lua_pushinteger(L, std::max(1u, std::thread::hardware_concurrency()));
   return 1;
@@ -285,6 +351,14 @@ Calls a function for each item of a list, in many threads, each with a state of 
 > clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0
 > clench.parallel.map(function(x) return hand.dofs end, {1})[1].error:match "global 'hand'" ~= nil  --> true
 > clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be handed over)"},
+    {"nice", guarded<nice>, R"(
+Niceness of the threads that `map` and `clench.job` start from now on: where a window is open, 10 lets it come first.
+@param level? integer  from 0, as the script itself, to 19; without it the level stays
+@return integer level
+> clench.parallel.nice(10)  --> 10
+> clench.parallel.nice()  --> 10
+> clench.parallel.nice(0)  --> 0
+> clench.parallel.nice(20)  --> error: level: expected 0 to 19, got 20)"},
 };
 
 const Entry fields[] = {

@@ -56,7 +56,8 @@ static int panic(lua_State* L) {
 // Lua tells which coroutine it enters and where it comes back to
 int State::track(lua_State* L) {
   auto* state = static_cast<State*>(lua_touserdata(L, lua_upvalueindex(1)));
-  if (lua_State* thread = lua_tothread(L, 1)) state->running_ = thread;
+  if (lua_State* thread = lua_tothread(L, 1))
+    state->running_.store(thread, std::memory_order_relaxed);
   return 0;
 }
 
@@ -95,7 +96,7 @@ State::State(size_t memory) {
   memory_.limit = memory > 0 ? memory : default_memory_limit();
   L_ = lua_newstate(allocate, this);
   if (!L_) fail(ErrorKind::limit, "clench: no memory for Lua");
-  running_ = L_;
+  running_.store(L_, std::memory_order_relaxed);
   lua_atpanic(L_, panic);
   lua_setwarnf(L_, warn, this);
   lua_pushcfunction(L_, open_all);
@@ -211,7 +212,8 @@ void State::interrupt() {
   ++interrupts_;
   bar_->interrupt();
   lua_sethook(L_, on_hook, all_events, 1);
-  if (running_ != L_) lua_sethook(running_, on_hook, all_events, 1);
+  lua_State* running = running_.load(std::memory_order_relaxed);
+  if (running != L_) lua_sethook(running, on_hook, all_events, 1);
 }
 
 // waits until `resume` or `end` is called
@@ -241,6 +243,11 @@ void State::end() {
   resume();
 }
 
+bool State::is_paused(lua_State* L) {
+  void* state = nullptr;
+  return lua_getallocf(L, &state) == &State::allocate && static_cast<State*>(state)->paused_;
+}
+
 void State::resume() {
   paused_ = false;
   paused_.notify_all();
@@ -251,7 +258,7 @@ State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);
   bar_->take_all();
   interrupts_ = 0;
-  running_ = L_;
+  running_.store(L_, std::memory_order_relaxed);
   Result result;
   result.ok = status == LUA_OK;
   for (int i = base + 1; i <= lua_gettop(L_); ++i) {

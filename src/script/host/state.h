@@ -72,6 +72,8 @@ class State {
   /// `resume` or `end` is called. May be called from any thread.
   void pause() { paused_ = true; }
   void resume();
+  /// Is the State of this Lua to be held? False for a Lua of a host.
+  static bool is_paused(lua_State* L);
   /// Called in the state's own thread: with true before the running chunk is held by `pause`, with
   /// false before it continues. Must not throw; set before anything runs.
   void on_hold(std::function<void(bool)> call) { on_hold_ = std::move(call); }
@@ -95,9 +97,9 @@ class State {
 
   Memory memory_;
   lua_State* L_ = nullptr;
-  std::shared_ptr<Bar> bar_;               // what watches the engine
-  lua_State* volatile running_ = nullptr;  // the coroutine that runs, for interrupt
-  std::atomic<int> interrupts_ = 0;        // since a run began
+  std::shared_ptr<Bar> bar_;                   // what watches the engine
+  std::atomic<lua_State*> running_ = nullptr;  // the coroutine that runs, for interrupt
+  std::atomic<int> interrupts_ = 0;            // since a run began
   std::atomic<bool> ended_ = false, paused_ = false;
   std::function<void(bool)> on_hold_;
   void hold();

@@ -1,5 +1,6 @@
 #include "clench/script/host/worker.h"
 
+#include <cstdlib>
 #include <string_view>
 
 #include "clench/base/error.h"
@@ -62,6 +63,7 @@ WorkerTask read_worker_task(lua_State* L, int index) {
   task.script_folder = get_setting(L, Setting::modules);
   task.confine = get_setting(L, Setting::confine);
   task.log_level = log_level(L);
+  task.nice = std::atoi(get_setting(L, Setting::worker_nice).c_str());
   return task;
 }
 
@@ -136,6 +138,7 @@ bool open_worker(State& state, const WorkerTask& task, WorkerError& failure) {
   lua_State* L = state.lua();
   if (!task.script_folder.empty()) set_setting(L, Setting::modules, task.script_folder);
   if (!task.confine.empty()) set_setting(L, Setting::confine, task.confine);
+  if (task.nice > 0) set_setting(L, Setting::worker_nice, std::to_string(task.nice));
   set_log_level(L, task.log_level);
   bar_of(L)->hide();  // the bar of the calling state shows the common progress
   state.look_for_end();

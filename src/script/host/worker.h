@@ -17,6 +17,7 @@ struct WorkerTask {
   std::string path, cpath;       // of require
   std::string script_folder, confine;
   LogLevel log_level = LogLevel::info;
+  int nice = 0;  // of the thread, see set_thread_nice
 };
 
 /// Reads the argument `task`: a function without upvalues other than _ENV, or the name of a module

@@ -7,8 +7,9 @@ struct lua_State;
 namespace clench {
 
 enum class Setting {
-  modules,  ///< the folder of the script that runs: require looks in it for the user's modules
-  confine,  ///< the folder below which files are read, where a call does not name another
+  modules,      ///< the folder of the script that runs: require looks in it for the user's modules
+  confine,      ///< the folder below which files are read, where a call does not name another
+  worker_nice,  ///< niceness of threads for jobs and clench.parallel.map, 0 to 19
 };
 
 std::string get_setting(lua_State* L, Setting setting);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <string>
 
 #include "clench/base/convert.h"
 #include "clench/base/text.h"
@@ -46,7 +47,29 @@ void Bar::show(double fraction, std::string_view text) {
   if (scripts_ == 0 || in_script_) draw(fraction, text);
 }
 
+void Bar::begin_script() {
+  begin();
+  ++scripts_;
+}
+
+void Bar::end_script() {
+  if (--scripts_ == 0) {
+    const std::lock_guard lock(mutex_);
+    script_.reset();
+  }
+  end();
+}
+
+Watcher::State Bar::shown() const {
+  const std::lock_guard lock(mutex_);
+  return script_ ? *script_ : state();
+}
+
 void Bar::note_script(double fraction, std::string_view text) {
+  {
+    const std::lock_guard lock(mutex_);
+    script_ = {fraction, std::string(text)};
+  }
   in_script_ = true;
   note(fraction, text);
   in_script_ = false;

@@ -3,6 +3,8 @@
 #pragma once
 #include <atomic>
 #include <lua.hpp>
+#include <mutex>
+#include <optional>
 
 #include "clench/base/progress.h"
 
@@ -14,14 +16,17 @@ class Bar : public Watcher {
   Bar();
   /// Stores the progress of a script's own loop; meanwhile that of the engine is not displayed.
   void note_script(double fraction, std::string_view text);
+  /// The progress of the script's own loop while there is one, else that of the engine. May be
+  /// called from any thread.
+  State shown() const;
   /// Stops displaying; for states in other threads.
   void hide() { terminal_ = false; }
 
   /// Work begins, and ends: the outermost takes the bar away.
   void begin();
   void end();
-  void begin_script() { begin(), ++scripts_; }
-  void end_script() { --scripts_, end(); }
+  void begin_script();
+  void end_script();
 
   /// Asks for a stop as Ctrl-C does. May be called in a signal handler.
   void interrupt() { interrupted_ = true, stop(); }
@@ -40,6 +45,8 @@ class Bar : public Watcher {
   int depth_ = 0, scripts_ = 0;
   double began_ = 0, last_ = 0;  // [s]
   bool drawn_ = false, in_script_ = false;
+  mutable std::mutex mutex_;
+  std::optional<State> script_;  // progress of the script's loops; guarded by mutex_
   std::atomic<bool> interrupted_ = false, out_of_time_ = false;
 };
 

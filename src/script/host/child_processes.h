@@ -1,0 +1,16 @@
+// Programs that a thread has started and waits for, as os.execute does.
+#pragma once
+
+namespace clench {
+
+/// The calling thread's number in the system.
+int thread_number();
+
+/// Ends the programs that a thread of this process has started, and those that these have started,
+/// so that a call that waits for them returns. Does nothing where the system does not list them.
+void end_children(int thread);
+
+/// Gives the calling thread a niceness of at least `level`, from 0 to 19: others come first.
+void set_thread_nice(int level);
+
+}  // namespace clench

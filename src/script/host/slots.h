@@ -1,0 +1,50 @@
+// The cores of the machine, shared by all threads that run scripts beside their callers.
+#pragma once
+#include <functional>
+
+namespace clench {
+
+/// The right of the calling thread to compute, during the object's lifetime. There are as many as
+/// cores, at least two, so that an endless job does not block all others. Threads that wait for
+/// others lend theirs, so that nested levels of work share the cores.
+class CoreSlot {
+ public:
+  /// Waits for a free slot; once `is_stopped` returns true it waits no longer and takes one beyond
+  /// their number, so that stopped work ends at once. A thread holds at most one.
+  explicit CoreSlot(std::function<bool()> is_stopped);
+  ~CoreSlot();
+  CoreSlot(const CoreSlot&) = delete;
+  CoreSlot& operator=(const CoreSlot&) = delete;
+
+  /// The slot of the calling thread; null if it holds none.
+  static CoreSlot* of_thread();
+  /// Lets another thread have it.   returns  was it not lent yet?
+  bool lend();
+  /// Waits until one is free again.
+  void take_back();
+
+ private:
+  std::function<bool()> is_stopped_;
+  bool lent_ = false;
+};
+
+/// Lends the slot of the calling thread, if it holds one, during the object's lifetime.
+class SlotLent {
+ public:
+  SlotLent() : slot_(CoreSlot::of_thread()) {
+    if (slot_ && !slot_->lend()) slot_ = nullptr;
+  }
+  ~SlotLent() {
+    if (slot_) slot_->take_back();
+  }
+  SlotLent(const SlotLent&) = delete;
+  SlotLent& operator=(const SlotLent&) = delete;
+
+ private:
+  CoreSlot* slot_;
+};
+
+/// Lends the slot of the calling thread while a paused script holds it, for State::on_hold.
+void lend_while_held(bool held);
+
+}  // namespace clench
