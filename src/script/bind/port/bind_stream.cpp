@@ -62,9 +62,8 @@ int write(lua_State* L) {
   return push(L, static_cast<lua_Integer>(sent));
 }
 
-// stream:ending(): nil, "closed" or "unplugged"
-int ending(lua_State* L) {
-  switch (stream_of(L).end()) {
+int push_end(lua_State* L, Stream::End end) {
+  switch (end) {
     case Stream::End::none:
       return push_nil(L);
     case Stream::End::closed:
@@ -74,6 +73,11 @@ int ending(lua_State* L) {
   }
   return push(L, "unplugged");
 }
+
+// stream:ending(), stream:write_ending(): why nothing more arrives, or can be sent: nil, "closed" or
+// "unplugged"
+int ending(lua_State* L) { return push_end(L, stream_of(L).end()); }
+int write_ending(lua_State* L) { return push_end(L, stream_of(L).write_end()); }
 
 // stream:connect_error(): why a connection has failed; nil: it has not
 int connect_error(lua_State* L) {
@@ -96,6 +100,7 @@ const Entry stream_methods[] = {
     {"find", guarded<find>, "\n@param delimiter string"},
     {"write", guarded<write>, "\n@param bytes string\n@param from integer"},
     {"ending", guarded<ending>, ""},
+    {"write_ending", guarded<write_ending>, ""},
     {"connect_error", guarded<connect_error>, ""},
     {"name", guarded<stream_name>, ""},
     {"descriptor", guarded<stream_descriptor>, ""},
