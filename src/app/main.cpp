@@ -183,7 +183,7 @@ static void add_render(CLI::App& app, RenderVerbOptions& render) {
 static void add_serve(CLI::App& app, ServeOptions& serve) {
   auto* verb = app.add_subcommand("serve", "let other programs command a world");
   add_serve_options(*verb, serve.words);
-  add_reading(*verb, serve.reading);
+  add_world_reading(*verb, serve.reading);
   verb->footer(
       "Examples:\n  clench serve worlds/barrett_mug.wld\n"
       "  clench serve worlds/barrett_mug.wld --socket /tmp/clench.socket\n\n"

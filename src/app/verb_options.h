@@ -13,6 +13,7 @@ extern const CLI::Validator named;
 
 void add_confine(CLI::App& verb, std::string& folder);
 void add_reading(CLI::App& verb, ReadingOptions& reading);
+void add_world_reading(CLI::App& verb, ReadingOptions& reading);  ///< those of worlds alone
 
 /// Options of `clench plan`, `clench render` and `clench serve`: each that is given adds its name and its value to
 /// the words.

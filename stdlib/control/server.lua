@@ -6,7 +6,7 @@ local is_stopped = require "clench.is_stopped"
 local loop = clench.loop
 local new_client = require "clench.control.client"
 local new_options = require "clench.options"
-local raise = require "clench.raise"
+local rpc = require "clench.control.rpc"
 local text = require "clench.control.text"
 local token = require "clench.control.token"
 local getmetatable = debug.getmetatable
@@ -41,10 +41,23 @@ local function answer_text(self, client, line)
   if reply ~= "" then client:send(reply) end
 end
 
-local function answer(self, client, line) answer_text(self, client, line) end
+-- the first line decides which protocol a client speaks
+local function is_rpc(client, line)
+  if client.is_rpc == nil then client.is_rpc = line:find "^%s*[%[{]" ~= nil end
+  return client.is_rpc
+end
+
+local function answer(self, client, line)
+  if is_rpc(client, line) then return rpc.answer(self, client, line) end
+  answer_text(self, client, line)
+end
 
 local function refuse_long(client)
-  client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line))
+  if client.is_rpc then
+    rpc.refuse_long(client)
+  else
+    client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line))
+  end
   client:finish "a line was too long"
 end
 
@@ -83,6 +96,7 @@ local function remove(self, client)
   for i, other in ipairs(self.clients) do
     if other == client then table.remove(self.clients, i) break end
   end
+  rpc.drop(client)
   if self.on_close then self.on_close(client) end
 end
 
@@ -117,7 +131,9 @@ function Server:close()
   if self.is_closed then return end
   self.is_closed = true
   self.listener:close()
+  self.stop_counting()
   for _, client in ipairs {table.unpack(self.clients)} do client:close "the server was closed" end
+  for _, kept in pairs(self.jobs) do kept.job:stop() end
 end
 
 Server.__close = function(self) self:close() end
@@ -147,13 +163,19 @@ local function read_token(o, is_local)
   return given
 end
 
+local function read_folder(o)
+  local folder = o:raw "folder"
+  if folder ~= nil and type(folder) ~= "string" then o:expected("folder", "the name of a folder", folder) end
+  return folder
+end
+
 local function read_options(options)
   local o = new_options(subject, options)
   local session = read_session(o)
   local port, host, path = o:count("port", 4765, 0, 65535), o:raw "host", o:raw "path"
   if host ~= nil then check.string(subject, "host", host) end
   local is_local = path ~= nil or is_loopback(host or "localhost")
-  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0,
+  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, jobs = {}, job_count = 0, folder = read_folder(o),
                   max_clients = o:count("max_clients", 64, 1, 1000), max_line = o:count("max_line", 1 << 20, 1000, 1 << 28),
                   max_queue = o:count("max_queue", 4 << 20, 1000, 1 << 30), on_connect = o:callback "on_connect", on_close = o:callback "on_close"}
   o:done()
@@ -161,14 +183,16 @@ local function read_options(options)
   return server, where
 end
 
---- A server through which other programs command a world, as long as the loop runs: by the text protocol of GraspIt!, on loopback.
+--- A server through which other programs command a world, as long as the loop runs: by JSON-RPC 2.0, and on loopback by the text protocol
+--- of GraspIt!, too. The first byte of a client decides.
 ---@param options table
 ---@option world? world  or a session
 ---@option session? session  whose commands clients run
 ---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
----@option token? string|false  the secret of clients; one is made by default, the server's field `token`
+---@option token? string|false  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
+---@option folder? string  below which requests may read and write files; none by default
 ---@option max_clients? integer [1 to 1000] = 64
 ---@option max_line? integer = 1048576  of a request [bytes]
 ---@option max_queue? integer = 4194304  replies that a client may leave unread before it is dropped [bytes]
@@ -186,6 +210,7 @@ return function(options)
   setmetatable(server, Server)
   server.listener = clench.port.listen(where)
   server.port = server.listener.port
+  server.stop_counting = rpc.prepare(server)
   loop.spawn(function() accept_clients(server) end)
   return server
 end

@@ -4,6 +4,7 @@ local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
 local reading = require "clench.host.reading"
+local save_secret = require "clench.save_secret"
 local serve = {}
 
 local function say(format, ...)
@@ -21,13 +22,40 @@ local function read_words(...)
   return given
 end
 
+-- where the token of a server is kept, unless an option says so
+local function default_file(server)
+  local name = server.port > 0 and tostring(server.port) or "socket"
+  local session = os.getenv "XDG_RUNTIME_DIR"
+  if session and session ~= "" then return ("%s/clench-%s.token"):format(session, name) end
+  local home = os.getenv "HOME"
+  return home and home ~= "" and ("%s/.clench-%s.token"):format(home, name) or nil
+end
+
+-- keeps the token in a file of the user's own, which goes when the server ends
+local function keep_token(server, path)
+  path = path or default_file(server)
+  if not path then return nil end
+  save_secret(path, server.token .. "\n")
+  return setmetatable({path = path}, {__close = function() os.remove(path) end})
+end
+
+local function announce(given, server, kept)
+  say("%s is served at %s", given.world, server.listener.name)
+  if not server.token then return say "without a token: any program of this machine may command it" end
+  say("JSON-RPC: %s/?token=%s", given.socket and "unix://" .. given.socket or "tcp://" .. server.listener.name, server.token)
+  if kept then say("the token is kept in %s", kept.path) end
+end
+
 local function run(root, folder, package, unit, strict, ...)
   local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
   local given = read_words(...)
   local world = clench.load(given.world, reading("world", said))
-  local server <close> = clench.control.server {world = world, path = given.socket, host = given.host,
+  local token
+  if given["no-token"] then token = false end
+  local server <close> = clench.control.server {world = world, path = given.socket, host = given.host, token = token, folder = given.folder,
                                                 port = not given.socket and tonumber(given.port or 4765) or nil}
-  say("%s is served at %s", given.world, server.listener.name)
+  local kept <close> = server.token and keep_token(server, given["token-file"]) or nil
+  announce(given, server, kept)
   clench.loop.run()
 end
 

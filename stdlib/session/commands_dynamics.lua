@@ -4,7 +4,7 @@ local script = require "clench.session.script"
 local function has_world(session) return session.world ~= nil, "no world is open" end
 
 return {
-  {name = "dynamics.run", label = "Run dynamics", menu = "Dynamics", enabled = has_world,
+  {name = "dynamics.run", label = "Run dynamics", menu = "Dynamics", enabled = has_world, long = true,
    parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "of simulated time"}},
    run = function(session, args) session.world:run(args.seconds) end,
    script = function(_, args) return ("world:run(%s)"):format(script.literal(args.seconds)) end},

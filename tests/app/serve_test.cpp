@@ -2,7 +2,10 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
+#include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "command.h"
@@ -82,6 +85,28 @@ TEST_CASE("a world is served until a signal ends it") {
     CHECK(ask_port(server.port(), "getRobotName ALL\n", 2) == "1\nbarrett\n");
     CHECK(server.end(signal) == 0);
   }
+}
+
+TEST_CASE("the token of a server is kept in a file of its user, as long as it runs") {
+  const Folder folder;
+  const std::string file = folder / "token";
+  Served server("serve worlds/barrett_mug.wld --root . --port 0 --token-file " + file);
+  struct stat found {};
+  for (int i = 0; i < 500 && stat(file.c_str(), &found) != 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  REQUIRE(stat(file.c_str(), &found) == 0);
+  CHECK((found.st_mode & 0777) == 0600);
+  std::string token;
+  std::getline(std::ifstream(file) >> std::ws, token);
+  CHECK(token.size() == 48);
+  const auto hello = [&](const std::string& with) {
+    const char* form = R"({{"jsonrpc":"2.0","id":1,"method":"hello","params":{{"token":"{}"}}}})";
+    return ask_port(server.port(), fmt::format(fmt::runtime(form), with) + "\n", 1);
+  };
+  CHECK(has(hello(token), "\"result\""));
+  CHECK(has(hello(std::string(48, '0')), "\"error\""));
+  CHECK(server.end(SIGTERM) == 0);
+  CHECK(stat(file.c_str(), &found) != 0);
 }
 
 TEST_CASE("faults of clench serve are named") {

@@ -203,4 +203,13 @@ int resolve_host(lua_State* L) {
                       [L](const HostAddress& one) { push(L, one.address); });
 }
 
+// save_secret(path, text): writes a file that only its owner may read
+int save_secret(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  constexpr unsigned only_owner = 0600;
+  Draft draft(path, string_at(L, 2), only_owner);
+  draft.move_to(path);
+  return 0;
+}
+
 }  // namespace clench
