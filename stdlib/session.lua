@@ -68,10 +68,10 @@ local function add_command(self, command)
 end
 
 --- Registers a command.
----@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean}
+---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
 ---  name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =, type =, unit =, min =, max =, default =,
 ---  optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of Lua that do the same,
----  logged instead of the resulting state; replace: it may take the place of a command of the same name
+---  logged instead of the resulting state; replace: it may take the place of a command of the same name; long: it may take seconds, so a server runs it as a job (it needs script)
 function Session:command(command)
   arguments.check_command(command)
   if self.commands[command.name] and not command.replace then

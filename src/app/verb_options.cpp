@@ -37,20 +37,24 @@ static const CLI::Validator unit(
     },
     "");
 
-void add_reading(CLI::App& verb, ReadingOptions& reading) {
+void add_world_reading(CLI::App& verb, ReadingOptions& reading) {
   verb.add_option("--root", reading.root, "where names in the files count from")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
-  verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
-  verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
   verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")
       ->type_name("UNIT")
       ->check(unit);
   verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
+}
+
+void add_reading(CLI::App& verb, ReadingOptions& reading) {
+  add_world_reading(verb, reading);
+  verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
 }
 
 // a finite number above 0
@@ -243,6 +247,24 @@ void add_render_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("N")
       ->check(not_negative);
   add.flag("--orthographic", "parallel projection");
+}
+
+void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
+  const Adder add{verb, words};
+  add("WORLD", "a world's file")->required()->check(named);
+  add("--port", "TCP port; 0: the system chooses one; default: 4765")
+      ->type_name("N")
+      ->check(whole_number(0, 65535));
+  add("--host", "address to listen on; default: 127.0.0.1, which only this machine reaches")
+      ->type_name("ADDRESS");
+  add("--socket", "a Unix socket instead of a TCP port")->type_name("PATH")->check(named);
+  add("--token-file", "where the token is kept; default: in the folder of the user's session")
+      ->type_name("FILE")
+      ->check(named);
+  add.flag("--no-token", "any program of this machine may command the world");
+  add("--folder", "requests may read and write files below this folder; default: none")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory);
 }
 
 }  // namespace clench

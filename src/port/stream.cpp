@@ -16,6 +16,12 @@ namespace {
 
 bool would_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
+// ECONNRESET: the other side closed before it had read everything. EIO: a device is gone, or the
+// other side of a pseudo-terminal
+Stream::End end_of(int error) {
+  return error == EPIPE || error == ECONNRESET ? Stream::End::closed : Stream::End::unplugged;
+}
+
 constexpr size_t chunk = 64 * 1024;  // read at once [bytes]
 
 }  // namespace
@@ -30,12 +36,6 @@ Stream::Stream(Descriptor descriptor, std::string name)
   is_socket_ = getsockopt(descriptor_.number(), SOL_SOCKET, SO_TYPE, &kind, &size) == 0;
 }
 
-void Stream::end_by(int error) {
-  // ECONNRESET: the other side closed before it had read everything. EIO: a device is gone, or the
-  // other side of a pseudo-terminal
-  end_ = error == EPIPE || error == ECONNRESET ? End::closed : End::unplugged;
-}
-
 size_t Stream::fill() {
   if (end_ != End::none) return 0;
   if (taken_ > 0 && taken_ >= kept_.size() / 2) {  // moves each byte once on average
@@ -48,7 +48,7 @@ size_t Stream::fill() {
   const int error = errno;
   kept_.resize(before + static_cast<size_t>(std::max<ssize_t>(count, 0)));
   if (count == 0) end_ = is_socket_ ? End::closed : End::unplugged;
-  if (count < 0 && !would_wait(error)) end_by(error);
+  if (count < 0 && !would_wait(error)) end_ = end_of(error);
   return kept_.size() - before;
 }
 
@@ -78,17 +78,12 @@ size_t Stream::find(std::string_view delimiter) {
 }
 
 size_t Stream::write(std::string_view bytes) {
-  if (end_ != End::none || bytes.empty()) return 0;
+  if (write_end_ != End::none || bytes.empty()) return 0;
   const int number = descriptor_.number();
   const ssize_t count = is_socket_ ? ::send(number, bytes.data(), bytes.size(), MSG_NOSIGNAL)
                                    : ::write(number, bytes.data(), bytes.size());
   if (count >= 0) return static_cast<size_t>(count);
-  // what the other side sent before it closed can still be read
-  if (!would_wait(errno) && errno != EPIPE && errno != ECONNRESET) end_by(errno);
-  if (errno == EPIPE || errno == ECONNRESET) {
-    while (fill() > 0) continue;
-    if (end_ == End::none) end_by(EPIPE);
-  }
+  if (!would_wait(errno)) write_end_ = end_of(errno);
   return 0;
 }
 
@@ -102,6 +97,7 @@ int Stream::connect_error() const {
 void Stream::close() {
   descriptor_.close();
   if (end_ == End::none) end_ = End::closed;
+  if (write_end_ == End::none) write_end_ = End::closed;
 }
 
 }  // namespace clench

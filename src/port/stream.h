@@ -26,6 +26,8 @@ class Stream {
   /// For polling; below 0 once it is closed.
   int descriptor() const { return descriptor_.number(); }
   End end() const { return end_; }
+  /// Why nothing more can be sent. A socket whose other side sends no more may still receive.
+  End write_end() const { return write_end_; }
 
   /// Reads what has arrived, at most 64 KB, behind the bytes that are kept.
   /// returns  how many bytes; 0: none has arrived, or the stream has ended
@@ -39,7 +41,7 @@ class Stream {
   size_t find(std::string_view delimiter);
 
   /// Sends as many bytes as the system takes now.
-  /// returns  how many; 0: none, or the stream has ended
+  /// returns  how many; 0: none, or nothing can be sent any more
   size_t write(std::string_view bytes);
 
   /// The error by which a connection that was begun has failed; 0: none.
@@ -48,14 +50,12 @@ class Stream {
   void close();
 
  private:
-  void end_by(int error);
-
   Descriptor descriptor_;
   std::string name_, kept_, sought_;
   size_t taken_ = 0,
          searched_ = 0;  ///< of kept_: bytes taken, bytes without `sought_` behind these
   bool is_socket_ = false;
-  End end_ = End::none;
+  End end_ = End::none, write_end_ = End::none;
 };
 
 }  // namespace clench

@@ -31,14 +31,11 @@ local function receive(self, method, seconds, found, x)
   local _ <close> = self.reading
   while true do
     local result, why = found(self, x)
-    if result or why then return result, why end
-    local count = stream:fill()
-    if count > 0 then
-      if self.on_received then self.on_received(stream:tail(count)) end
-    elseif stream:ending() then
-      return nil, stream:ending()
-    elseif not wait(self, last, "readable") then
-      return nil, "timeout"
+    if result then return result end
+    if why then return nil, why end
+    if self:fill() == 0 then
+      if stream:ending() then return nil, stream:ending() end
+      if not wait(self, last, "readable") then return nil, "timeout" end
     end
   end
 end
@@ -95,19 +92,38 @@ function Port:read_until(delimiter, seconds)
   return receive(self, "read_until", seconds, find_delimiter, delimiter)
 end
 
+-- a line without the "\r" of its end
+local function without_return(line, why)
+  if not line then return nil, why end
+  if line:byte(-1) == 13 then return line:sub(1, -2) end
+  return line
+end
+
 --- Reads a line, without its end, "\n" or "\r\n".
 ---@param seconds? number  waits at most so long [s]
 function Port:read_line(seconds)
-  local line, why = receive(self, "read_line", seconds, find_delimiter, "\n")
-  if line and line:byte(-1) == 13 then line = line:sub(1, -2) end
-  return line, why
+  return without_return(receive(self, "read_line", seconds, find_delimiter, "\n"))
+end
+
+--- Reads what has arrived, without waiting and without taking it.
+---@return integer count  of bytes that arrived; 0: none
+---@return string? reason  "closed" or "unplugged": nothing more arrives
+function Port:fill()
+  local count = self.stream:fill()
+  if count > 0 and self.on_received then self.on_received(self.stream:tail(count)) end
+  return count, self.stream:ending()
+end
+
+--- Takes a line of what fill has read, without waiting.
+---@return string? line  nil: there is none yet
+---@return string? reason  "too long", as of read_until
+function Port:take_line()
+  return without_return(find_delimiter(self, "\n"))
 end
 
 --- Drops what has arrived and was not read, and returns it.
 function Port:discard()
-  while self.stream:fill() > 0 do
-    if self.on_received then self.on_received(self.stream:tail(1 << 16)) end
-  end
+  while self:fill() > 0 do end
   return self.stream:take(self.stream:size())
 end
 
@@ -127,7 +143,7 @@ local function flush(self)
     queue[queue.first] = nil
     queue.first, queue.from = queue.first + 1, 0
   end
-  if self.stream:ending() then
+  if self.stream:write_ending() then
     self.queue, self.queued = {first = 1, last = 0, from = 0}, 0
   end
   if self.queued == 0 then stop_flushing(self) end
@@ -159,18 +175,21 @@ local function fits(self, bytes) return self.queued == 0 or self.queued + #bytes
 ---@return string? reason  "full": more than max_queue bytes would be queued, and none of these are; "closed" or "unplugged"
 function Port:send(bytes)
   check_bytes("send", bytes)
-  if self.stream:ending() then return nil, self.stream:ending() end
+  local ending = self.stream:write_ending()
+  if ending then return nil, ending end
   if not fits(self, bytes) then return nil, "full" end
   put(self, bytes)
-  if self.stream:ending() then return nil, self.stream:ending() end
+  ending = self.stream:write_ending()
+  if ending then return nil, ending end
   return true
 end
 
 local function wait_until(self, last, is_over)
   while not is_over() do
-    if self.stream:ending() then return nil, self.stream:ending() end
+    local ending = self.stream:write_ending()
+    if ending then return nil, ending end
     if not wait(self, last, "writable") then return nil, "timeout" end
-    if self:is_open() then flush(self) end
+    flush(self)
   end
   return true
 end
@@ -185,7 +204,7 @@ function Port:write(bytes, seconds)
   check.seconds("port:write", seconds)
   local last = seconds and loop.time() + seconds
   local ok, why = wait_until(self, last, function() return fits(self, bytes) end)
-  if ok and self.stream:ending() then ok, why = nil, self.stream:ending() end
+  if ok and self.stream:write_ending() then ok, why = nil, self.stream:write_ending() end
   if not ok then return nil, why end
   put(self, bytes)
   local goal = self.put
@@ -200,7 +219,7 @@ function Port:drain(seconds)
   return wait_until(self, seconds and loop.time() + seconds, function() return self.sent >= goal end)
 end
 
---- Is the stream open, as far as is known?
+--- May more arrive, as far as is known?
 function Port:is_open() return self.stream:ending() == nil end
 
 --- Closes the port. Coroutines that wait for it go on, with the reason "closed".

@@ -78,6 +78,7 @@ TEST_CASE("programs open a pseudo-terminal again and again, and are unplugged on
   while (line.end() == Stream::End::none) line.fill();
   CHECK(line.end() == Stream::End::unplugged);
   CHECK(line.write("x") == 0);
+  CHECK(line.write_end() == Stream::End::unplugged);
   CHECK(!std::filesystem::exists(path));
 }
 
@@ -95,7 +96,8 @@ TEST_CASE("faults of serial lines are named") {
   CHECK(fault({.path = "/dev/null"}).starts_with("/dev/null: expected a serial line: "));
   CHECK(fault({.path = "/dev"}).starts_with("/dev: "));
   CHECK(fault({.path = pty.path, .baud = 0}) == pty.path + ": baud must be > 0, got 0");
-  CHECK(fault({.path = pty.path, .data_bits = 9}) == pty.path + ": data_bits must be 5 to 8, got 9");
+  CHECK(fault({.path = pty.path, .data_bits = 9}) ==
+        pty.path + ": data_bits must be 5 to 8, got 9");
   CHECK(fault({.path = pty.path, .stop_bits = 3}) ==
         pty.path + ": stop_bits must be 1 or 2, got 3");
   const Stream line = open_serial({.path = pty.path});

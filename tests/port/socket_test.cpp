@@ -61,7 +61,7 @@ TEST_CASE("clients and servers talk over TCP, of both families, and over a Unix 
   }
   Acceptor acceptor = Acceptor::unix_socket(socket_path());
   check_talk(acceptor, begin_connect_unix(socket_path()));
-  struct stat file{};
+  struct stat file {};
   REQUIRE(stat(socket_path().c_str(), &file) == 0);
   CHECK((file.st_mode & 0777) == 0600);
   acceptor.close();
@@ -109,8 +109,8 @@ TEST_CASE("hosts are numeric addresses, or found by name") {
   CHECK(resolve("no host", true).empty());
   CHECK(!resolve("localhost", false).empty());
   CHECK_THROWS_WITH_AS(begin_connect({"no host"}, 1), "no host: expected a numeric address", Error);
-  CHECK_THROWS_WITH_AS(begin_connect({"127.0.0.1"}, 0),
-                       "127.0.0.1: port must be 1 to 65535, got 0", Error);
+  CHECK_THROWS_WITH_AS(begin_connect({"127.0.0.1"}, 0), "127.0.0.1: port must be 1 to 65535, got 0",
+                       Error);
   CHECK_THROWS_WITH_AS(Acceptor::tcp({"127.0.0.1"}, 65536),
                        "127.0.0.1: port must be 0 to 65535, got 65536", Error);
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <string>
@@ -101,7 +102,21 @@ TEST_CASE("what the other side sent before it closed is read even after a write 
   CHECK(a.end() == Stream::End::closed);
   CHECK(a.descriptor() < 0);
   CHECK(a.write("x") == 0);
-  while (b.end() == Stream::End::none) b.write("to nobody");
-  CHECK(b.end() == Stream::End::closed);
+  while (b.write_end() == Stream::End::none) b.write("to nobody");
+  CHECK(b.write_end() == Stream::End::closed);
+  while (b.end() == Stream::End::none) b.fill();
   CHECK(b.take(100) == "last words");
+}
+
+TEST_CASE("a side that sends no more still receives") {
+  auto [a, b] = open_pair();
+  REQUIRE(a.write("question") == 8);
+  REQUIRE(shutdown(a.descriptor(), SHUT_WR) == 0);
+  while (b.end() == Stream::End::none) b.fill();
+  CHECK(b.take(100) == "question");
+  CHECK(b.write_end() == Stream::End::none);
+  CHECK(b.write("answer") == 6);
+  b.close();
+  while (a.end() == Stream::End::none) a.fill();
+  CHECK(a.take(100) == "answer");
 }

@@ -95,6 +95,7 @@ void add_natives(lua_State* L) {
                                          {"clench.begin_connect", guarded<begin_stream>},
                                          {"clench.open_acceptor", guarded<open_acceptor>},
                                          {"clench.resolve_host", guarded<resolve_host>},
+                                         {"clench.save_secret", guarded<save_secret>},
                                          {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);

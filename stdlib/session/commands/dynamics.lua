@@ -4,7 +4,7 @@ local playback = require "clench.session.playback"
 local script = require "clench.session.script"
 
 return {
-  {name = "dynamics.run", label = "Run…", menu = "Dynamics", enabled = conditions.world,
+  {name = "dynamics.run", label = "Run…", menu = "Dynamics", enabled = conditions.world, long = true,
    parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "of simulated time"}},
    run = function(session, args) session.world:run(args.seconds) end,
    script = function(_, args) return ("world:run(%s)"):format(script.literal(args.seconds)) end},

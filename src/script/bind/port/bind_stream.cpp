@@ -62,9 +62,8 @@ int write(lua_State* L) {
   return push(L, static_cast<lua_Integer>(sent));
 }
 
-// stream:ending(): nil, "closed" or "unplugged"
-int ending(lua_State* L) {
-  switch (stream_of(L).end()) {
+int push_end(lua_State* L, Stream::End end) {
+  switch (end) {
     case Stream::End::none:
       return push_nil(L);
     case Stream::End::closed:
@@ -74,6 +73,11 @@ int ending(lua_State* L) {
   }
   return push(L, "unplugged");
 }
+
+// stream:ending(), stream:write_ending(): why nothing more arrives, or can be sent: nil, "closed" or
+// "unplugged"
+int ending(lua_State* L) { return push_end(L, stream_of(L).end()); }
+int write_ending(lua_State* L) { return push_end(L, stream_of(L).write_end()); }
 
 // stream:connect_error(): why a connection has failed; nil: it has not
 int connect_error(lua_State* L) {
@@ -96,6 +100,7 @@ const Entry stream_methods[] = {
     {"find", guarded<find>, "\n@param delimiter string"},
     {"write", guarded<write>, "\n@param bytes string\n@param from integer"},
     {"ending", guarded<ending>, ""},
+    {"write_ending", guarded<write_ending>, ""},
     {"connect_error", guarded<connect_error>, ""},
     {"name", guarded<stream_name>, ""},
     {"descriptor", guarded<stream_descriptor>, ""},
@@ -196,6 +201,15 @@ int resolve_host(lua_State* L) {
   const std::string host = check_string(L, 1, "host");
   return push_list_of(L, resolve(host, lua_toboolean(L, 2)),
                       [L](const HostAddress& one) { push(L, one.address); });
+}
+
+// save_secret(path, text): writes a file that only its owner may read
+int save_secret(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  constexpr unsigned only_owner = 0600;
+  Draft draft(path, string_at(L, 2), only_owner);
+  draft.move_to(path);
+  return 0;
 }
 
 }  // namespace clench

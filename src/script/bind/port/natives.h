@@ -11,5 +11,6 @@ int open_stream_pair(lua_State* L);
 int begin_stream(lua_State* L);
 int open_acceptor(lua_State* L);
 int resolve_host(lua_State* L);
+int save_secret(lua_State* L);
 
 }  // namespace clench

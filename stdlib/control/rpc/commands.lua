@@ -1,0 +1,92 @@
+--- Commands of the session as methods of JSON-RPC. Long ones run as jobs on a clone; their result is applied as one edit that can be undone,
+--- if the world has not changed since.
+local arguments = require "clench.session.arguments"
+local failure = require "clench.control.rpc.failure"
+local files = require "clench.control.rpc.files"
+local jobs = require "clench.control.rpc.jobs"
+local values = require "clench.control.rpc.values"
+local commands = {}
+
+local apply = "control.apply"
+
+--- Prepares the session of a server: registers the command by which results of jobs become edits, and counts edits in `server.edits`.
+---@return fun() # ends the count
+function commands.prepare(server)
+  local session = server.session
+  session:command {
+    name = apply, label = "Apply a result", replace = true,
+    parameters = {{name = "world", type = "any"}, {name = "lines", type = "string"}},
+    run = function(of, args) of.world:become(args.world) end,
+    script = function(_, args) return args.lines end,
+  }
+  server.edits = 0
+  return session:subscribe("changed", function() server.edits = server.edits + 1 end)
+end
+
+--- The command of a method; nil: there is none.
+function commands.find(session, name)
+  if name:find "^control%." then return nil end
+  return session.commands[name]
+end
+
+--- Names of all commands, sorted.
+function commands.names(session)
+  local names = {}
+  for name in pairs(session.commands) do
+    if not name:find "^control%." then names[#names + 1] = name end
+  end
+  table.sort(names)
+  return names
+end
+
+-- runs in the job
+local function work(world, name, args)
+  local clench = require "clench"
+  local session = clench.session(world)
+  local result = session:run(name, args)
+  return {world = session.world, result = clench.json.encode(require "clench.control.rpc.values".of(result))}
+end
+
+-- without a hand, the job would choose the first one
+local function with_current(session, command, args)
+  for _, parameter in ipairs(command.parameters or {}) do
+    if parameter.name == "hand" and args.hand == nil and session.hand then args.hand = values.address(session.hand) end
+  end
+  return args
+end
+
+local function run_long(context, command, args)
+  local session = context.session
+  local world = session.world or failure.raise("failed", "no world is open")
+  if command.enabled and not command.enabled(session) then return session:run(command.name, args) end  -- raises why
+  args = with_current(session, command, args)
+  local server = context.server
+  local before, edits, lines = world:hash(), server.edits, command.script(session, args)
+  local job = clench.job(work, {args = {world, command.name, args}, name = command.name})
+  local number = jobs.keep(context, job, function(kept)
+    if kept.job.state ~= "done" then return end
+    local made = kept.job:result()
+    -- the hash is that of the state; masses and the like are changed by edits
+    local is_same = session.world == world and server.edits == edits and world:hash() == before
+    kept.result = {applied = is_same, result = clench.json.decode(made.result)}
+    if kept.result.applied then session:run(apply, {world = made.world, lines = lines}) end
+  end)
+  local kept = server.jobs[number]
+  clench.loop.wait(job)
+  while kept.result == nil and kept.problem == nil and kept.job.state == "done" do clench.loop.sleep(0) end
+  if kept.problem then error(kept.problem, 0) end
+  if kept.result == nil then kept.job:result() end  -- raises why
+  return {job = number, applied = kept.result.applied, result = kept.result.result}
+end
+
+--- Runs a command.
+function commands.run(context, command, params)
+  local session = context.session
+  local ok, args = pcall(arguments.read, command, params)
+  if not ok then error(setmetatable(failure.of(args, "params"), failure.class), 0) end
+  local given = files.confine(context.server, command.name, params)
+  if command.long then return run_long(context, command, given) end
+  return session:run(command.name, given)
+end
+
+return commands

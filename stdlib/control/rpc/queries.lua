@@ -1,0 +1,147 @@
+--- Read-only methods of JSON-RPC: what a world and its bodies and robots are, by address.
+local arguments = require "clench.session.arguments"
+local failure = require "clench.control.rpc.failure"
+local queries = {}
+
+local function world_of(context) return context.session.world or failure.raise("failed", "no world is open") end
+
+-- a body or robot of an address; nil stays nil
+local function find(context, address) return address ~= nil and arguments.find(context.session, address) or nil end
+
+local function find_robot(context, address) return arguments.find_robot(context.session, address) end
+
+local a = {name = "a", type = "body", optional = true, text = "address of a body or robot"}
+local b = {name = "b", type = "body", optional = true, text = "address of another one"}
+local robot = {name = "robot", type = "robot", optional = true, text = "address; the current hand by default"}
+local link = {name = "link", type = "body", text = "address of a link"}
+
+local function add(name, text, parameters, run) queries[#queries + 1] = {name = name, text = text, parameters = parameters, run = run} end
+
+-- the thing of an address: "" or nothing is the world
+local function thing_of(context, address)
+  if address == nil or address == "" then return world_of(context) end
+  return find(context, address)
+end
+
+local function field_of(thing, field)
+  local kind = clench.type(thing)
+  local ok, entry = pcall(clench.describe, ({world = "world", robot = "hand", body = "body"})[kind] .. "." .. field)
+  local value = thing[field]  -- an error names what is near
+  if type(value) == "function" or ok and entry.kind ~= "field" then failure.raise("params", "%s.%s is a method, and no field", kind, field) end
+  return value
+end
+
+local function check_names(fields)
+  for i, field in ipairs(fields) do
+    if type(field) ~= "string" then failure.raise("params", "fields[%d]: expected a string", i) end
+  end
+end
+
+local function read_fields(context, of, fields)
+  check_names(fields)
+  local thing, out = thing_of(context, of), {}
+  for _, field in ipairs(fields) do out[field] = field_of(thing, field) end
+  return out
+end
+
+add("get", "Fields of the world, of a body or of a robot, by their names in scripts.",
+    {{name = "of", type = "string", optional = true, text = "address; the world by default"}, {name = "fields", type = "table", text = "names"}},
+    function(context, args) return read_fields(context, args.of, args.fields) end)
+
+add("read", "Fields of several things in one call.", {{name = "items", type = "table", text = "a list of {of, fields}"}}, function(context, args)
+  local out = {}
+  for i, item in ipairs(args.items) do
+    if type(item) ~= "table" or type(item.fields) ~= "table" then failure.raise("params", "items[%d]: expected {of, fields}", i) end
+    out[i] = read_fields(context, item.of, item.fields)
+  end
+  return out
+end)
+
+local function velocity_of(body)
+  local velocity = body.velocity
+  return {linear = velocity.linear, angular = velocity.angular}
+end
+
+--- The state of a world: time, and what moves in it.
+function queries.state(world)
+  local bodies, robots = {}, {}
+  for i, body in ipairs(world.objects) do bodies[i] = {body = body, pose = body.pose, velocity = velocity_of(body)} end
+  for i, one in ipairs(world.robots) do
+    robots[i] = {robot = one, pose = one.pose, dofs = one.dofs, dof_velocities = one.dof_velocities, dof_efforts = one.dof_efforts}
+  end
+  return {time = world.time, objects = bodies, robots = robots}
+end
+
+add("world.state", "Time, and poses, DOFs and velocities of objects and robots.", {}, function(context) return queries.state(world_of(context)) end)
+
+add("world.list", "Addresses of bodies and robots.", {}, function(context)
+  local world = world_of(context)
+  return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies}
+end)
+
+-- every contact once: of the two bodies that list it, the first in the world
+local function all_contacts(world)
+  local out, seen = {}, {}
+  for _, body in ipairs(world.bodies) do
+    for _, contact in ipairs(body.contacts) do
+      if not seen[contact.body == body and contact.other.name or contact.body.name] then out[#out + 1] = contact end
+    end
+    seen[body.name] = true
+  end
+  return out
+end
+
+add("world.contacts", "Contacts between two things, of one, or of all.", {a, b}, function(context, args)
+  local world = world_of(context)
+  if args.a == nil then
+    return all_contacts(world)
+  end
+  return world:contacts(find(context, args.a), find(context, args.b))
+end)
+
+add("world.colliding", "Pairs of bodies that collide.", {a, b}, function(context, args)
+  return world_of(context):colliding(find(context, args.a), find(context, args.b))
+end)
+
+add("world.distance", "Distance of two things [m], and the closest points.", {a, b}, function(context, args)
+  local distance, on_a, on_b = world_of(context):distance(find(context, args.a), find(context, args.b))
+  return {distance = distance, on_a = on_a, on_b = on_b}
+end)
+
+add("world.raycast", "What a ray meets first; null: nothing.",
+    {{name = "origin", type = "vec3", unit = "m", text = "first point"}, {name = "direction", type = "vec3", text = "of any length"},
+     {name = "reach", type = "number", optional = true, min = 0, unit = "m", text = "how far it goes"}},
+    function(context, args) return world_of(context):raycast(args.origin, args.direction, args.reach) end)
+
+add("world.energy", "Energy of all objects and robots [J].", {}, function(context) return world_of(context):energy() end)
+add("world.momentum", "Momentum of all objects and robots.", {}, function(context) return world_of(context):momentum() end)
+add("world.hash", "Equal for worlds in the same state.", {}, function(context) return world_of(context):hash() end)
+
+add("world.average_contacts", "What presses on each of some bodies after the last step.",
+    {{name = "links", type = "table", text = "addresses"}}, function(context, args)
+      local links = {}
+      for i, address in ipairs(args.links) do links[i] = arguments.find_body(context.session, address) end
+      return world_of(context):average_contacts(links)
+    end)
+
+add("robot.jacobian", "Jacobian of a point of a link: rows of linear, then angular velocity.",
+    {robot, link, {name = "point", type = "vec3", optional = true, unit = "m", text = "in the world"}}, function(context, args)
+      return find_robot(context, args.robot):jacobian(find(context, args.link), args.point)
+    end)
+
+add("robot.mass_matrix", "Mass matrix of the DOFs.", {robot}, function(context, args) return find_robot(context, args.robot):mass_matrix() end)
+add("robot.bias_forces", "Efforts that balance gravity, velocities and springs.", {robot},
+    function(context, args) return find_robot(context, args.robot):bias_forces() end)
+add("robot.ik", "DOFs that bring a link to a pose.",
+    {robot, link, {name = "pose", type = "pose", text = "of the link in the world"}, {name = "options", type = "table", optional = true, text = "of hand:ik"}},
+    function(context, args) return find_robot(context, args.robot):ik(find(context, args.link), args.pose, args.options) end)
+
+add("session.info", "What the session holds.", {}, function(context)
+  local session = context.session
+  return {hand = session.hand, object = session.object, selection = session.selection, path = session.path, is_modified = session:is_modified(),
+          commands_done = #session.history.done}
+end)
+
+add("session.script", "The commands done and not undone, as a script.", {}, function(context) return context.session:script() end)
+
+return queries

@@ -1,0 +1,55 @@
+--- Values as JSON-RPC carries them: bodies and robots as addresses, all else complete. Numbers that JSON has no word for are null.
+local in_utf8 = require "clench.in_utf8"
+local values = {}
+
+local max_depth = 30
+local null = clench.json.null
+
+local function escaped(name) return (name:gsub("/", "\\/")) end
+
+--- The address of a body or robot: "mug", "dlr", "dlr/chain0_link2".
+function values.address(thing)
+  if clench.type(thing) == "robot" or not thing.robot then return escaped(thing.name) end
+  local robot, name = thing.robot, thing.name
+  local prefix = robot.name .. "_"
+  if name:sub(1, #prefix) == prefix then name = name:sub(#prefix + 1) end
+  return escaped(robot.name) .. "/" .. escaped(name)
+end
+
+local convert
+
+local function list_or_record(value, depth)
+  local out = {}
+  for key, item in pairs(value) do
+    out[type(key) == "string" and in_utf8(key) or key] = convert(item, depth + 1)
+  end
+  return out
+end
+
+local contact_fields = {"body", "other", "link", "point", "normal", "gap", "force", "torsion", "mu", "mu_kinetic", "kind"}
+
+local function contact(value, depth)
+  local out = {}
+  for _, field in ipairs(contact_fields) do
+    local item = value[field]
+    if item ~= nil then out[field] = convert(item, depth + 1) end
+  end
+  return out
+end
+
+function convert(value, depth)
+  local kind = clench.type(value)
+  if value == nil then return null end
+  if kind == "number" then return value - value == 0 and value or null end
+  if kind == "string" then return in_utf8(value) end
+  if kind == "body" or kind == "robot" then return values.address(value) end
+  if kind == "contact" then return contact(value, depth) end
+  if kind == "boolean" or kind == "vec3" or kind == "pose" or kind == "grasp" or kind == "grasps" or value == null then return value end
+  if kind == "table" and depth < max_depth then return list_or_record(value, depth) end
+  return {type = kind, text = in_utf8(tostring(value))}
+end
+
+--- A value as plain data for clench.json.encode.
+function values.of(value) return convert(value, 0) end
+
+return values
