@@ -46,7 +46,7 @@ local function check_columns(rows, columns)
 end
 
 local function separator_of(read)
-  local separator = read:raw "separator" or ","
+  local separator = read:get "separator"
   if separator ~= "," and separator ~= ";" and separator ~= "\t" then
     read:expected("separator", "',', ';' or a tab", separator)
   end
@@ -56,7 +56,9 @@ end
 --- Writes rows to a file, whole or not at all: what stood there stays when something is wrong.
 ---@param path string  file to write
 ---@param rows table[]  of names and values: numbers, texts, true, false; what a row lacks stays empty
----@param options? {columns?: string[], separator?: string}  columns: in this order, by their names unless given; separator: "," by default, ";" or a tab
+---@param options? table  form of the file
+---@option columns? string[]  in this order, by their names unless given
+---@option separator? string = ","  between cells: ",", ";" or a tab
 --- > clench.csv.write("build/table.csv", {{object = "mug", epsilon = 0.25}, {object = "flask", note = "7"}})
 --- > rows = clench.csv.read "build/table.csv"
 --- > table.concat(rows.columns, " ")  --> epsilon note object
@@ -67,7 +69,7 @@ function csv.write(path, rows, options)
   if type(rows) ~= "table" then raise("csv.write: rows: expected a list, got " .. described(rows)) end
   local read = read_options("csv.write", options or {})
   local separator = separator_of(read)
-  local columns = read:raw "columns"
+  local columns = read:get "columns"
   read:done()
   if columns ~= nil and type(columns) ~= "table" then raise("csv.write: columns: expected a list of names, got " .. described(columns)) end
   if columns then check_columns(rows, columns) end
@@ -85,13 +87,15 @@ end
 
 --- Reads such a file, or anyone's: numbers, true and false as such, what stands in quotes as text, empty cells as nil.
 ---@param path string  file to read
----@param options? {separator?: string, confine?: string}  separator: "," by default, ";" or a tab; confine: the folder below which it may lie
+---@param options? table  form and place of the file
+---@option separator? string = ","  between cells: ",", ";" or a tab
+---@option confine? string  the folder below which it may lie
 ---@return table[] rows  of names and values, with the names in order as `columns`
 --- > clench.csv.read "no/such.csv"  --> error: no/such.csv
 function csv.read(path, options)
   if type(path) ~= "string" then raise("csv.read: path: expected a name, got " .. described(path)) end
   local read = read_options("csv.read", options or {})
-  local separator, confine = separator_of(read), read:raw "confine"
+  local separator, confine = separator_of(read), read:get "confine"
   read:done()
   local text = on_behalf_of("csv.read", clench.files.read_text, path, {confine = confine})
   local name = path:match "[^/]+$" or path

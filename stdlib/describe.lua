@@ -1,5 +1,5 @@
-local doc = require "clench.host.doc"
-local signature = require "clench.host.signature"
+local descriptions = require "clench.signature.descriptions"
+local packed_docs = require "clench.signature.packed_docs"
 local described = require "clench.described"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
@@ -22,14 +22,14 @@ local function list_entries()
     add(class.variable, ":", class.methods, "method")
     add(class.variable, ".", class.operators, "operator")
   end
-  for _, entry in ipairs(doc.packed_functions(all.files)) do
+  for _, entry in ipairs(packed_docs.functions(all.files)) do
     insert(list, {name = "clench." .. entry.name, doc = entry.doc, fn = entry.fn, kind = "function"})
   end
   return list
 end
 
 local function describe(entry)
-  local parsed = signature.parse(entry.doc)
+  local parsed = descriptions.parse(entry.doc)
   parsed.name, parsed.kind, parsed.unused = entry.name, entry.kind, nil
   if entry.kind == "field" then
     parsed.settable = entry.settable == true

@@ -28,8 +28,7 @@ local function cell(value, format, place)
 end
 
 local function texts_by_column(read, key, columns)
-  local given = read:raw(key) or {}
-  if type(given) ~= "table" then read:expected(key, "a table by names of columns", given) end
+  local given = read:get(key) or {}
   local known = {}
   for _, name in ipairs(columns) do known[name] = true end
   for name, text in pairs(given) do
@@ -57,16 +56,9 @@ local function alignments(rows, columns)
   return table.concat(out)
 end
 
-local function text_option(read, key)
-  local text = read:raw(key)
-  if text ~= nil and type(text) ~= "string" then read:expected(key, "a text", text) end
-  return text
-end
-
 local function columns_of(read, rows)
-  local columns = read:raw "columns"
+  local columns = read:get "columns"
   if columns == nil then columns = column_names("latex.table", rows) end
-  if type(columns) ~= "table" then read:expected("columns", "a list of names", columns) end
   for i, name in ipairs(columns) do
     if type(name) ~= "string" then read:expected(("columns[%d]"):format(i), "a name", name) end
   end
@@ -88,7 +80,12 @@ end
 
 --- Rows as the text of a LaTeX table. Columns of numbers are aligned right; texts are escaped; a value that is missing is a dash. The document needs the package booktabs.
 ---@param rows table[]  of names and values: numbers, texts, true, false
----@param options? {columns?: string[], headings?: table<string, string>, formats?: table<string, string>, caption?: string, label?: string}  columns: these, in this order, all by their names unless given; headings: LaTeX in place of the name of a column; formats: of numbers, "%.3g" by default; caption, label: make a floating table, whose label other text refers to
+---@param options? table  what the table has
+---@option columns? string[]  these, in this order; all by their names by default
+---@option headings? table<string, string>  LaTeX in place of names of columns
+---@option formats? table<string, string>  of numbers, by column, "%.3g" by default
+---@option caption? string  makes a floating table
+---@option label? string  of a floating table, which other text refers to
 ---@return string
 --- > text = clench.latex.table({{object = "mug_2", epsilon = 0.25}, {object = "flask"}}, {columns = {"object", "epsilon"}, headings = {epsilon = "$\\epsilon$"}, formats = {epsilon = "%.3f"}})
 --- > text:find("mug\\_2 & 0.250", 1, true) ~= nil, text:find("flask & --", 1, true) ~= nil  --> true, true
@@ -99,7 +96,7 @@ function latex.table(rows, options)
   local columns = columns_of(read, rows)
   local headings, formats = texts_by_column(read, "headings", columns), texts_by_column(read, "formats", columns)
   check_formats(read, formats)
-  local caption, label = text_option(read, "caption"), text_option(read, "label")
+  local caption, label = read:get "caption", read:get "label"
   read:done()
   local text = ("\\begin{tabular}{%s}\n\\toprule\n%s\n\\bottomrule\n\\end{tabular}\n"):format(alignments(rows, columns),
     body_of(rows, columns, headings, formats))

@@ -1,9 +1,12 @@
 -- stdlib/options.lua
---- Reads the one table that a function is called with: each value by name, with its bounds; what nobody
---- read is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
+--- Reads the one table that a function is called with, as the description of the function says: each value by name, of its type and
+--- within its range, or its default; a key that is not described is an error. Names in `places` may also be given by position: {0.02} is
+--- {radius = 0.02}.
 local raise = require "clench.raise"
 local coordinates = require "clench.coordinates"
 local described = require "clench.described"
+local descriptions = require "clench.signature.descriptions"
+local fitting = require "clench.signature.fitting"
 local module_name = require "clench.module_name"
 local name_list = require "clench.name_list"
 local suggest = require "clench.suggest"
@@ -24,9 +27,25 @@ end
 
 function Options:fail(format, ...) raise(("%s: " .. format):format(self.subject, ...)) end
 
+--- The description of an option; that there is none is a mistake of ours.
+function Options:described(name)
+  for _, option in ipairs(self.fields) do
+    if option.name == name then return option end
+  end
+  raise(("%s: option '%s' is not described"):format(self.subject, name), "internal")
+end
+
+--- Is there such an option?
+function Options:has(name)
+  for _, option in ipairs(self.fields) do
+    if option.name == name then return true end
+  end
+  return false
+end
+
 --- the raw value of a name, wherever it stands; nil when it was not given
 function Options:raw(name)
-  if not self.read[name] then self.known[#self.known + 1] = name end
+  if type(name) == "string" then self:described(name) end
   local place = self.places[name]
   local placed = place and self.given[place]
   if place then self.read[place] = true end
@@ -40,34 +59,24 @@ end
 
 function Options:expected(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
 
-local function read_number(self, name, default, what, fits, largest)
+--- The value of a name, or its default: the described one, else `default`; nil where there is neither. Whole numbers are integers, whatever
+--- their subtype was.
+function Options:get(name, default)
+  local option, value = self:described(name), self:raw(name)
+  if value == nil then
+    value = option.default
+    if value == nil then value = default end
+    if value == nil and option.optional then return nil end
+  end
+  local fault = fitting.fault(option, value, self.largest)
+  if fault then self:expected(name, fault, value) end
+  return option.type == "integer" and math.tointeger(value) or value
+end
+
+--- The options in the table of that name, read in the same way; an empty one where it is no table.
+function Options:table(name)
   local value = self:raw(name)
-  if value == nil then value = default end
-  if not (is_number(value) and fits(value)) then self:expected(name, what, value) end
-  largest = largest or self.largest
-  if not within(value, largest) then self:expected(name, ("a number of at most %g"):format(largest), value) end
-  return value
-end
-
-function Options:number(name, default)
-  return read_number(self, name, default, "a finite number", function() return true end)
-end
-
---- largest: instead of that of all numbers
-function Options:positive(name, default, largest)
-  return read_number(self, name, default, "a number > 0", function(x) return x > 0 end, largest)
-end
-
-function Options:not_negative(name, default, largest)
-  return read_number(self, name, default, "a number >= 0", function(x) return x >= 0 end, largest)
-end
-
---- a whole number from least to most
-function Options:count(name, default, least, most)
-  local what = ("a whole number from %d to %d"):format(least, most)
-  return math.tointeger(read_number(self, name, default, what, function(x)
-    return math.tointeger(x) and x >= least and x <= most
-  end))
+  return Options.new(self.subject .. ": " .. name, type(value) == "table" and value or {}, self:described(name).fields, {}, self.largest)
 end
 
 --- a point {x, y, z}; nil when it was not given and there is no default
@@ -99,51 +108,52 @@ function Options:points(name, least, size)
   return points
 end
 
---- one of the words; the first of them when it was not given
-function Options:choice(name, words)
-  local value = self:raw(name)
-  if value == nil then return words[1] end
-  for _, word in ipairs(words) do
-    if value == word then return word end
-  end
-  self:expected(name, "'" .. table.concat(words, "' or '") .. "'", value)
-end
-
---- true or false; false when it was not given
-function Options:flag(name)
-  local value = self:raw(name)
-  if value ~= nil and type(value) ~= "boolean" then self:expected(name, "true or false", value) end
-  return value == true
-end
-
---- a function; nil when it was not given
-function Options:callback(name)
-  local value = self:raw(name)
-  if value ~= nil and type(value) ~= "function" then self:expected(name, "a function", value) end
-  return value
-end
-
---- refuses keys that nobody read, the first in order of their names
+--- refuses keys that are not described, the first in order of their names
 function Options:done()
-  local strange = {}
+  local strange, known = {}, {}
+  for _, option in ipairs(self.fields) do
+    known[#known + 1] = option.name
+    if not self.read[option.name] then raise(("%s: nobody reads the option '%s'"):format(self.subject, option.name), "internal") end
+  end
   for key in pairs(self.given) do
     if not self.read[key] then strange[#strange + 1] = type(key) == "string" and key or described(key) end
   end
   if #strange == 0 then return end
   table.sort(strange)
-  self:fail("unknown key '%s', expected any of %s%s", strange[1], name_list(self.known), suggest(strange[1], self.known))
+  if #known == 0 then self:fail("unknown key '%s'", strange[1]) end
+  self:fail("unknown key '%s', expected any of %s%s", strange[1], name_list(known), suggest(strange[1], known))
 end
 
----@param subject string  the function's name, for messages
----@param given table  what the caller wrote
----@param places? string[]  names of the values that may be given by position
----@param largest? number  of all numbers
-return function(subject, given, places, largest)
-  local self = setmetatable({subject = subject, given = given, read = {}, known = {}, places = {},
-                             largest = largest or math.huge}, Options)
-  for place, name in ipairs(places or {}) do self.places[name] = place end
+function Options.new(subject, given, fields, places, largest)
+  local self = setmetatable({subject = subject, given = given, fields = fields, read = {}, places = {}, largest = largest}, Options)
+  for place, name in ipairs(places) do self.places[name] = place end
   if type(given) ~= "table" or module_name(given) then
     self:fail("expected one table of options, as in %s {...}, got %s", subject, described(given))
   end
   return self
+end
+
+-- the options that the entry of a message's subject takes: "plan.sample", "world:on_step", "clench.energy.dynamic"
+local function fields_of(subject)
+  local entry = descriptions.of((subject:find ":" or subject:find "^clench%.") and subject or "clench." .. subject)
+  for _, item in ipairs(entry and entry.parameters or {}) do
+    if item.fields then return item.fields end
+  end
+  if entry then return {} end
+  raise(("%s: it is not described"):format(subject), "internal")
+end
+
+local fields_of_doc = {}  -- what the docs of functions that are no entries describe
+local function fields_in(doc)
+  fields_of_doc[doc] = fields_of_doc[doc] or descriptions.parse(doc).parameters[1].fields
+  return fields_of_doc[doc]
+end
+
+---@param subject string  the function's name, for messages and of its description
+---@param given table  what the caller wrote
+---@param places? string[]  names of the values that may be given by position
+---@param largest? number  of all numbers
+---@param doc? string  "@param options table\n@option ...", of a function that is no entry
+return function(subject, given, places, largest, doc)
+  return Options.new(subject, given, doc and fields_in(doc) or fields_of(subject), places or {}, largest or math.huge)
 end

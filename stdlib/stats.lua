@@ -99,7 +99,10 @@ end
 --- How many numbers lie in each of some intervals of the same width, each with its lower end, the last with both. Without `bins` there are
 --- as many as Sturges (1926) recommends, 1 + log2 of the count, rounded up; numbers outside `low` and `high` are counted beside them.
 ---@param values number[]  at least one
----@param options? {bins?: integer, low?: number, high?: number}  the least and the largest number, unless given
+---@param options? table  the intervals
+---@option bins? integer [1 to 100000]  number of intervals, by default by Sturges' rule
+---@option low? number  where the first begins, the least of the numbers by default
+---@option high? number  where the last ends, the largest of the numbers by default
 ---@return {edges: number[], counts: integer[], below: integer, above: integer}  one edge more than counts
 --- > h = clench.stats.histogram({0, 1, 1, 2, 3, 4}, {bins = 2})
 --- > h.edges  --> {0.0, 2.0, 4.0}
@@ -110,8 +113,8 @@ function stats.histogram(values, options)
   local read = read_options("stats.histogram", options or {})
   local least, largest = values[1], values[1]
   for _, value in ipairs(values) do least, largest = math.min(least, value), math.max(largest, value) end
-  local bins = read:count("bins", math.max(1, math.ceil(1 + math.log(#values, 2))), 1, 100000)
-  local low, high = read:number("low", least), read:number("high", largest)
+  local bins = read:get("bins", math.max(1, math.ceil(1 + math.log(#values, 2))))
+  local low, high = read:get("low", least), read:get("high", largest)
   read:done()
   -- equal numbers need a width, too
   if low == high then low, high = low - 0.5, high + 0.5 end

@@ -932,7 +932,7 @@ local world_control = {}
 
 ---Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world, not to its clones or snapshots.
 ---@param fn function # called after each step
----@param options? {rate?: number} # calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
+---@param options? {rate?: number} # how often
 ---@return table handle # `remove()` ends it
 function world_control:on_step(fn, options) end
 
@@ -942,18 +942,18 @@ function world_control:on_step(fn, options) end
 function world_control:spawn(fn) end
 
 ---Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a, b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
----@param event string # name of the event
+---@param event "contact"|"contact_lost"|"limit" # name of the event
 ---@param fn function # called at each such event
 ---@return table handle # `remove()` ends it
 function world_control:on(event, fn) end
 
 ---Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
----@param options {rate?: number, quantities: table} # rate: 100 [Hz]
+---@param options {rate?: number, quantities: table} # what is noted, and how often
 ---@return log log # `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
 function world_control:log(options) end
 
 ---Records how the world runs, for films: its state at a rate of its time.
----@param options? {rate?: number} # 30 [Hz]
+---@param options? {rate?: number} # how often
 ---@return recording recording # `times`; `save(path, options)`, see the guide; `remove()` ends it
 function world_control:record(options) end
 
@@ -1396,7 +1396,7 @@ function clench.energy.strict_autograsp(options) end
 function clench.energy.compliant(options) end
 
 ---What the closed hand holds in simulation: minus the sum over six directions of the part of the time that the object was held in study.shake, down to -6; where the closed hand is not in force closure, or loses the object before, 1 + contact, which leads there. It runs on one thread, and takes some tenths of a second where the hand holds something.
----@param options {hand: robot, object: body, shake?: table, contacts?: string} # shake: options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default; contacts: "preset" or "live"
+---@param options {hand: robot, object: body, shake?: table, contacts?: "preset"|"live"} # the hand and the object
 ---@return energy
 function clench.energy.dynamic(options) end
 

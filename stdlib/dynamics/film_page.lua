@@ -59,16 +59,21 @@ local function page_of(title, words, data, three)
     text.code(require "clench.page.scene"), text.code(require "clench.dynamics.film_page_player"), "</script>\n</body></html>\n"}
 end
 
+local doc = [[
+@param options table
+@option title? string = "Recorded run"  title of the page
+@option speed? number [> 0] = 1  1: as fast as it was
+@option three? string[]  files in which three.js may be]]
+
 ---@param recording table
 ---@param path string
 ---@param _ string
 ---@param options {title?: string, speed?: number, three?: string[]}  three: where three.js may be
 ---@return integer frames
 return function(recording, path, _, options)
-  local read = read_options("recording:save", options)
-  local title = read:raw "title" or "Recorded run"
-  if type(title) ~= "string" then read:expected("title", "a text", title) end
-  local speed = read:positive("speed", 1)
+  local read = read_options("recording:save", options, nil, nil, doc)
+  local title = read:get "title"
+  local speed = read:get "speed"
   local places = read:raw "three"
   if places ~= nil and type(places) ~= "table" then read:expected("three", "a list of files", places) end
   for i, path in ipairs(places or {}) do

@@ -56,6 +56,11 @@ local function delays(times, speed)
   return out
 end
 
+local doc = [[
+@param options table
+@option speed? number [> 0] = 1  1: as fast as it was
+@option ffmpeg? string = "ffmpeg"  the program, for .mp4]]
+
 ---@param recording table
 ---@param path string
 ---@param ending "gif"|"mp4"|"png"
@@ -66,10 +71,9 @@ return function(recording, path, ending, options)
   for key, value in pairs(options) do given[key] = value end
   read.speed, read.ffmpeg = given.speed, given.ffmpeg
   given.speed, given.ffmpeg = nil, nil
-  local own = read_options("recording:save", read)
-  local speed = own:positive("speed", 1)
-  local program = own:raw "ffmpeg" or "ffmpeg"
-  if type(program) ~= "string" then own:expected("ffmpeg", "the name of a program", program) end
+  local own = read_options("recording:save", read, nil, nil, doc)
+  local speed = own:get "speed"
+  local program = own:get "ffmpeg"
   if read.ffmpeg and ending ~= "mp4" then own:fail "ffmpeg writes .mp4 alone" end
   if ending == "mp4" then no_ffmpeg(program) end
   given.size, given.quality = given.size or {480, 360}, given.quality or "draft"

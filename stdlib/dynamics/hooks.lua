@@ -1,6 +1,8 @@
 --- What takes part in a world's runs: functions called at steps, tasks and listeners, each in the order in which it came.
 local class = require "clench.class"
 local raise = require "clench.raise"
+local descriptions = require "clench.signature.descriptions"
+local fitting = require "clench.signature.fitting"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local task_order = require "clench.dynamics.task_order"
@@ -29,8 +31,7 @@ end
 function hooks.on_step(set, fn, options)
   check_function("world:on_step", fn)
   local read = read_options("world:on_step", options or {})
-  local rate = read:raw "rate"
-  if rate ~= nil then rate = read:positive "rate" end
+  local rate = read:get "rate"
   read:done()
   return add(set, "controllers", {name = "function of world:on_step", fn = fn, rate = rate})
 end
@@ -40,8 +41,8 @@ function hooks.observe(set, fn, rate) return add(set, "observers", {name = "obse
 
 function hooks.on(set, event, fn)
   -- the names in messages are those of world:on
-  read_options("world:on", {event = event}):choice("event", {"contact", "contact_lost", "limit"})
-  if event == nil then raise "world:on: event must be 'contact' or 'contact_lost' or 'limit', got nothing" end
+  local fault = fitting.fault(descriptions.of "world:on".parameters[1], event)
+  if fault then raise(("world:on: event must be %s, got %s"):format(fault, described(event))) end
   check_function("world:on", fn)
   return add(set, "listeners", {name = ("listener of world:on '%s'"):format(event), fn = fn, event = event})
 end

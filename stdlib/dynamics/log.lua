@@ -166,7 +166,7 @@ end
 
 return function(hooks, set, options, world)
   local read = read_options("world:log", options)
-  local rate = read:positive("rate", 100)
+  local rate = read:get "rate"
   local log = setmetatable({rows = {}, columns = {"time"}, known = {time = true}, widths = {}}, Log)
   log.sources = sources_of(read, world)
   read:done()

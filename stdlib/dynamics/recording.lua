@@ -44,7 +44,7 @@ end
 
 return function(hooks, set, options, world)
   local read = read_options("world:record", options)
-  local rate = read:positive("rate", 30)
+  local rate = read:get "rate"
   read:done()
   local recording = setmetatable({rate = rate, times = {}, moments = {}, world = world}, Recording)
   recording.handle = hooks.observe(set, function(running)

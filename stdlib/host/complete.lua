@@ -5,7 +5,7 @@ local match, gmatch, gsub, sub, find = string.match, string.gmatch, string.gsub,
 local rawget, next, type, pcall, tonumber, sort, unpack = rawget, next, type, pcall, tonumber, table.sort, table.unpack
 local getmetatable, globals, string_library = debug.getmetatable, _G, string
 local entries, measures, pairs, ipairs = clench.entries, clench.measures, pairs, ipairs
-local doc, session = require "clench.host.doc", require "clench.host.session"
+local doc, session, packed_docs = require "clench.host.doc", require "clench.host.session", require "clench.signature.packed_docs"
 
 local keywords = {"and", "break", "do", "else", "elseif", "end", "false", "for", "function", "goto", "if", "in", "local",
                   "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"}
@@ -23,7 +23,7 @@ local function described()
     about.classes[class.name] = class
     for _, method in ipairs(class.methods) do add_called(method.name, method) end
   end
-  for _, entry in ipairs(doc.packed_functions(all.files)) do add_called(match(entry.name, "[%w_]+$"), entry) end
+  for _, entry in ipairs(packed_docs.functions(all.files)) do add_called(match(entry.name, "[%w_]+$"), entry) end
   for _, library in ipairs(all.libraries) do
     local fields = about.libraries[library.name] or {}
     about.libraries[library.name] = fields

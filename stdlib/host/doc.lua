@@ -1,11 +1,13 @@
 --- The documentation from the bindings' own tables: pages for people, and a stub for editors (LuaCATS).
-local signature = require "clench.host.signature"
+local descriptions = require "clench.signature.descriptions"
+local packed_docs = require "clench.signature.packed_docs"
+local signature = require "clench.signature.grammar"
 local doc = {}
 
 --- The parts of an entry's doc, as pages write them: text, params, returns, type, examples, and what is prepared for no example.
 ---@param text string
 function doc.parse(text)
-  local parsed = signature.parse(text)
+  local parsed = descriptions.parse(text)
   parsed.params = {}
   for i, item in ipairs(parsed.parameters) do
     local name = item.name .. (item.optional and "?" or "")
@@ -133,63 +135,10 @@ local function class_page(class)
   return page.text()
 end
 
--- each block of `---` lines before a function that a module offers, its `return function(...)` or its `function module.name(...)`,
--- as an entry's doc; those of folder/unit.lua are the folder's
-local function packed_functions_of(file)
-  local comment, found, number = {}, {}, 0
-  local module = file.path:gsub("%.lua$", ""):gsub("/", ".")
-  local folder, unit = module:match "^(.*%.)([^.]+)$"
-  for line in (file.text .. "\n"):gmatch "(.-)\n" do
-    number = number + 1
-    local said = line:match "^%-%-%-%s?(.*)$"
-    if said and not said:find "^[@>]" and #comment > 0 and comment[#comment]:sub(1, 1) == "@" then
-      -- a tag goes on: with its type while a brace is open, else with prose
-      local tag = comment[#comment]
-      local _, opened = tag:gsub("{", "")
-      local _, closed = tag:gsub("}", "")
-      local prose = tag:find "%S%s%s+%S"
-      comment[#comment] = tag .. ((opened > closed or prose) and " " or "  ") .. said:gsub("^%s+", "")
-    elseif said then
-      comment[#comment + 1] = said
-    else
-      local name = line:match("^function " .. (unit or module) .. "%.([%w_]+)%(")
-      local single = line:match "^return function%("
-      local has_example = ("\n" .. table.concat(comment, "\n")):find("\n> ", 1, true)
-      -- a file outside of folders that returns one function is for scripts if its comment shows an example
-      local offers = name or single and (unit or has_example)
-      if offers and #comment > 0 then
-        local full = name and (folder or module .. ".") .. name or module
-        found[#found + 1] = {name = full, line = number, doc = table.concat(comment, "\n")}
-      end
-      comment = {}
-    end
-  end
-  return found
-end
-
---- Functions of the standard library that scripts find by name: what a module's init.lua offers, or its only file.
----@param files {path: string, text: string}[]
----@return {name: string, doc: string, fn: function}[]
-function doc.packed_functions(files)
-  local list = {}
-  for _, file in ipairs(files) do
-    for _, entry in ipairs(file.path:find "^host/" and {} or packed_functions_of(file)) do
-      local module, name = entry.name:match "^([%w_]+)%.?([%w_]*)$"
-      local ok, offered = pcall(function() return name == "" and clench[module] or clench[module][name] end)
-      -- another unit of the folder may have a function of that name, which it does not offer
-      if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then
-        entry.fn = offered
-        list[#list + 1] = entry
-      end
-    end
-  end
-  return list
-end
-
 local function packed_page(files)
   local page = new_page "The standard library"
   page "\nModules in Lua, loaded when they are first used.\n"
-  for _, entry in ipairs(doc.packed_functions(files)) do add_entry(page, "clench." .. entry.name, entry) end
+  for _, entry in ipairs(packed_docs.functions(files)) do add_entry(page, "clench." .. entry.name, entry) end
   return page.text()
 end
 

@@ -1,5 +1,6 @@
 --- help(x) in the console: what the documentation says of a value or of a name.
 local doc = require "clench.host.doc"
+local packed_docs = require "clench.signature.packed_docs"
 local suggest = require "clench.suggest"
 local help = {}
 
@@ -37,7 +38,7 @@ local function print_library(name, all)
     end
   end
   local begin = name:match "^clench%.(.+)$"
-  for _, entry in ipairs(begin and doc.packed_functions(all.files) or {}) do
+  for _, entry in ipairs(begin and packed_docs.functions(all.files) or {}) do
     local own = entry.name:match("^" .. begin:gsub("%p", "%%%0") .. "%.(.+)$")
     if own then
       print_members(name, {{name = own, doc = entry.doc}}, ".")
@@ -67,7 +68,7 @@ local function print_mentions(word, all)
     if entry.doc:lower():find(word:lower(), 1, true) then names[#names + 1] = subject end
   end
   each(all, look)
-  for _, entry in ipairs(doc.packed_functions(all.files)) do look("clench." .. entry.name, entry) end
+  for _, entry in ipairs(packed_docs.functions(all.files)) do look("clench." .. entry.name, entry) end
   table.sort(names)
   if #names > 0 then print(("'%s' is no name; it is spoken of by\n  %s"):format(word, table.concat(names, "\n  "))) end
   return #names > 0
@@ -89,7 +90,7 @@ local function all_names(all)
     seen[name] = true
   end
   each(all, add)
-  for _, entry in ipairs(doc.packed_functions(all.files)) do add(nil, entry) end
+  for _, entry in ipairs(packed_docs.functions(all.files)) do add(nil, entry) end
   return names
 end
 
@@ -105,7 +106,7 @@ local function explain(x)
     each(all, function(subject, entry)
       if subject == x or entry.name == x then print_entry(subject, entry) found = true end
     end)
-    for _, entry in ipairs(doc.packed_functions(all.files)) do
+    for _, entry in ipairs(packed_docs.functions(all.files)) do
       local subject = "clench." .. entry.name
       if subject == x or entry.name == x or entry.name:match "[%w_]+$" == x then print_entry(subject, entry) found = true end
     end
@@ -115,7 +116,7 @@ local function explain(x)
     each(all, function(subject, entry)
       if entry.id == id then print_entry(subject, entry) found = true end
     end)
-    for _, entry in ipairs(found and {} or doc.packed_functions(all.files)) do
+    for _, entry in ipairs(found and {} or packed_docs.functions(all.files)) do
       local subject = "clench." .. entry.name
       if value_of(subject) == x then print_entry(subject, entry) found = true end
     end

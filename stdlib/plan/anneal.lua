@@ -27,7 +27,9 @@ local closing = require "clench.plan.closing"
 ---@option collisions? boolean  as of clench.annealing
 ---@option max_tries? integer  as of clench.annealing
 ---@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
----@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@option touch? table  links that touch, in place of contacts
+---@option touch.must? table  names of links, or lists of which one must touch
+---@option touch.may? string[]  names of links, all by default
 ---@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
 ---@option grasp? table  options of clench.grasp
 ---@option world? world  world of both that the planner moves instead of that of the hand
@@ -39,8 +41,8 @@ local closing = require "clench.plan.closing"
 --- > clench.plan.anneal {hand = hand, object = flask, energy = "contct"}  --> error: clench.energy has no 'contct'; did you mean 'contact'?
 return function(options)
   local job = new_job("plan.anneal", options, function(read, job)
-    job.energy = read:raw "energy" or "contact"
-    job.steps = read:count("steps", 70000, 1, 1e9)
+    job.energy = read:get "energy"
+    job.steps = read:get "steps"
     job.schedule, job.best = read:raw "schedule", read:raw "best"
   end)
   local search = job:annealing {energy = job:energy_of(job.energy), seed = job.seed, schedule = job.schedule, best = job.best}

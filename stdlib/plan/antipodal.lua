@@ -7,24 +7,18 @@ local opposition = require "clench.plan.opposition"
 --- For two jaws: a point of the surface, the one that the inward normal meets opposite, and the jaws about both, from any
 --- side across that line.
 ---@param options table  the hand, the object and how the search goes
----@option hand robot  hand that grasps; it moves in a clone of its world
----@option object body  object that is grasped
+---@like clench.plan.anneal  hand, object
 ---@option count? integer [1 to 1000000] = 100  the best of those that were found when there were as many
 ---@option candidates? integer [1 to 1000000000] = 20000  largest number of candidates
----@option seconds? number [s, > 0]  time limit, unlimited by default
----@option seed? integer = 1  seed of the random numbers
----@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
+---@like clench.plan.anneal  seconds, seed, threads
 ---@option friction? number [> 0] = 0.5  coefficient of the cones in which the line lies
 ---@option width? number [m, > 0, <= 10] = 0.2  largest distance between the points
 ---@option standoff? number [m, > 0, <= 10] = 0.1  distance from the grasp at the start
 ---@option distance? number [>= 0] = 0.1  grasps nearer than this part of the radius of the object, of half a turn and of the ranges of the
 ---  DOFs are alike
----@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
----@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@like clench.plan.anneal  contacts, touch
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
----@option grasp? table  options of clench.grasp
----@option world? world  world of both that the planner moves instead of that of the hand
----@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
+---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
 --- > world = clench.world()
 --- > jaws = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
@@ -34,13 +28,13 @@ local opposition = require "clench.plan.opposition"
 return function(options)
   local own = {}
   local job = new_job("plan.antipodal", options, function(read)
-    own.count = read:count("count", 100, 1, 1000000)
-    own.limit = read:count("candidates", 20000, 1, 1e9)
-    own.friction = read:positive("friction", 0.5)
-    own.width = read:positive("width", 0.2, 10)
-    own.standoff = read:positive("standoff", 0.1, 10)
-    own.distance = read:not_negative("distance", 0.1)
-    own.on_grasp = read:callback "on_grasp"
+    own.count = read:get "count"
+    own.limit = read:get "candidates"
+    own.friction = read:get "friction"
+    own.width = read:get "width"
+    own.standoff = read:get "standoff"
+    own.distance = read:get "distance"
+    own.on_grasp = read:get "on_grasp"
   end)
   if not opposition.thumb(job.hand) then
     require "clench.raise" "plan.antipodal: hand: expected one of two fingers or more"

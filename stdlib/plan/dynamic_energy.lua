@@ -14,13 +14,10 @@ end
 ---@return fun(): number
 return function(options)
   local read = read_options("clench.energy.dynamic", options)
-  local hand, object = read:raw "hand", read:raw "object"
-  if clench.type(hand) ~= "robot" then read:expected("hand", "a robot", hand) end
-  if clench.type(object) ~= "body" then read:expected("object", "a body", object) end
+  local hand, object = read:get "hand", read:get "object"
   if object.world ~= hand.world then read:fail("object: '%s' belongs to another world than the hand", object.name) end
-  local given = read:raw "shake" or {}
-  if type(given) ~= "table" then read:expected("shake", "a table of options", given) end
-  local far = clench.energy.contact {hand = hand, object = object, contacts = read:raw "contacts"}
+  local given = read:get "shake" or {}
+  local far = clench.energy.contact {hand = hand, object = object, contacts = read:get "contacts"}
   read:done()
   local shake = {hand = hand, object = object}
   for key, value in pairs(defaults) do shake[key] = value end

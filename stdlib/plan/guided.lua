@@ -36,46 +36,27 @@ end
 --- the best closed grasp near it. Children run beside the parent and are merged at fixed steps, so that any number of
 --- threads gives the same grasps.
 ---@param options table  the hand, the object and how the search goes
----@option hand robot  hand that grasps; it moves in a clone of its world
----@option object body  object that is grasped
+---@like clench.plan.anneal  hand, object
 ---@option energy? string|energy|function = "guided_potential_quality"  objective of the parent chain
 ---@option steps? integer [1 to 1000000000] = 70000  steps of annealing of the parent
 ---@option children? integer [1 to 64] = 1  largest number of chains that run at once around what the parent found
 ---@option child_steps? integer [1 to 1000000] = 200  steps of each child
 ---@option child_energy? string|energy|function  objective of the children, "strict_autograsp" without its volume by default
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
----@option seconds? number [s, > 0]  time limit, unlimited by default
----@option seed? integer = 1  seed of the random numbers
----@option position? string  as of clench.annealing
----@option posture? string  as of clench.annealing
----@option semi_axes? vec3  as of clench.annealing
----@option limits? table  as of clench.annealing
----@option jumps? table  as of clench.annealing
----@option values? table  as of clench.annealing
----@option targets? table  as of clench.annealing
----@option fixed? string[]  as of clench.annealing
----@option start? string  as of clench.annealing
----@option variables? table  as of clench.annealing
----@option collisions? boolean  as of clench.annealing
----@option max_tries? integer  as of clench.annealing
----@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
----@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
----@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
----@option grasp? table  options of clench.grasp
----@option world? world  world of both that the planner moves instead of that of the hand
----@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
+---@like clench.plan.anneal  seconds, seed, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables,
+---  collisions, max_tries, contacts, touch, threads, grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # grasps in force closure, the largest epsilon first
 --- > run = clench.plan.guided {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.seeds >= 0  --> 500, true
 return function(options)
   local children, steps_of_child, child_energy, count
   local job = new_job("plan.guided", options, function(read, job)
-    job.energy = read:raw "energy" or "guided_potential_quality"
-    job.steps = read:count("steps", 70000, 1, 1e9)
-    children = read:count("children", 1, 1, 64)
-    steps_of_child = read:count("child_steps", child_steps, 1, 1e6)
-    child_energy = read:raw "child_energy"
-    count = read:count("count", 1000000, 1, 1000000)
+    job.energy = read:get "energy"
+    job.steps = read:get "steps"
+    children = read:get "children"
+    steps_of_child = read:get "child_steps"
+    child_energy = read:get "child_energy"
+    count = read:get("count", 1000000)
   end)
   local parent = job:annealing {energy = job:energy_of(job.energy), seed = job.seed,
                                 best = {distance = seed_distance, size = max_seeds, max_energy = seed_energy}}

@@ -22,12 +22,6 @@ local space_keys = {"position", "posture", "semi_axes", "limits", "jumps", "valu
 
 local largest_energy = 1e30
 
-local function check(read, name, kind)
-  local value = read:raw(name)
-  if clench.type(value) ~= kind then read:expected(name, "a " .. kind, value) end
-  return value
-end
-
 --- The energy of this name; a value that is not a string is returned unchanged.
 function Job:energy_of(energy)
   if type(energy) ~= "string" then return energy end
@@ -226,23 +220,20 @@ end
 return function(subject, given, own)
   local read = read_options(subject, given)
   local job = setmetatable({subject = subject, space = {}}, Job)
-  local hand, object = check(read, "hand", "robot"), check(read, "object", "body")
-  local world = read:raw "world" or hand.world
-  if clench.type(world) ~= "world" then read:expected("world", "a world", world) end
+  local hand, object = read:get "hand", read:get "object"
+  local world = read:get("world", hand.world)
   if hand.world ~= world or object.world ~= world then
     read:fail("hand and object must be in the same world")
   end
   if is_part_of(hand, object) then read:fail("object: '%s' is a part of the hand", object.name) end
   job.given_world, job.arm = world, hand.parent
-  job.seed = read:count("seed", 1, math.mininteger, math.maxinteger)
-  job.threads = read:count("threads", 1, 1, 1024)
-  job.seconds = read:raw "seconds"
-  if job.seconds ~= nil then job.seconds = read:positive "seconds" end
-  job.grasp_options = read:raw "grasp" or {}
-  if type(job.grasp_options) ~= "table" then read:expected("grasp", "a table of options of clench.grasp", job.grasp_options) end
+  for _, name in ipairs {"seed", "threads", "seconds"} do job[name] = read:has(name) and read:get(name) or nil end
+  job.grasp_options = read:get "grasp" or {}
   job.touch = touch.read(read, hand)
-  if read:raw "max_effort" ~= nil then job.max_effort = read:positive "max_effort" end
-  for _, key in ipairs(space_keys) do job.space[key] = read:raw(key) end
+  job.max_effort = read:get "max_effort"
+  for _, key in ipairs(space_keys) do
+    if read:has(key) then job.space[key] = read:raw(key) end
+  end
   if own then own(read, job) end
   read:done()
   warn_of_overlaps(subject, world, hand, object)

@@ -53,19 +53,13 @@ end
 
 --- Tries a given list of states, of another planner, hand or file: the hand closes from each.
 ---@param options table  the hand, the object and how the search goes
----@option hand robot  hand that grasps; it moves in a clone of its world
----@option object body  object that is grasped
+---@like clench.plan.anneal  hand, object
 ---@option states grasps|table  grasps, which begin at their pregrasps, or a list of {pose = of the hand in the object, dofs =}
 ---@option approach? number [m, >= 0, <= 1000000]  longest travel to the first touch; by default as far as the grasp came from its pregrasp,
 ---  else 0
 ---@option energy? string|energy|function  noted with each grasp, measured before it closes
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
----@option seconds? number [s, > 0]  time limit, unlimited by default
----@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
----@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
----@option grasp? table  options of clench.grasp
----@option world? world  world of both that the planner moves instead of that of the hand
----@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
+---@like clench.plan.anneal  seconds, seed, threads, contacts, touch, grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # all in contact, the largest epsilon first
 --- > run = clench.plan.list {hand = hand, object = flask, states = {{pose = grasp.pose, dofs = grasp.dofs}, grasp}}
 --- > #run.grasps, run.report.candidates  --> 1, 2
@@ -74,9 +68,9 @@ return function(options)
   local states, approach, count
   local job = new_job("plan.list", options, function(read, job)
     states = read_states(read, options.hand)
-    if read:raw "approach" ~= nil then approach = read:not_negative("approach", nil, 1e6) end
-    job.energy = read:raw "energy"
-    count = read:count("count", 1000000, 1, 1000000)
+    approach = read:get "approach"
+    job.energy = read:get "energy"
+    count = read:get("count", 1000000)
   end)
   local energy = job.energy and job:energy_of(job.energy)
   local function energy_at(state)

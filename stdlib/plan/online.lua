@@ -92,27 +92,20 @@ end
 --- A search that goes on while hand and object move: each `planner:search()` looks around where they are now, and what was
 --- found is ranked by how near it is to the hand. Nothing of the user's world is moved.
 ---@param options table  the hand, the object and how the search goes
----@option hand robot  hand that grasps; it moves in a clone of its world
----@option object body  object that is grasped
+---@like clench.plan.anneal  hand, object
 ---@option energy? string|energy = "contact"  objective, one of the engine
----@option seed? integer = 1  seed of the random numbers
----@option posture? string  as of clench.annealing
----@option grasp? table  options of clench.grasp
----@option world? world  world of both that the planner moves instead of that of the hand
----@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
+---@like clench.plan.anneal  seed, threads, posture, semi_axes, values, targets, fixed, variables, collisions, max_tries,
+---  contacts, touch, grasp, world, max_effort
 ---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs to go on with, `tested`, `found`
 --- > planner = clench.plan.online {hand = hand, object = flask}
 --- > list = planner:search(200)
 --- > planner.tested > 0, #list == #planner:grasps()  --> true, true
 return function(options)
   local job = new_job("plan.online", options, function(read, job)
-    job.energy = read:raw "energy" or "contact"
-    if type(job.energy) == "function" or clench.type(job.energy) == "energy" and not job.energy.any_thread then
+    job.energy = read:get "energy"
+    if clench.type(job.energy) == "energy" and not job.energy.any_thread then
       read:fail("energy: expected one of the engine's, for the planner moves a copy of the world")
     end
   end)
-  for _, key in ipairs {"position", "start", "limits", "jumps"} do
-    if job.space[key] ~= nil then require "clench.raise"(("plan.online: %s: it is the planner's own here"):format(key)) end
-  end
   return setmetatable({job = job, energy = job:energy_of(job.energy), solutions = {}, periods = 0, tested = 0, found = 0}, Online)
 end

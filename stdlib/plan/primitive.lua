@@ -79,8 +79,7 @@ end
 --- An object as boxes, spheres, cylinders and cones, each approached from all sides (Miller, Knoop, Christensen and Allen
 --- 2003): the hand comes to the first touch, closes, and where that holds nothing once more from a step further back.
 ---@param options table  the hand, the object and how the search goes
----@option hand robot  hand that grasps; it moves in a clone of its world
----@option object body  object that is grasped
+---@like clench.plan.anneal  hand, object
 ---@option primitives? string|table  a file of clench.files.primitives, or such a list; by default primitives/<name>.iv beside the file of
 ---  the object or below root/models/objects, else the primitives in its own file, else its bounding box: report.primitives names which
 ---@option root? string  folder of GraspIt!
@@ -89,14 +88,9 @@ end
 ---@option thumb? vec3  direction to the thumb across the approach, in the frame of the base of the hand
 ---@option rule? "corrected"|"graspit" = "corrected"  graspit: sizes of boxes and limits as in GraspIt!
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
----@option seconds? number [s, > 0]  time limit, unlimited by default
----@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
----@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
----@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@like clench.plan.anneal  seconds, seed, threads, contacts, touch
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
----@option grasp? table  options of clench.grasp
----@option world? world  world of both that the planner moves instead of that of the hand
----@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
+---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
 --- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
 --- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12
@@ -106,14 +100,13 @@ return function(options)
   local own = {}
   local job = new_job("plan.primitive", options, function(read, job)
     own.primitives, own.source = read_primitives(read, options.object)
-    own.density = read:count("density", 2, 1, 100)
-    own.rule = read:raw "rule" or "corrected"
-    if own.rule ~= "corrected" and own.rule ~= "graspit" then read:expected("rule", "'corrected' or 'graspit'", own.rule) end
+    own.density = read:get "density"
+    own.rule = read:get "rule"
     own.preshapes = read_preshapes(read, options.hand)
-    own.thumb = read:raw "thumb"
-    if own.thumb ~= nil and clench.type(own.thumb) ~= "vec3" then own.thumb = clench.vec3(table.unpack(read:point "thumb")) end
-    own.count = read:count("count", 1000000, 1, 1000000)
-    own.on_grasp = read:callback "on_grasp"
+    own.thumb = read:get "thumb"
+    if type(own.thumb) == "table" then own.thumb = clench.vec3(table.unpack(own.thumb)) end
+    own.count = read:get("count", 1000000)
+    own.on_grasp = read:get "on_grasp"
   end)
   local hand = job.hand
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)

@@ -162,7 +162,7 @@ function report.new(job, told)
   told.trace = told.trace or {}
   told.unlimited_efforts = job.unlimited_efforts
   told.causes = {}
-  told.one_thread = job.in_place and job.threads > 1 or nil
+  told.one_thread = job.in_place and (job.threads or 1) > 1 or nil
   if told.steps then told.steps_per_second = told.steps / math.max(told.seconds, 1e-9) end
   if told.grasps == 0 and told.stopped then
     told.causes[1] = nothing_presses(job, told) or told.short or too_weak(told)

@@ -2,22 +2,17 @@ local sampling = require "clench.plan.sampling"
 local verification = require "clench.plan.verification"
 
 local function read_verify(read, grasp_options)
-  local given = read:raw "verify"
-  if given == false then return nil end
-  if given ~= nil and given ~= true and type(given) ~= "table" then read:expected("verify", "a boolean or a table", given) end
-  local own = require "clench.options"(read.subject .. ": verify", type(given) == "table" and given or {})
+  if read:get "verify" == false then return nil end
+  local own = read:table "verify"
   local options = {grasp = grasp_options}
-  local defaults = verification.defaults
-  for _, name in ipairs {"displacement", "force_ratio", "lift", "min_epsilon", "min_load"} do options[name] = own:not_negative(name, defaults[name]) end
-  options.keep_lost = own:flag "keep_lost"
-  local shake = own:raw "shake"
+  for _, name in ipairs {"displacement", "force_ratio", "lift", "min_epsilon", "min_load", "keep_lost"} do options[name] = own:get(name) end
+  local shake = own:get "shake"
   if shake == true then shake = {} end
-  if shake ~= nil and shake ~= false and type(shake) ~= "table" then own:expected("shake", "a boolean or a table", shake) end
   for _, name in ipairs {"hand", "object", "world"} do
     if shake and shake[name] ~= nil then own:fail("shake: unknown key '%s'", name) end
   end
   options.shake = shake
-  options.min_slippery_load = own:not_negative("min_slippery_load", shake and verification.min_slippery_load_of_shaken or defaults.min_slippery_load)
+  options.min_slippery_load = own:get("min_slippery_load", shake and verification.min_slippery_load_of_shaken or 0)
   own:done()
   return options
 end
@@ -26,13 +21,10 @@ end
 --- face each other, later also near those that succeeded; then the hand closes. What is in force closure is improved by small random changes and verified. Fast,
 --- diverse, and any number of threads gives the same grasps.
 ---@param options table  the hand, the object and how the search goes
----@option hand robot  hand that grasps; it moves in a clone of its world
----@option object body  object that is grasped
+---@like clench.plan.anneal  hand, object
 ---@option count? integer [1 to 1000000] = 100  the best of those that were found when there were as many
 ---@option candidates? integer [1 to 1000000000] = 100000  largest number of candidates
----@option seconds? number [s, > 0]  time limit, unlimited by default
----@option seed? integer = 1  seed of the random numbers
----@option threads? integer [1 to 1024] = 1  number of threads; the grasps do not depend on it
+---@like clench.plan.anneal  seconds, seed, threads
 ---@option refine? integer [0 to 10000] = 10  changes that are tried to improve each grasp
 ---@option verify? boolean|table = true  false: grasps are not verified; a table: how they are
 ---@option verify.displacement? number [m, >= 0] = 0.001  largest displacement of the object
@@ -47,16 +39,13 @@ end
 ---@option standoff? number [m, > 0, <= 10] = 0.15  distance of the middle between thumb and fingers from the surface at the start
 ---@option distance? number [>= 0] = 0.1  grasps nearer than this part of the radius of the object, of half a turn and of the ranges of the
 ---  DOFs are alike
----@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
----@option touch? table  {must = names of links, or lists of which one must touch, may = names}, in place of contacts
+---@like clench.plan.anneal  contacts, touch
 ---@option keep_searching? boolean = false  true: the search continues until its time or its candidates run out, and the best `count` are
 ---  kept
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
 ---@option on_progress? function  on_progress(state) is called as candidates are tried, with {candidates, grasps, rejected = counts by
 ---  reason, elapsed [s], hint = a sentence that names which of friction, force and effort is too small}
----@option grasp? table  options of clench.grasp
----@option world? world  world of both that the planner moves instead of that of the hand
----@option max_effort? number [N m or N, > 0]  largest torque or force of motors without a limit
+---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # the largest epsilon first, and grasps from different sides if there were more than `count`; each with `info.load_margin` [weights] and `info.perturbed_epsilon`, of those that were shaken `info.directions_held` and `info.survived`, 1 or 0; report.survived, report.shaken: how many
 --- > run = clench.plan.sample {hand = hand, object = flask, count = 3, refine = 2}
 --- > run.grasps[1].epsilon > 0, run.report.candidates > 3  --> true, true
@@ -65,7 +54,7 @@ end
 return function(options)
   return sampling("sample", options, function(read, own, job)
     own.near_found = true
-    own.refine = read:count("refine", 10, 0, 10000)
+    own.refine = read:get "refine"
     own.verify = read_verify(read, job.grasp_options)
   end)
 end

@@ -34,13 +34,13 @@ end
 return function(name, options, read_more)
   local own = {planner = name, refine = 0, friction = 0.5, width = 0.2, kind = "both"}
   local job = new_job("plan." .. name, options, function(read, job)
-    own.count = read:count("count", 100, 1, 1000000)
-    own.limit = read:count("candidates", 100000, 1, 1e9)
-    own.standoff = read:positive("standoff", 0.15, 10)
-    own.distance = read:not_negative("distance", 0.1)
-    own.on_grasp = read:callback "on_grasp"
-    own.on_progress = read:callback "on_progress"
-    own.keep_searching = read:flag "keep_searching"
+    own.count = read:get "count"
+    own.limit = read:get "candidates"
+    own.standoff = read:get "standoff"
+    own.distance = read:get "distance"
+    own.on_grasp = read:get "on_grasp"
+    own.on_progress = read:get "on_progress"
+    own.keep_searching = read:get "keep_searching"
     if read_more then read_more(read, own, job) end
   end)
   local no_force = own.verify and drives.no_force(job.hand)

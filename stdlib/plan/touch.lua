@@ -56,7 +56,7 @@ end
 
 local function read_links(read, hand, given)
   if type(given) ~= "table" then read:expected("touch", "a table {must =, may =} of names of links", given) end
-  local own = require "clench.options"(read.subject .. ": touch", given)
+  local own = read:table "touch"
   local must, may = own:raw "must" or {}, own:raw "may"
   own:done()
   local out = {must = {}, may = may and read_names(read, hand, "touch.may", may)}

@@ -15,7 +15,7 @@ return function(o, size)
     o:fail("expected either %s or both from and to, got %s", size, #got > 0 and table.concat(got, " and ") or "neither")
   end
   if length ~= nil then
-    length = o:positive(size)
+    length = o:get(size)
     return length, function(shape)
       return mesh.map(shape, function(p) return {p[1], p[2], p[3] - length / 2} end, o.subject)
     end

@@ -5,14 +5,19 @@ local corners = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}
 local faces = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}
 
 --- A box centred on the origin, its edges sharp, cut or rounded.
----@param options {x: number, y: number, z: number, chamfer?: number, rounding?: number, segments?: integer}
----  or {x, y, z, ...}: sizes [m]; chamfer: width cut off each face [m]; rounding: radius of the edges [m]
+---@param options table  {x, y, z, ...} or by name
+---@option x number [m, > 0]  size along x
+---@option y number [m, > 0]  size along y
+---@option z number [m, > 0]  size along z
+---@option chamfer? number [m, >= 0] = 0  width cut off each face beside the edges
+---@option rounding? number [m, >= 0] = 0  radius of the edges
+---@option segments? integer [1 to 64] = 4  per quarter turn of a rounding
 ---@return table mesh
 return function(options)
   local o = read_options("box", options, {"x", "y", "z"})
-  local x, y, z = o:positive "x", o:positive "y", o:positive "z"
-  local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
-  local segments = o:count("segments", 4, 1, 64)
+  local x, y, z = o:get "x", o:get "y", o:get "z"
+  local chamfer, rounding = o:get "chamfer", o:get "rounding"
+  local segments = o:get "segments"
   o:done()
   if chamfer > 0 and rounding > 0 then o:fail "expected chamfer or rounding, got both" end
   if chamfer + rounding > 0 then

@@ -5,15 +5,20 @@ local revolve = require "clench.shapes.revolve"
 
 --- A rod with round ends along z, centred on the origin, or between the centres of its ends. With two radii it
 --- is the hull of two spheres.
----@param options {radius: number, length?: number, top?: number, from?: number[], to?: number[], segments?: integer}
----  or {radius, length, ...}: length between the centres; top: radius of the far end, else the same [m]
+---@param options table  {radius, length, ...} or by name
+---@option radius number [m, > 0]  radius of the ends
+---@option length? number [m, > 0]  distance of the centres of the ends
+---@option top? number [m, > 0]  radius of the far end, the same by default
+---@option from? vec3 [m]  beginning of the axis, in place of the length
+---@option to? vec3 [m]  end of the axis
+---@option segments? integer [4 to 1024] = 32  around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("capsule", options, {"radius", "length"})
-  local radius = o:positive "radius"
-  local top = o:positive("top", radius)
+  local radius = o:get "radius"
+  local top = o:get("top", radius)
   local length, place = axis(o, "length")
-  local segments = o:count("segments", 32, 4, 1024)
+  local segments = o:get "segments"
   o:done()
   if math.abs(radius - top) >= length then
     o:fail("the radii must differ by less than the length, %.6g, got %.6g and %.6g", length, radius, top)

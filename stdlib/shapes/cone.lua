@@ -4,14 +4,19 @@ local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
 --- A cone or a frustum along z, centred on the origin, or with its axis between two points.
----@param options {bottom: number, top?: number, height?: number, from?: number[], to?: number[], segments?: integer}
----  or {bottom, top, height, ...}: radii at both ends, at most one of them 0 (top unless given) [m]
+---@param options table  {bottom, top, height, ...} or by name
+---@option bottom number [m, >= 0]  radius at the bottom
+---@option top? number [m, >= 0] = 0  radius at the top; at most one of the two is 0
+---@option height? number [m, > 0]  distance of the ends
+---@option from? vec3 [m]  beginning of the axis, in place of the height
+---@option to? vec3 [m]  end of the axis
+---@option segments? integer [3 to 4096] = 48  around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("cone", options, {"bottom", "top", "height"})
-  local bottom, top = o:not_negative "bottom", o:not_negative("top", 0)
+  local bottom, top = o:get "bottom", o:get "top"
   local height, place = axis(o, "height")
-  local segments = o:count("segments", 48, 3, 4096)
+  local segments = o:get "segments"
   o:done()
   if bottom == 0 and top == 0 then o:fail "bottom or top must be > 0, got 0 for both" end
   local profile = {{0, 0}}

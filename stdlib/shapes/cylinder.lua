@@ -5,15 +5,21 @@ local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
 --- A cylinder along z, centred on the origin, or with its axis between two points.
----@param options {radius: number, height?: number, from?: number[], to?: number[], chamfer?: number,
----  rounding?: number, segments?: integer}  or {radius, height, ...}; chamfer or rounding of both rims [m]
+---@param options table  {radius, height, ...} or by name
+---@option radius number [m, > 0]  radius of the cylinder
+---@option height? number [m, > 0]  distance of the ends
+---@option from? vec3 [m]  beginning of the axis, in place of the height
+---@option to? vec3 [m]  end of the axis
+---@option chamfer? number [m, >= 0] = 0  width cut off each face beside the rims
+---@option rounding? number [m, >= 0] = 0  radius of the rims
+---@option segments? integer [3 to 4096] = 48  around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("cylinder", options, {"radius", "height"})
-  local radius = o:positive "radius"
+  local radius = o:get "radius"
   local height, place = axis(o, "height")
-  local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
-  local segments = o:count("segments", 48, 3, 4096)
+  local chamfer, rounding = o:get "chamfer", o:get "rounding"
+  local segments = o:get "segments"
   o:done()
   if chamfer > 0 and rounding > 0 then o:fail "expected chamfer or rounding, got both" end
   local cut, steps = chamfer + rounding, chamfer > 0 and 1 or rounding > 0 and 4 or 0

@@ -6,11 +6,13 @@ local revolve = require "clench.shapes.revolve"
 --- A turned solid: the profile {r, z}, ... swept about the z axis. A profile that starts and ends on the axis
 --- (r = 0) bounds a solid body, such as a bottle with its inside; one that stays off the axis is a loop, and
 --- bounds a ring.
----@param options {profile: number[][], segments?: integer}  points [m], in either sense; segments about the axis
+---@param options table  {profile, ...} or by name
+---@option profile number[][] [m]  points {r, z}, in either sense
+---@option segments? integer [3 to 4096] = 48  around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("lathe", options, {"profile"})
-  local profile, segments = o:points("profile", 3, 2), o:count("segments", 48, 3, 4096)
+  local profile, segments = o:points("profile", 3, 2), o:get "segments"
   o:done()
   local on_axis = 0
   for i, p in ipairs(profile) do

@@ -22,11 +22,13 @@ end
 --- A simple polygon with rounded corners, counter-clockwise.
 ---
 --- Each corner is {x, y} or {x, y, radius}; `rounding` is the radius of those that name none.
----@param options {rounding?: number, segments?: integer, [integer]: number[]}  [m]; segments per corner
+---@param options table  the corners, and by name
+---@option rounding? number [m, >= 0] = 0  radius of corners that name none
+---@option segments? integer [1 to 256] = 6  per corner
 ---@return number[][] points
 return function(options)
   local o = read_options("outline", options)
-  local rounding, segments = o:not_negative("rounding", 0), o:count("segments", 6, 1, 256)
+  local rounding, segments = o:get "rounding", o:get "segments"
   local corners = {}
   for i = 1, #options do
     local p = o:raw(i)

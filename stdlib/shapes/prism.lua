@@ -21,14 +21,18 @@ local function layer(o, outline, inset, z)
 end
 
 --- A prism from z = 0 to z = height over a simple polygon, convex or not, its two rims sharp, cut or rounded.
----@param options {outline: number[][], height: number, chamfer?: number, rounding?: number, segments?: integer}
----  points {x, y}, in either sense [m]; chamfer or rounding of the rims [m]; segments per rounding
+---@param options table  {outline, height, ...} or by name
+---@option outline number[][] [m]  points {x, y}, in either sense
+---@option height number [m, > 0]  distance of the ends
+---@option chamfer? number [m, >= 0] = 0  width cut off each face beside the rims
+---@option rounding? number [m, >= 0] = 0  radius of the rims
+---@option segments? integer [1 to 64] = 4  per rounding
 ---@return table mesh
 return function(options)
   local o = read_options("prism", options, {"outline", "height"})
-  local outline, height = o:points("outline", 3, 2), o:positive "height"
-  local chamfer, rounding = o:not_negative("chamfer", 0), o:not_negative("rounding", 0)
-  local segments = o:count("segments", 4, 1, 64)
+  local outline, height = o:points("outline", 3, 2), o:get "height"
+  local chamfer, rounding = o:get "chamfer", o:get "rounding"
+  local segments = o:get "segments"
   o:done()
   if chamfer > 0 and rounding > 0 then o:fail "expected chamfer or rounding, got both" end
   outline = polygon.simple(outline, "shapes.prism: outline")

@@ -18,14 +18,16 @@ local function rectangle(hx, hy, radius, z, segments)
 end
 
 --- A box with rounded edges and corners, centred on the origin.
----@param options {x: number, y: number, z: number, rounding?: number, segments?: integer}  or {x, y, z, ...}
----  sizes [m]; rounding: radius of the edges, a tenth of the smallest size [m]; segments a quarter turn
+---@param options table  {x, y, z, ...} or by name
+---@like clench.shapes.box  x, y, z
+---@option rounding? number [m, > 0]  radius of the edges, a tenth of the smallest size by default
+---@like clench.shapes.box  segments
 ---@return table mesh
 return function(options)
   local o = read_options("rounded_box", options, {"x", "y", "z"})
-  local x, y, z = o:positive "x", o:positive "y", o:positive "z"
+  local x, y, z = o:get "x", o:get "y", o:get "z"
   local least = math.min(x, y, z)
-  local rounding, segments = o:positive("rounding", 0.1 * least), o:count("segments", 4, 1, 64)
+  local rounding, segments = o:get("rounding", 0.1 * least), o:get "segments"
   o:done()
   if 2 * rounding > least * (1 + 1e-12) then
     o:fail("rounding must be at most half of the smallest size, %.6g, got %.6g", 0.5 * least, rounding)

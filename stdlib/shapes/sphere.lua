@@ -35,11 +35,13 @@ local function subdivide(vertices, triangles)
 end
 
 --- A sphere about the origin: an icosahedron, subdivided; its vertices lie on the sphere.
----@param options {radius: number, subdivisions?: integer}  or {radius, ...}: [m]; 20 * 4^subdivisions triangles, 0 to 7
+---@param options table  {radius, ...} or by name
+---@option radius number [m, > 0]  radius of the sphere
+---@option subdivisions? integer [0 to 7] = 3  20 * 4^subdivisions triangles
 ---@return table mesh
 return function(options)
   local o = read_options("sphere", options, {"radius"})
-  local radius, subdivisions = o:positive "radius", o:count("subdivisions", 3, 0, 7)
+  local radius, subdivisions = o:get "radius", o:get "subdivisions"
   o:done()
   local vertices, triangles = icosahedron()
   for _ = 1, subdivisions do triangles = subdivide(vertices, triangles) end

@@ -3,13 +3,16 @@ local read_options = require "clench.shapes.options"
 local revolve = require "clench.shapes.revolve"
 
 --- A torus about the z axis.
----@param options {radius: number, tube: number, segments?: integer, sides?: integer}  or {radius, tube, ...}: from the
----  axis to the tube's centre, and of the tube, smaller [m]; segments about the axis, sides of the tube
+---@param options table  {radius, tube, ...} or by name
+---@option radius number [m, > 0]  distance of the centre of the tube from the axis
+---@option tube number [m, > 0]  radius of the tube, smaller
+---@option segments? integer [3 to 4096] = 48  around the axis
+---@option sides? integer [3 to 1024] = 24  around the tube
 ---@return table mesh
 return function(options)
   local o = read_options("torus", options, {"radius", "tube"})
-  local radius, tube = o:positive "radius", o:positive "tube"
-  local segments, sides = o:count("segments", 48, 3, 4096), o:count("sides", 24, 3, 1024)
+  local radius, tube = o:get "radius", o:get "tube"
+  local segments, sides = o:get "segments", o:get "sides"
   o:done()
   if tube >= radius then o:fail("tube must be smaller than radius, %.6g, got %.6g", radius, tube) end
   local profile = {}

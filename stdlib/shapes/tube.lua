@@ -84,7 +84,7 @@ end
 
 --- one radius for each path point, and the section of radius 1, or the given profile with factors 1
 local function read_section(o, count)
-  local radius, profile, sides = o:raw "radius", o:raw "profile", o:count("sides", 24, 3, 1024)
+  local radius, profile, sides = o:raw "radius", o:raw "profile", o:get "sides"
   if (radius == nil) == (profile == nil) then
     o:fail("expected either radius or profile, got %s", radius and "both" or "neither")
   end
@@ -111,16 +111,21 @@ local function read_section(o, count)
 end
 
 --- A circle or another section swept along a path: a handle, a cable, a frame.
----@param options {path: number[][], radius?: number|number[], profile?: number[][], closed?: boolean,
----  ends?: "flat"|"round", up?: number[], sides?: integer, steps?: integer}  path of points {x, y, z}; radius for
----  all or for each of them, or a profile {x, y}, ... whose y is towards `up` at the start [m]; closed joins the last
----  point to the first; steps of a round end
+---@param options table  {path, ...} or by name
+---@option path number[][] [m]  points {x, y, z}
+---@option radius? number|number[] [m, > 0]  radius of all or of each of the points
+---@option profile? number[][] [m]  points {x, y} of another section, in place of the radius; its y is towards `up` at the start
+---@option closed? boolean = false  joins the last point to the first
+---@option ends? "flat"|"round" = "flat"  form of the ends
+---@option up? vec3  direction of y of the profile
+---@option sides? integer [3 to 1024] = 24  of a round section
+---@option steps? integer [2 to 64] = 6  of a round end
 ---@return table mesh
 return function(options)
   local o = read_options("tube", options, {"path"})
-  local path, closed = o:points("path", 2, 3), o:flag "closed"
+  local path, closed = o:points("path", 2, 3), o:get "closed"
   local section, radii = read_section(o, #path)
-  local ends, up, steps = o:choice("ends", {"flat", "round"}), o:point "up", o:count("steps", 6, 2, 64)
+  local ends, up, steps = o:get "ends", o:point "up", o:get "steps"
   o:done()
   if closed and #path < 3 then o:fail("a closed path must have at least 3 points, got %d", #path) end
   local dirs = directions(o, path, closed)

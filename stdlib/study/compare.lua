@@ -71,7 +71,10 @@ end
 --- Several measures of several grasps, side by side; `chart` draws them, one panel per measure, with the options title,
 --- width and height of clench.chart.
 ---@param grasps grasp[]|grasps  grasps to measure
----@param options? {world?: world, measures?: string[], labels?: string[]}  world: in copies of which grasps of planners and files are applied, and measured; names as grasp:quality takes them, "epsilon" and "volume" by default; one label per grasp
+---@param options? table  what is compared
+---@option world? world  in copies of it grasps of planners and files are applied and measured
+---@option measures? string[] = {"epsilon", "volume"}  names, as of grasp:quality
+---@option labels? string[]  one per grasp
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
@@ -79,13 +82,11 @@ end
 --- > clench.study.compare(clench.plan.list {hand = hand, object = flask, states = {grasp}}.grasps, {world = world}).best.epsilon  --> 1
 return function(grasps, options)
   local read = read_options("study.compare", options or {})
-  local world = read:raw "world"
-  if world ~= nil and clench.type(world) ~= "world" then read:expected("world", "a world", world) end
+  local world = read:get "world"
   grasps = standing(grasps, world)
-  local measures = read:raw "measures" or {"epsilon", "volume"}
-  if type(measures) ~= "table" or #measures == 0 then read:expected("measures", "a list of names", measures) end
-  local labels = read:raw "labels"
-  if labels and type(labels) ~= "table" then read:expected("labels", "a list of strings", labels) end
+  local measures = read:get "measures"
+  if #measures == 0 then read:expected("measures", "a list of names", measures) end
+  local labels = read:get "labels"
   if labels and #labels ~= #grasps then
     read:fail("expected %d label%s, one per grasp, got %d", #grasps, #grasps == 1 and "" or "s", #labels)
   end

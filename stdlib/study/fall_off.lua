@@ -7,13 +7,18 @@ local verdict = require "clench.study.motion.verdict"
 
 --- Load and time at which a hand loses an object. The hand presses as in study.shake; then a force at the object's centre of mass grows along each
 --- axis of the world in turn, from zero by `rate`, until the object is displaced by max_distance or max_angle.
----@param options {hand: robot, object: body, world?: world, rate?: number, max_force?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean}  rate: 5 [N/s]; max_force: at which it ends, 20 [N]; mass: 0.1 [kg]; gravity: none [m/s^2]; grip_force: 10 [N]; the others as in study.shake
+---@param options table  the grasp, the test and the grip
+---@like clench.study.shake  hand, object, world
+---@option rate? number [N/s, > 0] = 5  growth of the force
+---@option max_force? number [N, > 0] = 20  force at which the test ends
+---@like clench.study.shake  mass, gravity, max_distance, max_angle, grip, grip_seconds, settle, friction_share, surroundings
+---@option grip_force? number [N, > 0, <= 1e15] = 10  sum of the normal forces
 ---@return {survived: boolean, directions: table[], min_force: number, min_time: number, held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # survived: nowhere lost; directions: {direction, force [N] and time [s] at which it was lost or the test ended, moved [m], turned [rad], held}; min_force, min_time: the least of all
 --- > clench.study.fall_off({hand = hand, object = flask, rate = 10, max_force = 2, settle = 0.1}).min_force  --> 2.0
 return function(options)
   local read = read_options("study.fall_off", options)
-  local rate, most = read:positive("rate", 5), read:positive("max_force", 20)
-  local job = read_motion(read, {mass = 0.1, gravity = clench.vec3(0, 0, 0), grip_force = 10})
+  local rate, most = read:get "rate", read:get "max_force"
+  local job = read_motion(read)
   read:done()
   bounds.check_force(read, "max_force", most, job.mass)
   if most / rate > bounds.seconds then

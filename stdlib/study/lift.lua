@@ -10,15 +10,25 @@ local ramp = 0.1  -- in which the speed is reached, and lost again [s]
 --- A lift. In a copy of the world the hand presses without gravity and all comes to rest, as in study.shake; then gravity acts, what
 --- carries the hand moves up with it, whatever its joints could do, and stays up for a while. The object is held while it is displaced by less than
 --- max_distance and max_angle, as the hand's base sees it. What else stands in the world stays there.
----@param options {hand: robot, object: body, world?: world, height?: number, speed?: number, hold?: number, direction?: vec3, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean}  height: 0.1 [m]; speed: 0.1 [m/s]; hold: 1 [s]; direction: up; mass: the object's [kg]; gravity: the world's [m/s^2]; grip_force: ten weights [N]; surroundings: true; the others as in study.shake
+---@param options table  the grasp, the motion and the grip
+---@like clench.study.shake  hand, object, world
+---@option height? number [m, > 0, <= 1000000] = 0.1  height of the lift
+---@option speed? number [m/s, > 0, <= 1000000] = 0.1  speed of the lift
+---@option hold? number [s, >= 0, <= 1000000] = 1  time for which the object is held at the end
+---@option direction? vec3 = {0, 0, 1}  direction of the lift, of any length but zero
+---@option mass? number [kg, > 0, <= 1e12]  mass of the object, its own by default
+---@option gravity? vec3 [m/s^2]  that of the world by default
+---@like clench.study.shake  max_distance, max_angle, grip, grip_seconds, settle, friction_share
+---@option grip_force? number [N, > 0, <= 1e15]  sum of the normal forces, ten weights of the object by default
+---@option surroundings? boolean = true  false: everything else is taken away
 ---@return {survived: boolean, rows: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # rows: of "gravity", "lift" and "hold", {phase, moved [m], turned [rad], held, time [s] at which it was lost}, as far as it came
 --- > clench.study.lift({hand = hand, object = flask, height = 0.02, hold = 0.1, settle = 0.1, mass = 0.1}).survived  --> true
 return function(options)
   local read = read_options("study.lift", options)
-  local height, speed, hold = read:positive("height", 0.1, 1e6), read:positive("speed", 0.1, bounds.speed), read:not_negative("hold", 1, bounds.seconds)
-  local direction = read_vector(read, "direction", clench.vec3(0, 0, 1), 1e6)
+  local height, speed, hold = read:get "height", read:get "speed", read:get "hold"
+  local direction = read_vector(read, "direction", nil, 1e6)
   if direction:norm() < 1e-9 then read:fail "direction must not be zero" end
-  local job = read_motion(read, {surroundings = true})
+  local job = read_motion(read)
   read:done()
   direction = direction / direction:norm()
   local trial = new_trial(job)

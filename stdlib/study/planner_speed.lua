@@ -3,19 +3,21 @@ local read_options = require "clench.options"
 local all = {"contact", "potential_quality", "guided_potential_quality", "autograsp_quality", "strict_autograsp"}
 
 --- How fast annealing is for a hand and an object on this machine, by energy: GraspIt!'s "Time Test".
----@param options {hand: robot, object: body, energies?: string[], steps?: integer, seed?: integer}  steps: 1000 of each
+---@param options table  the hand, the object and how long
+---@option hand robot  hand of the search
+---@option object body  object of the search
+---@option energies? string[]  names in clench.energy, all by default
+---@option steps? integer [1 to 1000000000] = 1000  steps with each energy
+---@option seed? integer = 1  seed of the random numbers
 ---@return {energy: string, steps: integer, seconds: number, steps_per_second: number, accepted: number, in_collision: number}[]  accepted: part of the steps; in_collision: neighbours per step that collided
 --- > rows = clench.study.planner_speed {hand = hand, object = flask, energies = {"contact"}, steps = 50}
 --- > rows[1].energy, rows[1].steps, rows[1].steps_per_second > 0  --> contact, 50, true
 --- > clench.study.planner_speed {hand = hand, object = flask, step = 5}  --> error: unknown key 'step'
 return function(options)
   local read = read_options("study.planner_speed", options)
-  local hand, object, energies = read:raw "hand", read:raw "object", read:raw "energies" or all
-  if clench.type(hand) ~= "robot" then read:expected("hand", "a robot", hand) end
-  if clench.type(object) ~= "body" then read:expected("object", "a body", object) end
-  if type(energies) ~= "table" then read:expected("energies", "a list of names", energies) end
-  local steps = read:count("steps", 1000, 1, 1e9)
-  local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
+  local hand, object, energies = read:get "hand", read:get "object", read:get("energies", all)
+  local steps = read:get "steps"
+  local seed = read:get "seed"
   read:done()
   local rows = {}
   for i, name in ipairs(energies) do

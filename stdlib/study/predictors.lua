@@ -63,8 +63,8 @@ local function check_grasps(grasps)
 end
 
 local function read_measures(read, grasp_names)
-  local names = read:raw "measures" or usual
-  if type(names) ~= "table" or #names == 0 then read:expected("measures", "a list of names", names) end
+  local names = read:get("measures", usual)
+  if #names == 0 then read:expected("measures", "a list of names", names) end
   local all = {}
   for name in pairs(own) do all[#all + 1] = name end
   for name in pairs(grasp_names) do all[#all + 1] = name end
@@ -81,24 +81,27 @@ end
 --- curve, the probability that of a survivor and a lost grasp the survivor has the better value. 0.5 is no better than chance. The interval holds it at 95 %
 --- (Hanley and McNeil 1982). The grasps, in any number of threads, are put into copies of the world.
 ---@param grasps grasp[]|grasps  grasps to measure and to shake
----@param options {hand: robot, object: body, measures?: string[], shake?: table, threads?: integer}  measures: names as grasp:quality takes them, "load_margin" (times the object's weight that the hand holds in the worst of six directions, as the planners' verification has it) and "contacts"; shake: options of study.shake; threads: all cores
+---@param options table  the hand, the object, what is measured and how they are shaken
+---@option hand robot  hand of all grasps
+---@option object body  object of all grasps
+---@option measures? string[]  names, as of grasp:quality; "load_margin", the load that the hand holds in the worst of six directions, in weights of
+---  the object, as in the planners' verification; and "contacts"
+---@option shake? table  options of study.shake
+---@option threads? integer [1 to 1024]  number of threads, all cores by default
 ---@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}, without auc, low and high where all or none survived: there is nothing to compare; grasps: {survived, held, values}, or {error}, of each; chart: bars; plot: the curves
 --- > p = clench.study.predictors({grasp, grasp}, {hand = hand, object = flask, measures = {"epsilon"}, shake = {seconds = 0.1, settle = 0.1}})
 --- > p.count, p.survived, p.rows[1].measure  --> 2, 2, epsilon
 return function(grasps, options)
   local list = check_grasps(grasps)
   local read = read_options("study.predictors", options)
-  local hand, object = read:raw "hand", read:raw "object"
-  if clench.type(hand) ~= "robot" then read:expected("hand", "a robot", hand) end
-  if clench.type(object) ~= "body" then read:expected("object", "a body", object) end
+  local hand, object = read:get "hand", read:get "object"
   local larger = higher_is_better()
   local measures = read_measures(read, larger)
-  local shake = read:raw "shake" or {}
-  if type(shake) ~= "table" then read:expected("shake", "a table of options", shake) end
+  local shake = read:get "shake" or {}
   for _, name in ipairs {"hand", "object", "world"} do
     if shake[name] ~= nil then read:fail("shake: unknown key '%s'", name) end
   end
-  local threads = read:count("threads", clench.parallel.cores, 1, 1024)
+  local threads = read:get("threads", clench.parallel.cores)
   read:done()
 
   local outcomes, failed = clench.parallel.map("clench.study.motion.survival_worker", list,

@@ -61,7 +61,15 @@ end
 --- The centre of mass and rho are those with which the grasp was measured.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp  grasp to disturb
----@param options {samples?: integer, seed?: integer, position?: number, angle?: number, friction?: number, normal?: number, close?: function, edges?: integer|string}  standard deviations, 0 unless given: of the object's position along each axis [m], its turn about any axis [rad], the factor on mu, the tilt of normals [rad]; samples: 100; close(hand, object) instead of autograsp
+---@param options? table  the disturbances, as standard deviations
+---@option samples? integer [1 to 1000000] = 100  number of samples
+---@option seed? integer = 1  seed of the random numbers
+---@option position? number [m, >= 0] = 0  of the position of the object along each axis
+---@option angle? number [rad, >= 0] = 0  of the turn of the object about any axis
+---@option friction? number [>= 0] = 0  of the factor on mu
+---@option normal? number [rad, >= 0] = 0  of the tilt of normals
+---@option close? function  close(hand, object) instead of autograsp
+---@option edges? integer|string  of the friction pyramids, as of clench.wrench_space; those of the grasp by default
 ---@return {count: integer, samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
 --- > #r.samples, r.p05 <= r.median, r.interval.low <= r.probability  --> 20, true, true
@@ -69,13 +77,12 @@ end
 return function(grasp, options)
   check_grasp(grasp)
   local read = read_options("study.robustness", options or {})
-  local count = read:count("samples", 100, 1, 1e6)
-  local seed = read:count("seed", 1, math.mininteger, math.maxinteger)
-  local position, angle = read:not_negative("position", 0), read:not_negative("angle", 0)
-  local friction, normal = read:not_negative("friction", 0), read:not_negative("normal", 0)
-  local edges = read:raw "edges" or grasp.edges  -- as clench.wrench_space takes them
-  local close = read:raw "close" or close_again
-  if type(close) ~= "function" then read:expected("close", "a function", close) end
+  local count = read:get "samples"
+  local seed = read:get "seed"
+  local position, angle = read:get "position", read:get "angle"
+  local friction, normal = read:get "friction", read:get "normal"
+  local edges = read:get "edges" or grasp.edges  -- as clench.wrench_space takes them
+  local close = read:get("close", close_again)
   read:done()
 
   local moves = position > 0 or angle > 0

@@ -13,16 +13,32 @@ local verdict = require "clench.study.motion.verdict"
 --- their friction (`friction_share`), and touch within 0.02 mm.
 --- The hand presses with "forces": motors hold its posture, and add the torques of contact forces in equilibrium, `grip_force` the
 --- sum of their normals; compliant DOFs pull as hard as they can. With "close", and where no such forces exist, its motors close it as autograsp {dynamic = true} does. Motors exert what hand.effort_ranges allow; joints that no motor drives are free.
----@param options {hand: robot, object: body, world?: world, force?: number, seconds?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean, until_lost?: boolean}  force: 1 [N]; seconds: 2 in each direction; mass of the object: 0.1 [kg]; gravity: none [m/s^2]; max_distance: 0.05 [m]; max_angle: 15 degrees [rad]; grip: "forces" or "close"; grip_force: ten times the force [N]; grip_seconds: 0.5; settle: 1 [s]; friction_share: of the friction between hand and object that is counted on, 0.75; surroundings: false, true: everything else stays; until_lost: false, true: the first direction in which it is lost is the last one
+---@param options table  the grasp, the test and the grip
+---@option hand robot  hand that holds the object
+---@option object body  object that is held
+---@option world? world  world of both; a clone of it moves
+---@option force? number [N, > 0] = 1  force on the object, at most that of 1e6 m/s^2
+---@option seconds? number [s, > 0, <= 1000000] = 2  time in each direction
+---@option mass? number [kg, > 0, <= 1e12] = 0.1  mass of the object
+---@option gravity? vec3 [m/s^2] = {0, 0, 0}  gravity during the test
+---@option max_distance? number [m, > 0] = 0.05  the object is lost when it has moved farther in the hand
+---@option max_angle? number [rad, > 0] = 0.26179938779914941  the object is lost when it has turned by more in the hand; 15 degrees
+---@option grip? "forces"|"close" = "forces"  forces: motors press with contact forces in equilibrium; close: they close the fingers
+---@option grip_force? number [N, > 0, <= 1e15]  sum of the normal forces, ten times the force by default
+---@option grip_seconds? number [s, >= 0, <= 1000000] = 0.5  time in which the grip grows
+---@option settle? number [s, >= 0, <= 1000000] = 1  time to come to rest
+---@option friction_share? number [> 0] = 0.75  share of the friction between hand and object that is counted on
+---@option surroundings? boolean = false  true: everything else stays
+---@option until_lost? boolean = false  true: the first direction in which the object is lost is the last one
 ---@return {survived: boolean, directions: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # survived: it was held in all directions; directions: {direction, moved [m], turned [rad], held, time [s] at which it was lost}; held: in how many; settled: what the grip came to, moved and turned since the hand was as it stands, held where nothing was lost while all came to rest; failures: steps that were not solved to the tolerance; grip: "forces", "close", or "none" where no motor closes the hand; grip_force: sum of the normal forces between hand and object at rest, measured [N]; unlimited_efforts: names of motors without a limit; protocol: what was done, in a sentence
 --- > verdict = clench.study.shake {hand = hand, object = flask, seconds = 0.1, settle = 0.1}
 --- > #verdict.directions, verdict.survived  --> 6, true
 --- > clench.study.shake {hand = hand, object = flask, mas = 1}  --> error: unknown key 'mas'
 return function(options)
   local read = read_options("study.shake", options)
-  local force, seconds = read:positive("force", 1), read:positive("seconds", 2, bounds.seconds)
-  local job = read_motion(read, {mass = 0.1, gravity = clench.vec3(0, 0, 0), grip_force = 10 * force})
-  local until_lost = read:flag "until_lost"
+  local force, seconds = read:get "force", read:get "seconds"
+  local job = read_motion(read, 10 * force)
+  local until_lost = read:get "until_lost"
   read:done()
   bounds.check_force(read, "force", force, job.mass)
   local trial = new_trial(job)

@@ -9,21 +9,30 @@ local axes = {{"x", clench.vec3(1, 0, 0)}, {"y", clench.vec3(0, 1, 0)}, {"z", cl
 --- The hand is shaken. In a copy of the world that holds nothing but the hand, what carries it and the object, the hand presses and
 --- all comes to rest, as in study.shake; then gravity acts, and the base that carries all moves to and fro like a sine along each axis of
 --- the world in turn, from the second period on with the whole acceleration.
----@param options {hand: robot, object: body, world?: world, acceleration?: number, amplitude?: number, frequency?: number, seconds?: number, mass?: number, gravity?: vec3, max_distance?: number, max_angle?: number, grip?: string, grip_force?: number, grip_seconds?: number, settle?: number, friction_share?: number, surroundings?: boolean}  acceleration: the largest, 9.81 [m/s^2]; amplitude: instead of it [m]; frequency: 5 [Hz]; seconds: 2 along each axis; mass: the object's [kg]; gravity: the world's [m/s^2]; grip_force: ten weights [N]; the others as in study.shake
+---@param options table  the grasp, the motion and the grip
+---@like clench.study.shake  hand, object, world
+---@option acceleration? number [m/s^2, > 0]  the largest, 9.81 by default
+---@option amplitude? number [m, > 0]  of the motion, in place of the acceleration
+---@option frequency? number [Hz, > 0] = 5  of the motion
+---@option seconds? number [s, > 0, <= 1000000] = 2  time along each axis
+---@like clench.study.lift  mass, gravity
+---@like clench.study.shake  max_distance, max_angle, grip, grip_seconds, settle, friction_share
+---@like clench.study.lift  grip_force
+---@like clench.study.shake  surroundings
 ---@return {survived: boolean, axes: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # axes: {axis, moved [m], turned [rad], held, time [s] at which it was lost}
 --- > clench.study.shake_base({hand = hand, object = flask, seconds = 0.4, settle = 0.1, mass = 0.1, acceleration = 2}).survived  --> true
 return function(options)
   local read = read_options("study.shake_base", options)
-  local frequency, seconds = read:positive("frequency", 5), read:positive("seconds", 2, bounds.seconds)
+  local frequency, seconds = read:get "frequency", read:get "seconds"
   local rate = 2 * math.pi * frequency
   local acceleration
   if read:raw "amplitude" ~= nil then
     if read:raw "acceleration" ~= nil then read:fail "expected acceleration or amplitude, got both" end
-    acceleration = read:positive "amplitude" * rate ^ 2
+    acceleration = read:get "amplitude" * rate ^ 2
   else
-    acceleration = read:positive("acceleration", 9.81)
+    acceleration = read:get("acceleration", 9.81)
   end
-  local job = read_motion(read, {})
+  local job = read_motion(read)
   read:done()
   bounds.check_frequency(read, frequency, job.world.time_step)
   if acceleration > bounds.acceleration then

@@ -2,6 +2,7 @@
 -- IN holds `link`, a link to the folder OUT; OUT holds `file`. An entry whose documentation speaks of files must be listed here.
 local inside, outside = ...
 local doc = require "clench.host.doc"
+local packed_docs = require "clench.signature.packed_docs"
 
 local anywhere = {confine = "/"}
 local world = clench.world()
@@ -126,7 +127,7 @@ end
 for _, class in ipairs(all.classes) do
   for _, entry in ipairs(class.methods) do look(class.name .. ":" .. entry.name, entry.doc) end
 end
-for _, entry in ipairs(doc.packed_functions(all.files)) do look("clench." .. entry.name, entry.doc) end
+for _, entry in ipairs(packed_docs.functions(all.files)) do look("clench." .. entry.name, entry.doc) end
 table.sort(unlisted)
 assert(#unlisted == 0, "entries that open files are not tried here: " .. table.concat(unlisted, ", "))
 local count = 0

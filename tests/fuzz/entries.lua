@@ -5,6 +5,7 @@ local parse_type = dofile(here .. "types.lua")
 local known = dofile(here .. "known.lua")
 local examples = dofile(here .. "examples.lua")
 local doc = require "clench.host.doc"
+local packed_docs = require "clench.signature.packed_docs"
 
 -- a type's own text, for fields that hold the same
 local function key_of(kind)
@@ -96,7 +97,7 @@ local function read(all)
     end
   end
   local packed = {}
-  for _, entry in ipairs(doc.packed_functions(all.files)) do packed["clench." .. entry.name] = entry.doc end
+  for _, entry in ipairs(packed_docs.functions(all.files)) do packed["clench." .. entry.name] = entry.doc end
   for name, text in pairs(known.packed) do packed[name] = packed[name] or text end
   local names = {}
   for name in pairs(packed) do names[#names + 1] = name end

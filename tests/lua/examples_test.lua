@@ -1,5 +1,6 @@
 -- Every binding is documented, and every example on its page runs and prints what the page says.
 local test, doc, show = require "test", require "clench.host.doc", require "clench.show"
+local packed_docs = require "clench.signature.packed_docs"
 
 -- what examples write is removed with the temporary files of tests
 os.tmpname = test.path
@@ -49,7 +50,7 @@ for _, class in ipairs(all.classes) do
   for _, entry in ipairs(class.methods) do check(class.variable .. ":" .. entry.name, entry) end
 end
 
-for _, entry in ipairs(doc.packed_functions(all.files)) do
+for _, entry in ipairs(packed_docs.functions(all.files)) do
   -- most of the standard library is shown at work in the guide instead
   if #doc.parse(entry.doc).examples > 0 then check("clench." .. entry.name, entry) end
 end

@@ -54,7 +54,9 @@ end)
 
 test("jaws begin where what is in the way leaves the pads room to get there", function(t)
   local hand, mug = scene("adaptive_gripper", "models/objects/mug.iv")
-  local job = new_job("plan.sample", {hand = hand, object = mug, seed = 1}, function() end)
+  local job = new_job("plan.sample", {hand = hand, object = mug, seed = 1}, function(read)
+    for _, option in ipairs(read.fields) do read:raw(option.name) end
+  end)
   local standoff = 0.15
   local next_start = starts.random(job, {standoff = standoff, friction = 0.5, width = 0.2, kind = "antipodal"})
   local free, blocked = 0, 0

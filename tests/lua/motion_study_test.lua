@@ -32,8 +32,8 @@ test("a grasp held under a load comes to rest, and costs next to no more iterati
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
     local hand, object = world.robots[1], world.objects[1]
     hand:autograsp()
-    local read = require "clench.options"("test", {hand = hand, object = object, mass = 0.1, grip_force = 10})
-    local trial = new_trial(read_motion(read, {gravity = clench.vec3(0, 0, 0)}))
+    local read = require "clench.options"("study.fall_off", {hand = hand, object = object, mass = 0.1, grip_force = 10})
+    local trial = new_trial(read_motion(read))
     trial:push(function() return clench.vec3(0.5, 0, 0) end)
     trial.world:run(1)
     local before = trial.world.report.iterations
@@ -49,8 +49,8 @@ test("a trial under steady forces ends once nothing moves, with the verdict and 
   local object = world:add_object(clench.shapes.box {0.03, 0.03, 0.02}, {mass = 0.1, pose = {xyz = hand.approach.point + hand.approach.direction * 0.02}})
   hand:autograsp()
   for _, load in ipairs {0.5, 100} do
-    local read = require "clench.options"("test", {hand = hand, object = object, mass = 0.1, grip_force = 10, max_distance = 0.005})
-    local trial = new_trial(read_motion(read, {gravity = clench.vec3(0, 0, 0)}))
+    local read = require "clench.options"("study.fall_off", {hand = hand, object = object, mass = 0.1, grip_force = 10, max_distance = 0.005})
+    local trial = new_trial(read_motion(read))
     trial:push(function() return hand.approach.direction * -load end)
     local began = trial.world.time
     local short = trial:watch_steady(4)
@@ -251,8 +251,8 @@ end)
 test("a trial that is halted stands still", function(t)
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
   local hand, flask = closed_on_flask()
-  local read = require "clench.options"("test", {hand = hand, object = flask, settle = 0.01, grip_seconds = 0.01})
-  local trial = new_trial(read_motion(read, {}))
+  local read = require "clench.options"("study.fall_off", {hand = hand, object = flask, settle = 0.01, grip_seconds = 0.01})
+  local trial = new_trial(read_motion(read))
   trial.root.base.velocity = {linear = {0, 0, 0.1}}
   trial.world:run(0.1)
   trial:halt()
@@ -362,7 +362,7 @@ test("a study leaves joints free that no motor drives, and keeps gains that a sc
   t.equal(clench.study.shake({hand = hand, object = block, seconds = 0.2, settle = 0.2}).survived, false)
   hand.gains = {{kp = 7, kd = 0.7}, {kp = 8, kd = 0.8}}
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
-  local trial = new_trial(read_motion(require "clench.options"("test", {hand = hand, object = block, settle = 0.01, grip_seconds = 0.01}), {}))
+  local trial = new_trial(read_motion(require "clench.options"("study.fall_off", {hand = hand, object = block, settle = 0.01, grip_seconds = 0.01})))
   t.equal({trial.hand.gains[1].kp, trial.hand.gains[2].kp}, {7.0, 8.0})
 end)
 

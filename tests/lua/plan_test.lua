@@ -142,8 +142,8 @@ test("an online planner follows the object", function(t)
   local list = planner:search(200)
   t.equal(#list, #planner:grasps())
   for _, g in ipairs(list) do t.ok(g.epsilon > 0) end
-  t.fails(function() clench.plan.online {hand = hand, object = mug, energy = function() return 1 end} end, "one of the engine's")
-  t.fails(function() clench.plan.online {hand = hand, object = mug, limits = {}} end, "the planner's own here")
+  t.fails(function() clench.plan.online {hand = hand, object = mug, energy = function() return 1 end} end, "energy must be a string or an energy, got a function")
+  t.fails(function() clench.plan.online {hand = hand, object = mug, limits = {}} end, "unknown key 'limits'")
 end)
 
 test("why nothing was found is said by name", function(t)

@@ -1,6 +1,6 @@
 -- Signatures as data: the grammar of a doc, and the description of every entry.
 local test, clench = require "test", require "clench"
-local signature = require "clench.host.signature"
+local signature = require "clench.signature.grammar"
 
 local text = [[
 Closes the fingers.

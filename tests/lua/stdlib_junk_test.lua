@@ -3,6 +3,7 @@
 local clench = require "clench"
 local test = require "test"
 local doc = require "clench.host.doc"
+local packed_docs = require "clench.signature.packed_docs"
 
 local world = clench.load "worlds/parallel_jaw_cube.wld"
 local hand, object = world.robots[1], world.objects[1]
@@ -40,7 +41,7 @@ local function try(list, name, fn, arguments)
 end
 
 local public = {}
-for _, entry in ipairs(doc.packed_functions(clench.entries().files)) do
+for _, entry in ipairs(packed_docs.functions(clench.entries().files)) do
   -- a test that is run reports what it has wrong
   if entry.name ~= "test.run_file" then public[#public + 1] = {name = "clench." .. entry.name, fn = entry.fn} end
 end
@@ -85,7 +86,7 @@ test("no option of the standard library answers junk with an error of Lua's own"
   local silent, list = clench.log.level "quiet", {}
   local values = {5, -1, 0 / 0, "x", true, {}, {5}, {{}}, nothing, world, clench.vec3(0, 0, 0)}
   for _, entry in ipairs(clench.entries().files) do
-    for _, found in ipairs(doc.packed_functions {entry}) do
+    for _, found in ipairs(packed_docs.functions {entry}) do
       local module = found.name:match "^[%w_]+"
       for i, param in ipairs(doc.parse(found.doc).params) do
         for key in param.type:gmatch "[{ ]([%a_][%w_]*)%??: " do
@@ -126,7 +127,7 @@ test("messages name the caller's line", function(t)
       clench.plan[planner] {hand = hand, object = object, on_grasp = 5, primitives = planner == "primitive" and list or nil}
     end)
   end
-  fails("plan.primitive: thumb must be a point {x, y, z}, got 5", function()
+  fails("plan.primitive: thumb must be a vector {x, y, z}, got 5", function()
     clench.plan.primitive {hand = hand, object = object, primitives = list, thumb = 5}
   end)
   fails("test.run_file: path: expected a name, got true", function() test.run_file(true) end)

@@ -9,6 +9,7 @@
 #include "clench/script/lua/deadline.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/object.h"
+#include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"
 
@@ -63,6 +64,14 @@ static int fingerprint(lua_State* L) {
   return push(L, fmt::format("{:016x}", hasher.value()));
 }
 
+// packed_text(path): the file "plan/sample.lua" of the standard library, or nil
+static int packed_text(lua_State* L) {
+  for (const PackedFile& file : packed_files())
+    if (file.path == string_at(L, 1)) return push(L, file.text);
+  lua_pushnil(L);
+  return 1;
+}
+
 using DeadlinePtr = std::shared_ptr<Deadline>;
 
 // deadline:close(): ends it.   returns  has the time passed?
@@ -87,6 +96,7 @@ void add_natives(lua_State* L) {
                                          {"clench.deadline", guarded<deadline>},
                                          {"clench.printable", guarded<make_printable>},
                                          {"clench.fingerprint", guarded<fingerprint>},
+                                         {"clench.packed_text", guarded<packed_text>},
                                          {"clench.poller", guarded<new_poller>},
                                          {"clench.has_jobs", guarded<has_jobs>},
                                          {"clench.open_serial", guarded<open_serial_stream>},

@@ -26,7 +26,7 @@
 //         @return table result  `moved`, `stops`
 //         > hand:autograsp().moved  --> true
 // clang-format on
-//     stdlib/host/signature.lua has the grammar of units, ranges, defaults and `@option` lines.
+//     stdlib/signature/grammar.lua has the grammar of units, ranges, defaults and `@option` lines.
 //     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
 //     contains text. Examples run with clench, world, hand (closed on the flask), flask, grasp and
 //     patch (of a fingertip with the flask as rubber). The tests run every one of them; `clench

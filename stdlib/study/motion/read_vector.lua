@@ -2,10 +2,8 @@
 
 ---@param read table  of clench.options
 return function(read, name, default, longest, unit)
-  local value = read:raw(name)
-  if value == nil then return default end
-  local ok, vector = pcall(function() return type(value) == "table" and clench.vec3(value[1], value[2], value[3]) or value end)
-  if not ok or clench.type(vector) ~= "vec3" then read:expected(name, "a vector {x, y, z}", value) end
+  local value = read:get(name, default)
+  local vector = type(value) == "table" and clench.vec3(table.unpack(value)) or value
   if not (vector:norm() <= longest) then
     read:expected(name, ("a vector of at most %g%s"):format(longest, unit or ""), vector:norm())
   end

@@ -42,7 +42,8 @@ Has a function called while the world runs, before each step, or so often: fn(wo
 comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
 not to its clones or snapshots.
 @param fn function  called after each step
-@param options? {rate?: number}  calls in a second of the world's time: at the first step at or after each multiple of 1 / rate [Hz]
+@param options? table  how often
+@option rate? number [Hz, > 0]  calls in a second of the world's time, at the first step at or after each multiple of 1 / rate; by default at each step
 @return table handle  `remove()` ends it
 > count = 0
 > handle = world:on_step(function(world, dt) count = count + 1 end, {rate = 100})
@@ -64,19 +65,21 @@ spawned; an error in one ends the run. A yield of nothing waits for the next ste
 Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a,
 b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a
 DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
-@param event string  name of the event
+@param event "contact"|"contact_lost"|"limit"  name of the event
 @param fn function  called at each such event
 @return table handle  `remove()` ends it
 > touched = {}
 > handle = world:on("contact", function(e) touched[#touched + 1] = e.b.name end)
 > world:run(0.01)
 > #touched > 0  --> true
-> world:on("contcat", print)  --> error: world:on: event must be 'contact' or 'contact_lost' or 'limit', got 'contcat')"},
+> world:on("contcat", print)  --> error: world:on: event must be 'contact', 'contact_lost' or 'limit', got 'contcat')"},
     {"log", guarded<log_quantities>, R"(
 Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of
 which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names
 functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
-@param options {rate?: number, quantities: table}  rate: 100 [Hz]
+@param options table  what is noted, and how often
+@option rate? number [Hz, > 0] = 100  rows in a second of the world's time
+@option quantities table  bodies, robots and names in order, functions by their names
 @return log log  `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
 > log = world:log {rate = 50, quantities = {flask, "energy", height = function() return flask.pose.position.z end}}
 > world:run(0.1)
@@ -85,7 +88,8 @@ functions(world) that give a number, true or false, a vector, or a list of numbe
 > world:log {quantities = {"enrgy"}}  --> error: did you mean 'energy'?)"},
     {"record", guarded<record>, R"(
 Records how the world runs, for films: its state at a rate of its time.
-@param options? {rate?: number}  30 [Hz]
+@param options? table  how often
+@option rate? number [Hz, > 0] = 30  states in a second of the world's time
 @return recording recording  `times`; `save(path, options)`, see the guide; `remove()` ends it
 > film = world:record {rate = 20}
 > world:run(0.1)

@@ -325,7 +325,11 @@ min_epsilon.
 What the closed hand holds in simulation: minus the sum over six directions of the part of the time that the object was held
 in study.shake, down to -6; where the closed hand is not in force closure, or loses the object before, 1 + contact, which leads there. It runs on
 one thread, and takes some tenths of a second where the hand holds something.
-@param options {hand: robot, object: body, shake?: table, contacts?: string}  shake: options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default; contacts: "preset" or "live"
+@param options table  the hand and the object
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option shake? table  options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default
+@option contacts? "preset"|"live" = "preset"  contacts of `contact`, which leads there
 @return energy
 > e = clench.energy.dynamic {hand = hand, object = flask, shake = {seconds = 0.1}}
 > e(), e.any_thread  --> -6.0, false

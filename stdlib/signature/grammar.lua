@@ -11,7 +11,8 @@
 --- A line is `name? type [unit, range] = default`, then two spaces and prose. A range is any of `>= 0`, `> 0`, `<= 1`, `< 1` and
 --- `1 to 1000`; what else stands in the brackets is the unit. An @option belongs to the @param before it, a name with a dot to that
 --- option. Options of few words may stand in the type instead, `{speed?: number}`, with `speed: prose` separated by semicolons.
---- A field has `@type type [unit, range]`. @effect is `reads`, `edits`, `files` or `long`.
+--- `@like clench.plan.anneal  seed, world` adds these options of another entry, or all of them where none is named, to the @param before
+--- it. A field has `@type type [unit, range]`. @effect is `reads`, `edits`, `files` or `long`.
 local raise = require "clench.raise"
 local signature = {}
 
@@ -78,8 +79,11 @@ local function item_of(head, prose)
   return item
 end
 
--- parts of a text between marks that stand in no bracket and no quotes
-local function parts_of(text, mark)
+--- Parts of a text between marks that stand in no bracket and no quotes.
+---@param text string
+---@param mark string  one character
+---@return string[]
+function signature.parts_of(text, mark)
   local parts, depth, from, quoted = {}, 0, 1, false
   for at = 1, #text do
     local c = text:sub(at, at)
@@ -98,7 +102,7 @@ end
 -- "name: prose; other, third: prose" by name
 local function texts_of(prose)
   local texts = {}
-  for _, part in ipairs(parts_of(prose, ";")) do
+  for _, part in ipairs(signature.parts_of(prose, ";")) do
     local names, text = part:match "^%s*([%a_][%w_, ]-)%s*:%s*(.*)$"
     for name in (names or ""):gmatch "[%a_][%w_]*" do texts[name] = texts[name] or text end
   end
@@ -110,7 +114,7 @@ local function fields_of(kind, prose)
   local inner = kind:match "^{(.*)}$"
   if not inner then return nil end
   local fields, texts = {}, texts_of(prose)
-  for _, part in ipairs(parts_of(inner, ",")) do
+  for _, part in ipairs(signature.parts_of(inner, ",")) do
     local name, mark, rest = part:match "^%s*([%a_][%w_]*)(%??)%s*:%s*(.-)%s*$"
     if name then
       local field = {name = name, optional = mark == "?", type = rest}
@@ -152,6 +156,16 @@ function add.param(parsed, head, prose)
 end
 
 add.option = add_option
+
+-- which options of which entry the last parameter has, too; `descriptions` adds them
+function add.like(parsed, head, prose)
+  local owner = parsed.parameters[#parsed.parameters]
+  if not owner then raise(("signature: @like %s follows no @param"):format(head)) end
+  local names = {}
+  for name in prose:gmatch "[^,%s]+" do names[#names + 1] = name end
+  owner.fields, owner.like = owner.fields or {}, owner.like or {}
+  table.insert(owner.like, {entry = head, names = names[1] and names, at = #owner.fields + 1})
+end
 
 function add.type(parsed, head, prose)
   parsed.type = {}
