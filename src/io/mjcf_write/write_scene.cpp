@@ -131,7 +131,9 @@ void SceneWriter::write_head() {
   line(1, "<default>");
   line(2, fmt::format("<geom {}/>", stiff));
   line(2, fmt::format("<pair {}/>", stiff));
-  line(2, fmt::format("<equality solref=\"{} 1\"/>", 2 * request_.time_step));
+  // rigid couplings: with MuJoCo's own impedance light fingers yield, and pads touch at one end
+  line(2, fmt::format("<equality solref=\"{} 1\" solimp=\"0.999 0.9999 0.001\"/>",
+                      2 * request_.time_step));
   line(1, "</default>");
 }
 

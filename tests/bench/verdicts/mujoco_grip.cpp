@@ -17,6 +17,9 @@ using Eigen::Vector3d;
 constexpr double time_step = 0.001;     // [s]
 constexpr double gravity = 9.81;        // [m/s^2]
 constexpr double lift_stiffness = 1e6;  // of the slide that raises the hand [N/m]
+// Impedance of couplings: joints of one motor are rigidly coupled. With MuJoCo's own, 0.9 to 0.95,
+// the links of light fingers yield by milliradians, and pads touch at one of their ends only.
+constexpr const char* rigid = "0.999 0.9999 0.001";
 
 // MJCF of a grip; `lift` adds gravity, the table and a slide under the hand.
 class GripFile {
@@ -141,7 +144,7 @@ class GripFile {
       else
         couplings << "<joint joint1=\"joint" << i << "\" joint2=\"joint" << first
                   << "\" polycoef=\"0 " << link.ratio / scene_.links[first].ratio
-                  << " 0 0 0\" solref=\"" << 2 * time_step << " 1\"/>";
+                  << " 0 0 0\" solref=\"" << 2 * time_step << " 1\" solimp=\"" << rigid << "\"/>";
     }
     if (lift_)
       actuators << "<position joint=\"lift\" kp=\"" << lift_stiffness

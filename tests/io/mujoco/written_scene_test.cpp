@@ -267,6 +267,36 @@ TEST_CASE("a hand with its servos at its posture stays there, under its weight")
   }
 }
 
+TEST_CASE("joints of one motor stay coupled while something presses on a link") {
+  const RobotSpec robot = read_robot("models/hands/adaptive_gripper/adaptive_gripper.cfg");
+  Written written;
+  PlacedRobot placed;
+  placed.robot = robot;
+  for (const DofSpec& dof : robot.dofs) placed.dofs.push_back(dof.default_value);
+  written.world.order.push_back({WorldEntry::Kind::robot, 0});
+  written.world.robots.push_back(placed);
+  written.world.collision.emplace().on = false;
+  written.write({present_key(written.world, "start")});
+  const auto& m = *written.model;
+  auto& d = *written.data;
+  const auto joints = named_joints(robot);
+  REQUIRE(joints.size() == 4);
+  REQUIRE(robot.dofs.size() == 1);
+  for (const auto& [pressed, spec] : joints) {
+    CAPTURE(pressed);
+    mj_resetDataKeyframe(&m, &d, 0);
+    // as of 5 N at the end of a pad of 40 mm
+    d.qfrc_applied[m.jnt_dofadr[written.id(mjOBJ_JOINT, pressed)]] = 0.1;
+    for (int i = 0; i < 1000; ++i) mj_step(&m, &d);
+    const auto angle = [&](size_t i) {
+      const int j = written.id(mjOBJ_JOINT, joints[i].first);
+      return (d.qpos[m.jnt_qposadr[j]] - joints[i].second->offset) / joints[i].second->ratio;
+    };
+    // a pad of 40 mm stays level to a hundredth of a millimeter
+    for (size_t i = 1; i < joints.size(); ++i) CHECK(std::abs(angle(i) - angle(0)) < 2.5e-4);
+  }
+}
+
 TEST_CASE("the keys of a scene put the hand on its carriage, and objects, where they say") {
   Random random(13);
   const RobotSpec robot = read_robot("models/hands/barrett/barrett.cfg");
