@@ -16,7 +16,7 @@ function showAt(time) {
   const part = n > k ? Math.max(0, Math.min(1, (time - times[k]) / (times[n] - times[k]))) : 0;
   parts.forEach((mesh, i) => {
     const a = width * k + 7 * i, b = width * n + 7 * i;
-    mesh.visible = !Number.isNaN(frames[a]);
+    mesh.visible = !Number.isNaN(frames[a]) && !hidden.has(i);
     if (!mesh.visible) return;
     const other = Number.isNaN(frames[b]) ? a : b;
     for (const [j, axis] of ["x", "y", "z"].entries()) mesh.position[axis] = frames[a + j] + part * (frames[other + j] - frames[a + j]);
@@ -28,6 +28,29 @@ function showAt(time) {
   caption.textContent = (time - first).toFixed(2) + " s";
   redraw();
 }
+
+// friction cones of a still world: the apex at the contact, the axis along the normal into the body
+for (const [x, y, z, nx, ny, nz, mu, radius] of data.contacts || []) {
+  const normal = new THREE.Vector3(nx, ny, nz), at = new THREE.Vector3(x, y, z), height = 0.16 * radius;
+  const slope = Math.min(mu, 3), h = height / Math.sqrt(1 + slope * slope);
+  const cone = new THREE.Mesh(new THREE.ConeBufferGeometry(h * slope, h, 40, 1, true), looks.cone);
+  cone.quaternion.setFromUnitVectors(new THREE.Vector3(0, -1, 0), normal);
+  cone.position.copy(at).addScaledVector(normal, h / 2);
+  const dot = new THREE.Mesh(new THREE.SphereBufferGeometry(0.022 * radius, 16, 12), looks.point);
+  dot.position.copy(at);
+  scene.add(cone, dot);
+}
+
+// the bodies, each with a box that hides it
+const hidden = new Set(), bodies = document.getElementById("bodies");
+data.parts.forEach((part, i) => {
+  const label = document.createElement("label"), box = document.createElement("input");
+  box.type = "checkbox";
+  box.checked = true;
+  box.addEventListener("change", () => { if (box.checked) hidden.delete(i); else hidden.add(i); showAt(Number(slider.value)); });
+  label.append(box, " " + part.name);
+  bodies.append(label);
+});
 
 // all that moves, in the first and the last frame; the floor that tells lengths lies below it
 const grid = new THREE.GridHelper(2, 40, 0x76828e, 0x9aa5b0);
@@ -63,7 +86,7 @@ function frame() {
   grid.position.set(sphere.center.x, sphere.center.y, box.min.z - 0.002);
 }
 
-let plays = times.length > 1, now = first, before = null;
+let plays = times.length > 1 && data.plays !== false, now = first, before = null;
 const speed = document.getElementById("speed");
 speed.value = [0.1, 0.25, 0.5, 1, 2].reduce((a, b) => Math.abs(b - data.speed) < Math.abs(a - data.speed) ? b : a);
 function tick(clock) {

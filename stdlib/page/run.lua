@@ -1,0 +1,64 @@
+--- Pages of HTML that show a world, or a run of it, in 3-D. A page holds all that it needs.
+local base64 = require "clench.base64"
+local meshes = require "clench.page.meshes"
+local text = require "clench.page.text"
+local run = {}
+
+local function kind_of(body)
+  if body.kind == "base" or body.kind == "mount" then return "base" end
+  return body.kind == "link" and "link" or body.kind
+end
+
+--- Data of a page: the parts of all frames, and seven numbers per part and frame, nan where a part is absent.
+---@param recording table  `times`, and `each`, which calls a function with the world of each frame
+---@return table data, string[] notes
+function run.data_of(recording)
+  local list, parts, number_of, frames = meshes.new(), {}, {}, {}
+  recording:each(function(world, frame)
+    local poses = {}
+    for _, body in ipairs(world.bodies) do
+      if body.visual_mesh then
+        local key = body.name .. "\0" .. body.kind
+        if not number_of[key] then
+          parts[#parts + 1] = {name = body.name, kind = kind_of(body), mesh = list:add(body)}
+          number_of[key] = #parts
+        end
+        poses[number_of[key]] = meshes.numbers(body.pose)
+      end
+    end
+    frames[frame] = poses
+  end)
+  local width, nan = 7 * #parts, 0 / 0
+  local bytes = meshes.packed("f", width * #frames, function(i)
+    local pose = frames[(i - 1) // width + 1][(i - 1) % width // 7 + 1]
+    return pose and pose[(i - 1) % 7 + 1] or nan
+  end)
+  return {meshes = list.list, parts = parts, times = recording.times, frames = base64(bytes)}, list.notes
+end
+
+local view = [==[
+<div id="view"><div class="shown"></div><div class="note">drag: turn &middot; wheel: zoom &middot; right button: move &middot; space: play</div></div>
+<div class="controls"><button id="play" type="button">pause</button>
+<input type="range" id="time" min="0" max="1" step="any" value="0" style="flex: 1; min-width: 200px">
+<label>speed <select id="speed"><option value="0.1">0.1</option><option value="0.25">0.25</option><option value="0.5">0.5</option><option value="1">1</option><option value="2">2</option></select></label>
+<label><input type="checkbox" id="through"> see through objects</label>
+<button id="reset" type="button">reset view</button></div>
+<div class="controls" id="bodies"></div>
+]==]
+
+--- The text of a page.
+function run.page_of(title, words, data, three)
+  return table.concat {
+    ([==[<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>%s</title>
+<style>%s main { display: block; } #view { height: 72vh; max-height: none; }</style></head>
+<body><header><h1>%s</h1><p>%s</p></header><main>
+]==]):format(text.escaped(title), require "clench.page.style", text.escaped(title), text.escaped(words)), view,
+    '</main><script type="application/json" id="data">', text.json(data), "</script>\n<script>", text.code(three), "</script>\n<script>",
+    text.code(require "clench.page.scene"), text.code(require "clench.page.run_player"), "</script>\n</body></html>\n"}
+end
+
+return run
