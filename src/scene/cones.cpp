@@ -98,14 +98,19 @@ std::vector<DrawCone> contact_cones(const World& world, std::span<const TouchPat
   for (const ContactLoad& load : options.loads)
     if (!std::isfinite(load.force)) fail("picture: forces must be finite numbers");
   std::vector<DrawCone> cones;
-  for (const TouchPatch& patch : patches) {
+  for (size_t i = 0; i < patches.size(); ++i) {
+    const TouchPatch& patch = patches[i];
     const Contact& first = patch.contacts[0];
     const bool rubs = first.kind != ContactKind::frictionless && first.friction.statics > 0;
     cones.push_back({.apex = patch.p_W,
                      .axis = patch.n_W,
                      .half_angle = rubs ? std::atan(first.friction.statics) : 0,
                      .height = usual_height(world, patch),
-                     .color = rubs ? palette::cone : palette::needle});
+                     .color = rubs ? palette::cone : palette::needle,
+                     .shown = {.kind = Shown::Kind::contact,
+                               .body = first.body,
+                               .other = first.other,
+                               .index = static_cast<int>(i)}});
   }
   if (options.cone_sizes != ConeSizes::apart) {
     scale_cones(patches, options, cones);

@@ -6,11 +6,34 @@
 #include <string>
 #include <vector>
 
+#include "clench/base/id.h"
 #include "clench/geometry/tree/shape.h"
 #include "clench/math/pose.h"
 #include "clench/scene/eye.h"
 
 namespace clench {
+
+struct Body;
+
+/// The part of a world that an entry of a scene shows, by which a picture is picked.
+struct Shown {
+  enum class Kind {
+    nothing,
+    body,
+    contact,   ///< a patch of contacts
+    site,      ///< the surfaces of a soft contact
+    approach,  ///< the approach direction of a robot
+    force,
+    floor
+  };
+  Kind kind = Kind::nothing;
+  Id<Body> body = {};   ///< of a contact or site that which is touched, of an approach the base
+  Id<Body> other = {};  ///< that touches it
+  /// of a contact among touch_patches(contacts_on_objects(world)), of a site among contacts(world)
+  int index = -1;
+
+  bool operator==(const Shown&) const = default;
+};
 
 /// Colours are as a screen shows them (sRGB), each part in 0..1.
 struct DrawMesh {
@@ -22,6 +45,7 @@ struct DrawMesh {
   bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
   bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole
   bool hides = false;       ///< counts as opaque when a view is chosen, however it is drawn
+  Shown shown = {};
 };
 
 /// Friction cone: apex at the contact, opening along the axis. A half angle of 0 draws a needle.
@@ -31,6 +55,7 @@ struct DrawCone {
   double half_angle = 0;  ///< [rad], in [0, pi/2)
   double height = 0;      ///< [m]
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
+  Shown shown = {};
 };
 
 /// A force, a direction or an axis: a rod with a pointed head that ends at the tip.
@@ -39,6 +64,7 @@ struct DrawArrow {
   Eigen::Vector3d tail = Eigen::Vector3d::Zero(), tip = Eigen::Vector3d::UnitZ();
   double radius = 0.01;  ///< of the rod; its head is three times as wide [m]
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
+  Shown shown = {};
 };
 
 /// Text at a place or beside it, in front of everything else. Labels do not overlap: earlier ones
@@ -60,7 +86,7 @@ struct Scene {
   std::vector<Eigen::Vector3d> spots = {};
   /// points that a chosen view must hold besides meshes, cones and arrows; world [m]
   std::vector<Eigen::Vector3d> held = {};
-  std::optional<Eye> eye = {};            ///< empty: frame everything
+  std::optional<Eye> eye = {};  ///< empty: frame everything
 };
 
 }  // namespace clench

@@ -85,7 +85,7 @@ DrawMesh draw_cap(const Pose& X_WP, std::array<double, 2> axes, double inner,
 }
 
 // the fitted surface of the object of the two, and the rim of the ellipse on it
-void draw_patch(const World& world, const Contact& contact, std::vector<DrawMesh>& out) {
+void draw_patch(const World& world, const Contact& contact, int index, std::vector<DrawMesh>& out) {
   const SoftPatch patch = soft_patch(*contact.site);
   const auto is_object = [&](Id<Body> id) { return world.body(id).kind == BodyKind::object; };
   const bool on_other = !is_object(contact.body) && is_object(contact.other);
@@ -107,15 +107,21 @@ void draw_patch(const World& world, const Contact& contact, std::vector<DrawMesh
   const double step = 0.02 * patch.radius;
   out.push_back(draw_cap(X_WP, {patch.radius, patch.radius}, 0, palette::patch, surface(step)));
   const auto semi_axes = contact_ellipse(patch, patch_force).semi_axes;
-  if (semi_axes[0] > 0 && semi_axes[1] > 0)
-    out.push_back(draw_cap(X_WP, semi_axes, rim, palette::ellipse, surface(2 * step)));
+  const bool pressed = semi_axes[0] > 0 && semi_axes[1] > 0;
+  if (pressed) out.push_back(draw_cap(X_WP, semi_axes, rim, palette::ellipse, surface(2 * step)));
+  const Shown shown{.kind = Shown::Kind::site,
+                    .body = on_other ? contact.other : contact.body,
+                    .other = on_other ? contact.body : contact.other,
+                    .index = index};
+  for (size_t i = out.size() - (pressed ? 2 : 1); i < out.size(); ++i) out[i].shown = shown;
 }
 
 void draw_patches(const World& world, std::vector<DrawMesh>& out) {
   std::set<const SoftSite*> drawn_sites;
-  for (const Contact& contact : contacts(world))
-    if (contact.site && drawn_sites.insert(contact.site.get()).second)
-      draw_patch(world, contact, out);
+  const std::vector<Contact> all = contacts(world);
+  for (size_t i = 0; i < all.size(); ++i)
+    if (all[i].site && drawn_sites.insert(all[i].site.get()).second)
+      draw_patch(world, all[i], static_cast<int>(i), out);
 }
 
 // length of an arrow, and radius of its rod: of the robot's size
@@ -138,7 +144,8 @@ void draw_approaches(const World& world, Scene& scene) {
     scene.arrows.push_back({.tail = X_WA.position,
                             .tip = X_WA * Eigen::Vector3d(0, 0, approach_length * size),
                             .radius = approach_radius * size,
-                            .color = palette::approach});
+                            .color = palette::approach,
+                            .shown = {.kind = Shown::Kind::approach, .body = robot.base}});
   }
 }
 
@@ -162,6 +169,7 @@ Scene make_scene(const World& world, const SceneOptions& options) {
     if (!drawn(body)) continue;
     scene.meshes.push_back(draw_body(body, world.pose(world.bodies()[i]), options));
     scene.meshes.back().background = body.kind == BodyKind::obstacle && is_floor(bounds[i], bounds);
+    scene.meshes.back().shown = {.kind = Shown::Kind::body, .body = world.bodies()[i]};
     scene.meshes.back().framed =
         options.framing == Framing::all || touched.empty() || touched.contains(world.bodies()[i]);
     floor = floor || scene.meshes.back().background;

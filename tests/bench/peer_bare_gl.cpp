@@ -36,6 +36,7 @@ struct BareGl::Gl {
   EGLContext context;
   int width, height, count;
   unsigned program;
+  int clip_place;
   std::vector<uint8_t> pixels;
 
   void enter() const {
@@ -87,8 +88,9 @@ BareGl::BareGl(const Scene& scene, const Eigen::Matrix4d& to_clip, int width, in
   glAttachShader(gl.program, compile(GL_FRAGMENT_SHADER, color_out));
   glLinkProgram(gl.program);
   glUseProgram(gl.program);
+  gl.clip_place = glGetUniformLocation(gl.program, "to_clip");
   const Eigen::Matrix4f clip = to_clip.cast<float>();
-  glUniformMatrix4fv(glGetUniformLocation(gl.program, "to_clip"), 1, GL_FALSE, clip.data());
+  glUniformMatrix4fv(gl.clip_place, 1, GL_FALSE, clip.data());
 
   unsigned framebuffer, buffers[2];
   glGenFramebuffers(1, &framebuffer);
@@ -117,6 +119,16 @@ int BareGl::draw() {
   int shown = 0;
   for (size_t i = 3; i < gl_->pixels.size(); i += 4) shown += gl_->pixels[i] > 0;
   return shown;
+}
+
+void BareGl::draw_frame(const Eigen::Matrix4d& to_clip) {
+  gl_->enter();
+  const Eigen::Matrix4f clip = to_clip.cast<float>();
+  glUniformMatrix4fv(gl_->clip_place, 1, GL_FALSE, clip.data());
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glDrawElements(GL_TRIANGLES, gl_->count, GL_UNSIGNED_INT, nullptr);
+  glFinish();
+  gl_->leave();
 }
 
 }  // namespace clench::bench

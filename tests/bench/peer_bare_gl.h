@@ -14,6 +14,8 @@ class BareGl {
   ~BareGl();
   /// Draws and reads the pixels back.   returns  how many show a triangle
   int draw();
+  /// Draws without reading back, and waits until it is drawn.
+  void draw_frame(const Eigen::Matrix4d& to_clip);
 
  private:
   struct Gl;

@@ -88,6 +88,12 @@ TEST_CASE("a cone stands in the middle of each patch of a robot on an object, op
   CHECK(cone.half_angle == doctest::Approx(std::atan(mu)));
   CHECK(cone.height > 0);
   CHECK(cone.height < 0.05);
+  CHECK(cone.shown == Shown{.kind = Shown::Kind::contact,
+                            .body = object,
+                            .other = world.robot(world.robots()[0]).base,
+                            .index = 0});
+  for (size_t i = 0; i < scene.meshes.size(); ++i)
+    CHECK(scene.meshes[i].shown == Shown{.kind = Shown::Kind::body, .body = world.bodies()[i]});
   // a view looks at the patch, whether its cone is drawn or not
   CHECK(!scene.spots.empty());
   CHECK(make_scene(world, {.contacts = false}).cones.empty());
@@ -314,6 +320,10 @@ TEST_CASE(
     const DrawMesh &surface = scene.meshes[2], &rim = scene.meshes[3];
     CHECK(surface.color == palette::patch);
     CHECK(rim.color == palette::ellipse);
+    const Id<Body> table = world.find_body("table");
+    for (const DrawMesh& mesh : {surface, rim})
+      CHECK(mesh.shown ==
+            Shown{.kind = Shown::Kind::site, .body = held, .other = table, .index = 0});
     // just within the ball, and as round
     for (const Eigen::Vector3d& p : surface.shape->mesh().vertices) {
       const double inside = 0.02 - (surface.X_WM * p - middle).norm();

@@ -1,6 +1,7 @@
 // Pictures as values, and PNG files.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "clench/scene/eye.h"
 
 namespace clench {
+
+struct Scene;
 
 /// RGB, 8 bits a channel, rows from the top; and, where it lets through what it is laid on, how
 /// much it covers.
@@ -17,6 +20,8 @@ struct Picture {
   std::vector<uint8_t> alpha = {};  ///< one a pixel, 255 covers all; empty: all covers
   /// camera of a picture of a scene; empty: of a figure
   std::optional<Eye> eye = {};
+  /// that it shows, for who picks in it; null: of a figure, or not kept
+  std::shared_ptr<const Scene> scene = {};
 
   /// compares size and pixels
   bool operator==(const Picture& other) const {

@@ -4,7 +4,6 @@
 
 #include "clench/render/figure/reduced.h"
 #include "clench/render/gl/depth_offset.h"
-#include "clench/render/mesh/extent.h"
 #include "clench/render/mesh/pieces.h"
 #include "clench/render/paint/outline.h"
 #include "clench/render/paint/tile.h"
@@ -49,7 +48,8 @@ DraftPainter::DraftPainter(const Programs& programs, DraftKept& kept, const Scen
     : programs_(programs),
       kept_(kept),
       options_(options),
-      scene_(load_draft(kept.meshes, kept.marks, scene, extent_of(scene), eye, options.progress)) {
+      scene_(load_draft(kept.meshes, kept.marks, scene, kept.extent.find(scene), eye,
+                        options.progress)) {
   const Eigen::Vector2d depths = depth_range(scene_.eye);
   projection_ = view_projection(scene_.eye, static_cast<double>(options.width) / options.height,
                                 depths[0], depths[1]);

@@ -4,6 +4,7 @@
 
 #include "clench/render/figure/picture.h"
 #include "clench/render/gl/programs.h"
+#include "clench/render/mesh/extent.h"
 #include "clench/render/paint/draft_shadow.h"
 #include "clench/render/paint/draft_target.h"
 #include "clench/render/paint/edge_pass.h"
@@ -18,6 +19,7 @@ struct DraftKept {
   explicit DraftKept(size_t most) : meshes(most) {}
   size_t bytes() const;
 
+  ExtentFinder extent;
   MeshStore meshes;
   DraftMarks marks;
   DraftShadow shadow;

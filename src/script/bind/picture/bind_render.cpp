@@ -1,7 +1,12 @@
 #include "clench/script/bind/bind.h"
 
+#include <cmath>
+#include <memory>
+#include <utility>
+
 #include "clench/base/convert.h"
 #include "clench/render/renderer.h"
+#include "clench/render/view/pick.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/picture/read_scene.h"
@@ -96,23 +101,42 @@ struct View {
   Eye eye;
 };
 
-// size, quality and the camera, which must be all that is left of the options
-View read_view(lua_State* L, Table& options, const Scene& scene) {
-  View view{read_rendering(options), {}};
-  // a camera that is given in part begins from the one that frames everything
+constexpr const char* camera_keys[] = {"eye", "target", "up", "field_of_view", "orthographic"};
+
+// a camera that is given in part begins from the one that frames everything
+Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOptions& rendering) {
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
   options.push("orthographic");
   const bool ortho = lua_toboolean(L, -1);
   lua_pop(L, 1);
-  const double aspect = static_cast<double>(view.rendering.width) / view.rendering.height;
-  check(view.rendering);
+  const double aspect = static_cast<double>(rendering.width) / rendering.height;
   const Eye framed = parts == 4 ? Eye{} : kept<Renderer>(L).frame_all(scene, aspect, ortho);
-  view.eye = read_eye(options, framed);
+  Eye eye = read_eye(options, framed);
   // where something else is looked at, the height is that at the target
   if (options.has("eye") || options.has("target") || options.has("field_of_view"))
-    view.eye.ortho_height = 0;
-  view.eye.ortho_height = read_ortho(L, options, view.eye);
+    eye.ortho_height = 0;
+  eye.ortho_height = read_ortho(L, options, eye);
+  return eye;
+}
+
+// size, quality and the camera, in a table of its own or not, which must be all that is left of the
+// options
+View read_view(lua_State* L, Table& options, const Scene& scene) {
+  View view{read_rendering(options), {}};
+  check(view.rendering);
+  if (options.has("camera")) {
+    for (const char* key : camera_keys)
+      if (options.has(key))
+        fail("{}: expected either camera or {}, got both", options.subject(), key);
+    options.push("camera");
+    Table camera(L, lua_gettop(L), options.what("camera").text());
+    view.eye = read_camera(L, camera, scene, view.rendering);
+    camera.done();
+    lua_pop(L, 1);
+  } else {
+    view.eye = read_camera(L, options, scene, view.rendering);
+  }
   options.done();
   return view;
 }
@@ -139,14 +163,20 @@ Picture draw_scene(lua_State* L, Table& options, Scene scene) {
   if (!scene.labels.empty() || !scene.caption.empty()) warn_without_letters(L, font);
   const Watching watching(L);
   view.rendering.progress = watching.progress();
-  return kept<Renderer>(L).draw(scene, view.rendering, font);
+  Picture picture = kept<Renderer>(L).draw(scene, view.rendering, font);
+  picture.scene = std::make_shared<const Scene>(std::move(scene));
+  return picture;
 }
 
 static int render_draw(lua_State* L) {
   const World* world = check_object<WorldHandle>(L, 1, "world").world.get();
   Table options(L, 2);
   Scene scene = read_scene(L, options, {&world, 1});
-  return push_object(L, draw_scene(L, options, std::move(scene)));
+  // whose bodies are picked in the picture
+  push_object(L, draw_scene(L, options, std::move(scene)), 1);
+  lua_pushvalue(L, 1);
+  lua_setiuservalue(L, -2, 1);
+  return 1;
 }
 
 // a world, or a list of states of one
@@ -208,6 +238,53 @@ static int alpha(lua_State* L) {
   return push(L, p.alpha.empty() ? 255 : static_cast<int>(p.alpha[at]));
 }
 
+static const char* kind_word(Shown::Kind kind) {
+  switch (kind) {
+    case Shown::Kind::body:
+      return "body";
+    case Shown::Kind::contact:
+      return "contact";
+    case Shown::Kind::site:
+      return "patch";
+    case Shown::Kind::approach:
+      return "approach";
+    case Shown::Kind::force:
+      return "force";
+    case Shown::Kind::floor:
+      return "floor";
+    case Shown::Kind::nothing:
+      break;
+  }
+  return "other";
+}
+
+// a field of the table on top of the stack: a body that is still in the world
+static void set_picked_body(lua_State* L, const char* key, const WorldHandle* world, Id<Body> id) {
+  if (!world || !id || !world->world->alive(id)) return;
+  push_object(L, BodyHandle{world->world, id});
+  lua_setfield(L, -2, key);
+}
+
+static int pick_pixel(lua_State* L) {
+  const Picture& p = self<Picture>(L);
+  check_pixel(L, p);
+  if (!p.scene || !p.eye) fail("{}: expected a picture of a world, got a figure", subject(L));
+  const PicturePlace place{.x = check_int(L, 2, "x") - 0.5,
+                           .y = check_int(L, 3, "y") - 0.5,
+                           .width = static_cast<double>(p.width),
+                           .height = static_cast<double>(p.height)};
+  const auto found = pick(*p.scene, *p.eye, place);
+  if (!found) return push_nil(L);
+  lua_getiuservalue(L, 1, 1);
+  const auto* world = to<WorldHandle>(L, -1);
+  push_record(L, {{"point", found->p_W}, {"normal", found->n_W}, {"distance", found->distance}});
+  lua_pushstring(L, kind_word(found->shown.kind));
+  lua_setfield(L, -2, "kind");
+  set_picked_body(L, "body", world, found->shown.body);
+  set_picked_body(L, "other", world, found->shown.other);
+  return 1;
+}
+
 static std::string picture_text(const Picture& p) {
   return fmt::format("picture of {} x {} pixels", p.width, p.height);
 }
@@ -219,7 +296,7 @@ all soft contacts, without the cones, which would cover them. The camera looks a
 links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes.
 It needs EGL and OpenGL, but no display. What a picture needs is kept for the next one, which is drawn faster.
 @param world world  world to draw
-@param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
+@param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: table, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; camera: these five in a table, such as the camera of a picture; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 @return picture
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > plain = clench.render(world, {size = {64, 48}, quality = "draft"})
@@ -229,6 +306,8 @@ It needs EGL and OpenGL, but no display. What a picture needs is kept for the ne
 > bare = clench.render(world, {size = {64, 48}, quality = "draft", patches = true, contacts = false})
 > clench.render(world, {size = {64, 48}, quality = "draft", patches = true}) == bare  --> true
 > clench.render(world, {size = {64, 48}, background = "white", orthographic = true, outline = 1})  --> picture of 64 x 48 pixels
+> clench.render(world, {size = {64, 48}, quality = "draft", camera = plain.camera}) == plain  --> true
+> clench.render(world, {camera = plain.camera, up = {0, 1, 0}})  --> error: expected either camera or up, got both
 > clench.render(world, {cones = "force"})  --> error: 'force' needs the option forces
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
     {"camera", guarded<choose_camera>, R"(
@@ -284,6 +363,18 @@ How much a pixel covers, 0 to 255: less than 255 where a transparent background 
 @return integer alpha
 > clench.render(world, {size = {64, 48}, quality = "draft"}):alpha(1, 1)  --> 255
 > clench.render(world, {size = {64, 48}, quality = "draft", background = "transparent"}):alpha(1, 1)  --> 0)"},
+    {"pick", guarded<pick_pixel>, R"(
+The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; bodies that one sees through count. nil where
+there is none. `body` and `other` are nil if they were removed since.
+@param x integer  column, from the left
+@param y integer  row, from the top
+@return table? picked  {kind: string, body?: body, other?: body, point: vec3, normal: vec3, distance: number}  kind: "body"; "contact" (a cone) or "patch", where body is touched by other; "approach", where body is the base of the robot; "force"; "floor"; or "other"; point: [m]; normal: unit, to the side of the camera; distance: from the camera [m]
+> place = world.objects[1].pose.position
+> p = clench.render(world, {size = {64, 48}, quality = "draft", camera = {eye = place + clench.vec3(0, 0, 1), target = place, up = {1, 0, 0}}})
+> p:pick(32, 24).body.name == world.objects[1].name  --> true
+> p:pick(32, 24).normal.z > 0  --> true
+> p:pick(65, 1)  --> error: expected 1..64, 1..48, got 65, 1
+> clench.sheet{pictures = {p}}:pick(1, 1)  --> error: expected a picture of a world, got a figure)"},
 };
 
 static const Entry render_operators[] = {

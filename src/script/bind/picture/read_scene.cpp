@@ -45,7 +45,10 @@ static GivenForces read_forces(lua_State* L, Table& options) {
 static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
   const double longest = given.longest > 0 ? given.longest : 1;
   const double scale = options.positive("force_scale", force_scale(given.forces, longest));
-  for (DrawArrow& arrow : force_arrows(given.forces, scale)) scene.arrows.push_back(arrow);
+  for (DrawArrow& arrow : force_arrows(given.forces, scale)) {
+    arrow.shown.kind = Shown::Kind::force;
+    scene.arrows.push_back(arrow);
+  }
   scene.labels = force_labels(given.forces, scale);
   if (!scene.labels.empty())
     scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
