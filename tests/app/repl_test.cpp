@@ -295,6 +295,25 @@ TEST_CASE("a signal that ends the console ends it as that signal, and gives the 
   }
 }
 
+TEST_CASE("messages of other threads replace the bar, and their own bars stay hidden") {
+  const Folder home;
+  Terminal terminal(home);
+  terminal.wait_for("> ");
+  terminal.enter(
+      "function wait(s) local c = require 'clench' local t = c.clock() while c.clock() < t + s do "
+      "end end");
+  terminal.enter(
+      "function work() local c = require 'clench' local p, t = c.progress(2, 'in' .. 'ner'), "
+      "c.clock() while c.clock() < t + 0.6 do end p:step() c.log.warning 'thin' end");
+  terminal.enter(
+      "p = clench.progress(2, 'all') wait(0.6) p:step() clench.parallel.map(work, {1}) p:close() "
+      "print('o' .. 'ver')");
+  terminal.wait_for("[##");
+  const std::string seen = terminal.wait_for("over");
+  CHECK(seen.find("\r\x1b[Kclench: warning: thin\r\n") != std::string::npos);
+  CHECK(seen.find("inner") == std::string::npos);
+}
+
 TEST_CASE("a console that is stopped gives the terminal back, and takes it again when it goes on") {
   const Folder home;
   Terminal terminal(home);

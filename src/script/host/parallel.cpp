@@ -118,7 +118,9 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
 
 class Crew {
  public:
-  Crew(const Task& task, std::vector<Parcel> shared) : task_(task), outcomes_(task.items.size()) {
+  /// first  how the first worker comes by its core
+  Crew(const Task& task, std::vector<Parcel> shared, CoreSlot::Start first)
+      : task_(task), first_(first), outcomes_(task.items.size()) {
     workers_.resize(shared.size());
     for (size_t i = 0; i < shared.size(); ++i) workers_[i].shared = std::move(shared[i]);
     for (Worker& worker : workers_) threads_.emplace_back([this, &worker] { run(worker); });
@@ -193,7 +195,9 @@ class Crew {
 
   void run(Worker& worker) {
     set_thread_nice(task_.nice);
-    const CoreSlot slot([this] { return ended_.load(); });
+    // the first one works in place of the caller, so that a map goes on whatever else runs
+    const CoreSlot slot([this] { return ended_.load(); },
+                        &worker == &workers_.front() ? first_ : CoreSlot::Start::wait);
     std::string problem;
     try {
       // one that had to wait for a core may find nothing left to do
@@ -218,6 +222,7 @@ class Crew {
   }
 
   const Task& task_;
+  CoreSlot::Start first_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::optional<Outcome>> outcomes_;
@@ -291,9 +296,10 @@ int map(lua_State* L) {
   lua_Integer failed = 0;
   if (count > 0) {
     // the workers compute, and this thread only hands over what they have done
-    const SlotLent lent;
+    const SlotLent lent(SlotLent::To::one);
     task.memory = State::memory_of(L) / copies.size();
-    Crew crew(task, std::move(copies));
+    Crew crew(task, std::move(copies),
+              lent.is_lent() ? CoreSlot::Start::handed : CoreSlot::Start::at_once);
     const Watching watching(L);
     for (size_t i = 0; i < count; ++i) {
       const Outcome* outcome = nullptr;

@@ -40,8 +40,10 @@ thread_local CoreSlot* slot_of_thread = nullptr;
 
 }  // namespace
 
-CoreSlot::CoreSlot(std::function<bool()> is_stopped) : is_stopped_(std::move(is_stopped)) {
-  free_slots().take(is_stopped_);
+CoreSlot::CoreSlot(std::function<bool()> is_stopped, Start start)
+    : is_stopped_(std::move(is_stopped)) {
+  if (start == Start::wait) free_slots().take(is_stopped_);
+  if (start == Start::at_once) free_slots().take([] { return true; });
   slot_of_thread = this;
 }
 
@@ -57,6 +59,8 @@ bool CoreSlot::lend() {
   free_slots().give();
   return true;
 }
+
+bool CoreSlot::hand_over() { return !std::exchange(lent_, true); }
 
 void CoreSlot::take_back() {
   if (!lent_) return;

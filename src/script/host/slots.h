@@ -9,9 +9,14 @@ namespace clench {
 /// others lend theirs, so that nested levels of work share the cores.
 class CoreSlot {
  public:
-  /// Waits for a free slot; once `is_stopped` returns true it waits no longer and takes one beyond
-  /// their number, so that stopped work ends at once. A thread holds at most one.
-  explicit CoreSlot(std::function<bool()> is_stopped);
+  enum class Start {
+    wait,     ///< waits for a free one
+    at_once,  ///< takes one beyond their number if none is free
+    handed,   ///< has the one that the calling thread of SlotLent hands over
+  };
+  /// Once `is_stopped` returns true it waits no longer and takes one beyond their number, so that
+  /// stopped work ends at once. A thread holds at most one.
+  explicit CoreSlot(std::function<bool()> is_stopped, Start start = Start::wait);
   ~CoreSlot();
   CoreSlot(const CoreSlot&) = delete;
   CoreSlot& operator=(const CoreSlot&) = delete;
@@ -20,6 +25,8 @@ class CoreSlot {
   static CoreSlot* of_thread();
   /// Lets another thread have it.   returns  was it not lent yet?
   bool lend();
+  /// Leaves it to the thread that starts with Start::handed.   returns  as lend()
+  bool hand_over();
   /// Waits until one is free again.
   void take_back();
 
@@ -31,9 +38,12 @@ class CoreSlot {
 /// Lends the slot of the calling thread, if it holds one, during the object's lifetime.
 class SlotLent {
  public:
-  SlotLent() : slot_(CoreSlot::of_thread()) {
-    if (slot_ && !slot_->lend()) slot_ = nullptr;
+  enum class To { any, one };  ///< thread that may have it; one: that starts with Start::handed
+  explicit SlotLent(To to = To::any) : slot_(CoreSlot::of_thread()) {
+    if (slot_ && !(to == To::one ? slot_->hand_over() : slot_->lend())) slot_ = nullptr;
   }
+  /// Did the thread hold one?
+  bool is_lent() const { return slot_ != nullptr; }
   ~SlotLent() {
     if (slot_) slot_->take_back();
   }

@@ -42,7 +42,7 @@ void State::warn(void* state, const char* text, int to_be_continued) {
   if (m.warning.empty() && !to_be_continued && *text == '@') return;  // a control message
   m.warning += text;
   if (to_be_continued) return;
-  if (!m.quiet) fmt::print(stderr, "clench: warning: {}\n", printable(m.warning, "\n\t"));
+  if (!m.quiet) write_above_bar(fmt::format("clench: warning: {}\n", printable(m.warning, "\n\t")));
   m.warning.clear();
 }
 

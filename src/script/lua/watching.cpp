@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -19,6 +20,17 @@ static double bar_time() {
 
 static constexpr double bar_delay = 0.5, pause = 0.1;  // before it shows, and between two bars [s]
 
+static constexpr std::string_view erase_line = "\r\x1b[K";
+
+// The terminal is one for all states and threads of the process.
+static std::atomic<bool> bar_stands = false;
+
+void write_above_bar(std::string_view lines) {
+  std::string text(bar_stands.exchange(false) ? erase_line : "");
+  text += lines;
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
 Bar::Bar() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Bar::begin() {
@@ -27,7 +39,7 @@ void Bar::begin() {
 
 void Bar::end() {
   if (--depth_ > 0 || !drawn_) return;
-  std::fputs("\r\x1b[K", stderr);
+  write_above_bar("");
   drawn_ = false;
 }
 
@@ -81,7 +93,7 @@ void Bar::draw(double fraction, std::string_view text) {
   if (time - began_ < bar_delay || time - last_ < pause) return;
   last_ = time;
   drawn_ = true;
-  std::string line = "\r\x1b[K";
+  std::string line(erase_line);
   if (fraction >= 0) {
     constexpr int width = 30;
     const int full = floor_between(fraction * width, 0, width);
@@ -92,6 +104,7 @@ void Bar::draw(double fraction, std::string_view text) {
       line += fmt::format("{:.0f} s left  ", (time - began_) * (1 - fraction) / fraction);
   }
   line += excerpt(text);
+  bar_stands = true;
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

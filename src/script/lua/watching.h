@@ -5,6 +5,7 @@
 #include <lua.hpp>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 #include "clench/base/progress.h"
 
@@ -49,6 +50,10 @@ class Bar : public Watcher {
   std::optional<State> script_;  // progress of the script's loops; guarded by mutex_
   std::atomic<bool> interrupted_ = false, out_of_time_ = false;
 };
+
+/// Writes lines to stderr, in place of a bar that stands there; the bar is drawn again below them.
+/// Any thread may call it.
+void write_above_bar(std::string_view lines);
 
 /// The bar of the state, created on first use.
 const std::shared_ptr<Bar>& bar_of(lua_State* L);

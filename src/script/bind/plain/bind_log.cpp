@@ -13,6 +13,7 @@
 #include "clench/script/lua/kept.h"
 #include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/watching.h"
 
 namespace clench {
 
@@ -55,9 +56,7 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
   // a message about a file is logged once, even if the file is read several times
   if (about && !first_time(L, &of_file_key, message + argument_text(L))) return;
   // a message about a file is one line, whatever names it quotes
-  const std::string line =
-      fmt::format("clench: {}: {}\n", name, printable(message, about ? "" : "\n\t"));
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  write_above_bar(fmt::format("clench: {}: {}\n", name, printable(message, about ? "" : "\n\t")));
 }
 
 bool first_time(lua_State* L, const void* key, const std::string& about) {
