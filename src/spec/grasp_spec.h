@@ -53,6 +53,10 @@ struct PregraspState {
 struct GraspSpec {
   std::string hand_name = {}, object_name = {};
   std::string hand_file = {}, object_file = {};  ///< where they come from; empty: not known
+  /// shapes, links and joints of the hand, and surface of the object; empty: not known
+  std::string hand_fingerprint = {}, object_fingerprint = {};
+  std::string settings_fingerprint = {};  ///< of edges, rho and the other options of its measures
+  std::string engine_version = {};        ///< of the program that measured it
   std::optional<Pose> X_OH = {};  ///< the hand's base in the object; empty: put together by hand
   std::vector<double> dofs = {};  ///< values of all [rad or m]; of those that are named, else
   std::vector<std::string> dof_names = {};    ///< empty: not known, and the DOFs are all in order
