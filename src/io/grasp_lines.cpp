@@ -10,6 +10,7 @@
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
+#include "clench/io/grasps/identity_texts.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/text/find_file.h"
 
@@ -45,6 +46,8 @@ static Json json_of(const GraspSpec& g) {
   Json out = {{"hand", g.hand_name}, {"object", g.object_name}};
   if (!g.hand_file.empty()) out["hand_file"] = g.hand_file;
   if (!g.object_file.empty()) out["object_file"] = g.object_file;
+  for (const auto& [key, text] : identity_texts)
+    if (!(g.*text).empty()) out[key] = g.*text;
   if (g.X_OH) out["pose"] = json_of(*g.X_OH);
   out["dofs"] = g.dofs;
   if (!g.dof_names.empty()) out["dof_names"] = g.dof_names;
@@ -360,6 +363,7 @@ GraspSpec read_line(const Parsed& json, const std::string& place) {
   out.object_name = fields.text("object", true);
   out.hand_file = fields.text("hand_file", false);
   out.object_file = fields.text("object_file", false);
+  for (const auto& [key, text] : identity_texts) out.*text = fields.text(key, false);
   if (const Parsed* pose = fields.find("pose")) out.X_OH = read_pose(*pose, fields.at("pose"));
   out.dofs = fields.numbers("dofs");
   for (const auto& [key, list] :

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "clench/base/text.h"
+#include "clench/io/tree/tree_model.h"
 #include "clench/io/tree/tree_robot.h"
 
 namespace clench {
@@ -220,6 +221,52 @@ UrdfPlan Planner::plan() {
 }
 
 }  // namespace
+
+// from the root on, each link after its parent, branches in the order of their joints
+static TreeModel tree_of(const UrdfPlan& plan) {
+  std::vector<std::vector<int>> below(plan.links.size());
+  for (int j = 0; j < static_cast<int>(plan.joints.size()); ++j)
+    below[plan.joints[j].parent].push_back(j);
+  TreeModel tree;
+  struct Step {
+    int link, parent, joint;
+  };
+  std::vector<Step> stack = {{0, -1, -1}};
+  while (!stack.empty()) {
+    const Step step = stack.back();
+    stack.pop_back();
+    const int number = static_cast<int>(tree.links.size());
+    TreeLink& link = tree.links.emplace_back();
+    link.body.name = plan.links[step.link].name;
+    link.parent = step.parent;
+    if (step.joint >= 0 && plan.joints[step.joint].spec) link.joints.push_back(step.joint);
+    for (auto it = below[step.link].rbegin(); it != below[step.link].rend(); ++it)
+      stack.push_back({plan.joints[*it].child, number, *it});
+  }
+  for (const UrdfJoint& joint : plan.joints) {
+    TreeJoint& out = tree.joints.emplace_back();
+    if (!joint.spec) continue;
+    out.kind = joint.spec->kind;
+    out.ratio = joint.factor;
+    out.leader = joint.leads ? -1 : plan.leader_of[joint.spec->dof];
+  }
+  return tree;
+}
+
+RobotSpec outline_of(const UrdfPlan& plan) {
+  TreeModel tree = tree_of(plan);
+  order_branches(tree);
+  RobotSpec out;
+  out.base.name = tree.links.front().body.name;
+  for (size_t l = 1; l < tree.links.size(); ++l) {
+    LinkSpec& link = out.links.emplace_back();
+    link.body.name = tree.links[l].body.name;
+    link.parent = tree.links[l].parent - 1;  // the root is the base
+    for (const int j : tree.links[l].joints) link.joints.emplace_back(tree.joints[j]);
+  }
+  order_by_chains(out);
+  return out;
+}
 
 UrdfPlan plan_urdf(const RobotSpec& robot) { return Planner(robot).plan(); }
 

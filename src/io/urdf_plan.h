@@ -39,4 +39,8 @@ struct UrdfPlan {
 /// `robot` has to outlive the plan.
 UrdfPlan plan_urdf(const RobotSpec& robot);
 
+/// Links and joints as a reader of the file numbers them, and the chains that they form. Links have
+/// names, parents and joints, joints their kinds; nothing else is set.
+RobotSpec outline_of(const UrdfPlan& plan);
+
 }  // namespace clench

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "clench/base/file.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
 #include "clench/io/robot_folder.h"
 #include "clench/io/text/find_file.h"
 #include "clench/io/text/xml.h"
@@ -45,7 +45,7 @@ class UrdfText {
   bool has_all_dofs(const char* what) const;
   void beside_eigengrasps();
   void beside_glove();
-  void beside_contacts(const std::string& text);
+  void beside_contacts();
   void tell_moved_frames() const;
 
   const RobotSpec& robot_;
@@ -160,7 +160,7 @@ std::string UrdfText::text() {
   for (const UrdfJoint& joint : plan_.joints) add_joint(joint);
   beside_eigengrasps();
   beside_glove();
-  beside_contacts(out_ + "</robot>\n");
+  beside_contacts();
   out_ += clench_element(robot_, plan_, beside_);
   add("", "</robot>");
   tell_moved_frames();
@@ -222,26 +222,21 @@ void UrdfText::beside_glove() {
   beside_.glove = folder_.glove(glove);
 }
 
-/// Chains and links have the numbers that a reader of the file gives them: they are looked up by
-/// name.
-void UrdfText::beside_contacts(const std::string& text) {
+/// Chains and links have the numbers that a reader of the file gives them.
+void UrdfText::beside_contacts() {
   if (!robot_.virtual_contacts) return;
-  folder_.write_parts();
-  const Draft draft(folder_.path(), text);
-  const RobotSpec read = read_robot(draft.path());
+  const RobotSpec outline = outline_of(plan_);
   std::map<std::string, int> links;
-  for (int l = 0; l < static_cast<int>(read.links.size()); ++l) links[read.links[l].body.name] = l;
+  for (int l = 0; l < static_cast<int>(outline.links.size()); ++l)
+    links[outline.links[l].body.name] = l;
   auto contacts = *robot_.virtual_contacts;
   for (VirtualContactSpec& contact : contacts) {
     if (contact.link < 0) continue;
     const UrdfLink& link = plan_.links[plan_.link(contact.link)];
-    const auto found = links.find(read.name + "_" + link.name);
-    if (found == links.end())
-      fail("{}: link '{}' is not found again in it", folder_.file(), excerpt(link.name));
-    contact.link = found->second;
+    contact.link = links.at(link.name);
     if (!(link.X_UB == Pose{})) contact.X_LC = link.X_UB * contact.X_LC;
   }
-  const auto set = contact_set(robot_.name, chains_of(read), std::move(contacts));
+  const auto set = contact_set(robot_.name, chains_of(outline), std::move(contacts));
   beside_.virtual_contacts = folder_.virtual_contacts(set);
 }
 

@@ -25,4 +25,16 @@ std::vector<Id<Body>> movable_bodies(const World& world, Id<Robot> robot) {
   return out;
 }
 
+CarriedBodies::CarriedBodies(const World& world, Id<Robot> id)
+    : movable_(movable_bodies(world, id)), link_count_(world.robot(id).links.size()) {
+  for (const auto body : world.bodies()) {
+    if (body.index >= links_.size()) links_.resize(body.index + 1, -1);
+    links_[body.index] = carrying_link(world, id, body);
+  }
+  const Robot& robot = world.robot(id);
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j)
+    for (int l = 0; l < static_cast<int>(link_count_); ++l)
+      moves_.push_back(joint_moves_link(robot, j, l));
+}
+
 }  // namespace clench

@@ -8,11 +8,11 @@ namespace clench {
 // a contact blocks a joint that has a lever longer than a nanometre
 static constexpr double no_lever = 1e-9;
 
-Eigen::Vector3d contact_velocity(const World& world, Id<Robot> id, const RobotFrames& frames,
-                                 int joint, const Contact& contact) {
-  const bool moves_body = joint_moves(world, id, joint, contact.body);
-  if (moves_body == joint_moves(world, id, joint, contact.other)) return Eigen::Vector3d::Zero();
-  return (moves_body ? 1 : -1) * frames.velocity(world.robot(id), joint, contact.p_W);
+Eigen::Vector3d contact_velocity(const Robot& robot, const CarriedBodies& bodies,
+                                 const RobotFrames& frames, int joint, const Contact& contact) {
+  const bool moves_body = bodies.moved_by(joint, contact.body);
+  if (moves_body == bodies.moved_by(joint, contact.other)) return Eigen::Vector3d::Zero();
+  return (moves_body ? 1 : -1) * frames.velocity(robot, joint, contact.p_W);
 }
 
 namespace {
@@ -28,22 +28,24 @@ struct Share {
 }  // namespace
 
 // of joints that move one side of the contact, not both
-static std::vector<Share> shares_of(const World& world, Id<Robot> id, const RobotFrames& frames,
-                                    const JointSpeeds& speeds, const Contact& contact) {
+static std::vector<Share> shares_of(const Robot& robot, const CarriedBodies& bodies,
+                                    const RobotFrames& frames, const JointSpeeds& speeds,
+                                    const Contact& contact) {
   std::vector<Share> shares;
   for (int j = 0; j < static_cast<int>(speeds.size()); ++j) {
     if (speeds[j] == 0) continue;
-    const bool moves_body = joint_moves(world, id, j, contact.body);
-    if (moves_body == joint_moves(world, id, j, contact.other)) continue;
-    const Eigen::Vector3d v = speeds[j] * contact_velocity(world, id, frames, j, contact);
+    const bool moves_body = bodies.moved_by(j, contact.body);
+    if (moves_body == bodies.moved_by(j, contact.other)) continue;
+    const Eigen::Vector3d v = speeds[j] * contact_velocity(robot, bodies, frames, j, contact);
     shares.push_back({j, moves_body, v.dot(contact.n_W),
                       std::max(grazing * v.norm(), no_lever * std::abs(speeds[j]))});
   }
   return shares;
 }
 
-BlockedJoints blocked_joints(const World& world, Id<Robot> id, const JointSpeeds& speeds,
-                             std::span<const Contact> touching, double closed) {
+BlockedJoints blocked_joints(const World& world, Id<Robot> id, const CarriedBodies& bodies,
+                             const JointSpeeds& speeds, std::span<const Contact> touching,
+                             double closed) {
   const auto frames = world.frames(id);
   BlockedJoints out;
   std::set<BodyPair> seen;
@@ -51,7 +53,7 @@ BlockedJoints blocked_joints(const World& world, Id<Robot> id, const JointSpeeds
     const auto pushes = [&](double leaving, double margin) {
       return leaving < (contact.gap <= closed ? margin : -margin);
     };
-    const auto shares = shares_of(world, id, frames, speeds, contact);
+    const auto shares = shares_of(world.robot(id), bodies, frames, speeds, contact);
     double leaving = 0, margin = 0;
     for (const Share& share : shares) leaving += share.leaving, margin += share.margin;
     if (!pushes(leaving, margin)) continue;

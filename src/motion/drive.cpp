@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
@@ -28,100 +29,129 @@ static constexpr int max_unrest = 20;
 
 namespace {
 
-// may a compliant DOF go on? it leaves blocked joints behind, and winds up their springs until
-// contacts and limits would hold against whatever more it pulls
-bool tendon_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked,
-                        const SpringBalance& springs) {
+/// Does a DOF go on past its blocked joints, and which of them does it leave behind?
+struct Passing {
+  bool advances = false;
+  std::vector<int> left_behind = {};
+};
+
+// A compliant DOF leaves blocked joints behind, and winds up their springs until contacts and
+// limits would hold against whatever more it pulls.
+Passing pass_with_springs(const Robot& robot, const DrivePosture& posture, int dof, double rate,
+                          const BlockedJoints& blocked, const SpringBalance& springs) {
+  Passing out;
   bool free = false, unwinds = false;
-  each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
-    JointPosition& own = drive.joint_positions[j];
-    const double place = joint.ratio * drive.q[dof];
+  each_joint_of(robot, dof, [&](int j, const Joint& joint) {
+    const JointPosition& own = posture.own[j];
+    const double place = joint.ratio * posture.dofs[dof];
     if (!own && blocked.joints.contains(j))
-      own = place;
+      out.left_behind.push_back(j);
     else if (!own)
       free = true;
     else
       unwinds = unwinds || (place - *own) * joint.ratio * rate < 0;
   });
-  return free || unwinds || !springs.balanced_by_contacts(dof, rate < 0 ? -1 : 1);
+  out.advances = free || unwinds || !springs.balanced_by_contacts(dof, rate < 0 ? -1 : 1);
+  return out;
 }
 
-// may the DOF go on past its blocked joints? a breakaway DOF, closing, leaves them behind
-bool dof_can_advance(Drive& drive, int dof, double rate, const BlockedJoints& blocked) {
-  int stopped = 0, free = 0;
-  each_joint_of(drive.robot(), dof, [&](int j, const Joint&) {
+// A breakaway DOF, closing, leaves blocked joints behind; a rigid one stops with them.
+Passing pass_rigidly(const Robot& robot, const DrivePosture& posture, int dof, double rate,
+                     const BlockedJoints& blocked) {
+  std::vector<int> stopped;
+  int free = 0;
+  each_joint_of(robot, dof, [&](int j, const Joint&) {
     if (blocked.joints.contains(j))
-      ++stopped;
-    else if (!drive.joint_positions[j])
+      stopped.push_back(j);
+    else if (!posture.own[j])
       ++free;
   });
-  if (stopped == 0) return free > 0;
-  if (drive.robot().dofs[dof].kind != DofKind::breakaway || rate < 0 || free == 0) return false;
-  each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
-    if (blocked.joints.contains(j)) drive.joint_positions[j] = joint.ratio * drive.q[dof];
-  });
-  return true;
+  if (stopped.empty()) return {.advances = free > 0};
+  if (robot.dofs[dof].kind != DofKind::breakaway || rate < 0 || free == 0) return {};
+  return {.advances = true, .left_behind = stopped};
 }
 
+/// What contacts leave of a motion of the DOFs.
+struct BlockedDofs {
+  DrivePosture posture;         ///< with the joints that are left behind
+  Eigen::VectorXd rates;        ///< 0 of DOFs that are stopped
+  std::vector<int> stopped;     ///< these DOFs
+  std::vector<BodyPair> pairs;  ///< whose contacts stop them, or hold joints
+};
+
 // Stops the DOFs that contacts block; what one of them held apart may block others.
-// returns  the pairs whose contacts do
-std::vector<BodyPair> stop_blocked(Drive& drive, Eigen::VectorXd& rates, double closed,
-                                   std::vector<DofStop>& stops) {
-  const auto touching =
-      contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
-  const SpringBalance springs(drive.world, drive.id, touching);
-  std::vector<BodyPair> pairs;
+BlockedDofs find_blocked(const DrivenRobot& driven, const DrivePosture& posture,
+                         const Eigen::VectorXd& rates, std::span<const Contact> touching) {
+  const double closed = 2 * nearly_closed * driven.world.contact_threshold();
+  const SpringBalance springs(driven.world, driven.id, driven.bodies, touching);
+  BlockedDofs out{posture, rates, {}, {}};
   for (bool changed = true; changed;) {
     changed = false;
-    const auto left_behind = drive.joint_positions;
+    const auto speeds = joint_speeds(driven, out.posture.own, out.rates, true);
     const auto blocked =
-        blocked_joints(drive.world, drive.id, joint_speeds(drive, rates, true), touching, closed);
-    for (int i = 0; i < rates.size(); ++i) {
-      if (rates[i] == 0) continue;
-      if (drive.sprung(i) ? tendon_can_advance(drive, i, rates[i], blocked, springs)
-                          : dof_can_advance(drive, i, rates[i], blocked))
-        continue;
-      rates[i] = 0;
-      stops[i] = DofStop::contact;
-      changed = true;
+        blocked_joints(driven.world, driven.id, driven.bodies, speeds, touching, closed);
+    for (int i = 0; i < out.rates.size(); ++i) {
+      const double rate = out.rates[i];
+      if (rate == 0) continue;
+      const Passing passing =
+          driven.sprung(i)
+              ? pass_with_springs(driven.robot(), out.posture, i, rate, blocked, springs)
+              : pass_rigidly(driven.robot(), out.posture, i, rate, blocked);
+      for (const int j : passing.left_behind)
+        out.posture.own[j] = driven.robot().joints[j].ratio * out.posture.dofs[i];
+      changed = changed || !passing.left_behind.empty() || !passing.advances;
+      if (passing.advances) continue;
+      out.rates[i] = 0;
+      out.stopped.push_back(i);
     }
-    changed = changed || left_behind != drive.joint_positions;
     for (const BodyPair& pair : blocked.pairs)
-      if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+      if (std::ranges::find(out.pairs, pair) == out.pairs.end()) out.pairs.push_back(pair);
   }
-  return pairs;
+  return out;
 }
 
 // how far the path runs before a DOF arrives, picks up a joint that it had left behind, or has
 // deflected springs by a step
-double path_length(const Drive& drive, const Eigen::VectorXd& rates) {
+double path_length(const DrivenRobot& driven, const DrivePosture& posture,
+                   const Eigen::VectorXd& targets, const Eigen::VectorXd& rates) {
   double length = std::numeric_limits<double>::infinity();
   for (int dof = 0; dof < rates.size(); ++dof) {
     if (rates[dof] == 0) continue;
-    length = std::min(length, (drive.targets[dof] - drive.q[dof]) / rates[dof]);
-    each_joint_of(drive.robot(), dof, [&](int j, const Joint& joint) {
-      if (!drive.joint_positions[j]) return;
-      const double there = (*drive.joint_positions[j] / joint.ratio - drive.q[dof]) / rates[dof];
+    const double q = posture.dofs[dof];
+    length = std::min(length, (targets[dof] - q) / rates[dof]);
+    each_joint_of(driven.robot(), dof, [&](int j, const Joint& joint) {
+      if (!posture.own[j]) return;
+      const double there = (*posture.own[j] / joint.ratio - q) / rates[dof];
       if (there > 0) length = std::min(length, there);
-      if (drive.sprung(dof))
+      if (driven.sprung(dof))
         length = std::min(length, pull_step / std::abs(joint.ratio * rates[dof]));
     });
   }
   return length;
 }
 
+/// Where a path ended, and why.
+struct Followed {
+  DrivePosture posture;
+  Advance end;
+  int queries = 0;
+};
+
 // follows the path until a DOF arrives or a pair touches
-Advance follow(Drive& drive, const Eigen::VectorXd& rates, int& queries) {
-  const Eigen::VectorXd start = drive.q;
+Followed follow(const DrivenRobot& driven, const DrivePosture& start, PairBounds& pairs,
+                const Eigen::VectorXd& targets, const Eigen::VectorXd& rates) {
+  Followed out{start, {}};
   const auto place = [&](double s) {
-    drive.q = start + s * rates;
+    Eigen::VectorXd& q = out.posture.dofs;
+    q = start.dofs + s * rates;
     // who arrives, arrives exactly
     for (int i = 0; i < rates.size(); ++i)
-      if (rates[i] != 0 && std::abs(drive.targets[i] - drive.q[i]) <= arrived)
-        drive.q[i] = drive.targets[i];
-    drive.place();
+      if (rates[i] != 0 && std::abs(targets[i] - q[i]) <= arrived) q[i] = targets[i];
+    driven.place(out.posture);
   };
-  return follow_path(drive, joint_speeds(drive, rates), path_length(drive, rates), place, queries);
+  out.end = follow_path(driven, pairs, joint_speeds(driven, start.own, rates),
+                        path_length(driven, start, targets, rates), place, out.queries);
+  return out;
 }
 
 void check(const Robot& robot, const DofMotion& motion) {
@@ -149,52 +179,82 @@ void stop_all(DriveResult& result, const Eigen::VectorXd& rates, DofStop why) {
     if (rates[i] != 0) result.stops[i] = why;
 }
 
-// of what was asked for, what has somewhere to go
-void stop_arrived(const Drive& drive, Eigen::VectorXd& rates, DriveResult& result) {
+/// Rates of the DOFs that have somewhere to go, and why the others stop.
+struct RatesLeft {
+  Eigen::VectorXd rates;
+  std::vector<std::pair<int, DofStop>> stops;  ///< of DOFs that were to move
+};
+
+RatesLeft without_arrived(const Robot& robot, const Eigen::VectorXd& dofs,
+                          const Eigen::VectorXd& targets, const Eigen::VectorXd& rates) {
+  RatesLeft out{rates, {}};
   for (int i = 0; i < rates.size(); ++i) {
-    const double way = drive.targets[i] - drive.q[i];
-    if (rates[i] * way > 0) continue;
+    if (rates[i] * (targets[i] - dofs[i]) > 0) continue;
     if (rates[i] != 0) {
-      const auto [low, high] = range_around(drive.robot(), i, drive.q[i]);
-      result.stops[i] = drive.q[i] == low || drive.q[i] == high ? DofStop::limit : DofStop::reached;
+      const auto [low, high] = range_around(robot, i, dofs[i]);
+      const bool at_limit = dofs[i] == low || dofs[i] == high;
+      out.stops.emplace_back(i, at_limit ? DofStop::limit : DofStop::reached);
     }
-    rates[i] = 0;
+    out.rates[i] = 0;
   }
+  return out;
 }
 
-// Goes from event to event until nothing moves. `rates` are of the fastest DOF.
-void drive_on(Drive& drive, const Eigen::VectorXd& all_rates, const DriveOptions& options,
-              DriveResult& result) {
-  const bool sprung = std::ranges::any_of(
-      drive.robot().dofs, [](const DofSpec& dof) { return dof.kind == DofKind::compliant; });
-  const double closed = 2 * nearly_closed * drive.world.contact_threshold();
+// Goes from event to event until nothing moves: springs come to rest, contacts stop DOFs, the
+// others follow their path.   motion  rates of the fastest DOF   returns  the last posture
+DrivePosture drive_on(const DrivenRobot& driven, DrivePosture posture, const DofMotion& motion,
+                      const DriveOptions& options, DriveResult& result) {
+  const auto& [targets, all_rates] = motion;
+  PairBounds pairs = pairs_to_watch(driven);
   int unrest = 0;
   while (true) {
-    drive.world.context().progress().check();
+    driven.world.context().progress().check();
     check_stop();
-    re_engage(drive);
-    const Springs springs = sprung ? relax_springs(drive, options, result) : Springs::at_rest;
-    if (springs == Springs::stopped) return stop_all(result, all_rates, DofStop::contact);
+    posture = re_engaged(driven, std::move(posture));
+    RelaxedSprings relaxed = relax_springs(driven, posture, pairs, options);
+    posture = std::move(relaxed.posture);
+    result.queries += relaxed.queries;
+    result.events += relaxed.events;
+    if (relaxed.springs == Springs::stopped) {
+      result.stopped_by = relaxed.stopped_by;
+      stop_all(result, all_rates, DofStop::contact);
+      return posture;
+    }
+
     // who has somewhere to go, and is not blocked
-    Eigen::VectorXd rates = all_rates;
-    stop_arrived(drive, rates, result);
-    result.stopped_by = stop_blocked(drive, rates, closed, result.stops);
+    const RatesLeft left = without_arrived(driven.robot(), posture.dofs, targets, all_rates);
+    for (const auto& [dof, why] : left.stops) result.stops[dof] = why;
+    BlockedDofs blocked = find_blocked(driven, posture, left.rates, driven.touching());
+    for (const int dof : blocked.stopped) result.stops[dof] = DofStop::contact;
+    result.stopped_by = blocked.pairs;
+    posture = std::move(blocked.posture);
+    const Eigen::VectorXd& rates = blocked.rates;
     if (rates.isZero(0)) {
-      if (springs == Springs::at_rest) return;
+      if (relaxed.springs == Springs::at_rest) return posture;
       if (++unrest <= max_unrest) continue;
       for (int i = 0; i < rates.size(); ++i)
-        if (drive.sprung(i)) result.stops[i] = DofStop::iteration_limit;
-      return;
+        if (driven.sprung(i)) result.stops[i] = DofStop::iteration_limit;
+      return posture;
     }
-    if (result.events >= max_events) return stop_all(result, rates, DofStop::iteration_limit);
+    if (result.events >= max_events) {
+      stop_all(result, rates, DofStop::iteration_limit);
+      return posture;
+    }
 
-    const Advance end = follow(drive, rates, result.queries);
-    if (end.iteration_limit) return stop_all(result, rates, DofStop::iteration_limit);
+    Followed followed = follow(driven, posture, pairs, targets, rates);
+    posture = std::move(followed.posture);
+    result.queries += followed.queries;
+    const Advance& end = followed.end;
+    if (end.iteration_limit) {
+      stop_all(result, rates, DofStop::iteration_limit);
+      return posture;
+    }
     if (!end.stopped_by) continue;
     ++result.events;
     if (options.stop_at_contact && !end.stopped_by->touching) {
       result.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
-      return stop_all(result, rates, DofStop::contact);
+      stop_all(result, rates, DofStop::contact);
+      return posture;
     }
   }
 }
@@ -205,22 +265,23 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
                   const DriveOptions& options) {
   const Robot& robot = world.robot(id);
   check(robot, motion);
-  Drive drive = begin_drive(world, id);
-  drive.targets = motion.targets;
-  for (int i = 0; i < drive.targets.size(); ++i) {
-    const auto [low, high] = range_around(robot, i, drive.targets[i]);
-    drive.targets[i] = std::clamp(drive.targets[i], low, high);
+  const DrivenRobot driven{world, id, CarriedBodies(world, id)};
+  DofMotion inside = motion;
+  for (int i = 0; i < inside.targets.size(); ++i) {
+    const auto [low, high] = range_around(robot, i, inside.targets[i]);
+    inside.targets[i] = std::clamp(inside.targets[i], low, high);
   }
-  refuse_collision(world, drive.moving, fmt::format("driving '{}'", excerpt(robot.name)));
+  refuse_collision(world, driven.bodies.movable(),
+                   fmt::format("driving '{}'", excerpt(robot.name)));
 
   // the path does not depend on the pace: the fastest DOF counts as 1
   const double fastest = motion.rates.lpNorm<Eigen::Infinity>();
-  const double pace = fastest > 0 ? fastest : 1;
+  inside.rates /= fastest > 0 ? fastest : 1;
   const Eigen::VectorXd dofs = world.dofs(id), joints = world.joints(id);
   DriveResult result;
   result.stops.assign(robot.dofs.size(), DofStop::not_driven);
-  drive_on(drive, motion.rates / pace, options, result);
-  drive.place();
+  const DrivePosture start{world.dofs(id), world.own_joint_positions(id)};
+  driven.place(drive_on(driven, start, inside, options, result));
   result.moved = any_moved(dofs, world.dofs(id)) || any_moved(joints, world.joints(id));
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "clench/base/watched.h"
 
@@ -13,9 +14,10 @@ static constexpr double in_place = 1e-12;
 namespace {
 
 // has the DOF come to where a joint stands that left it?
-bool back_at(const Drive& drive, const JointSpec& joint, double own) {
-  const double beyond = joint.ratio * drive.q[joint.dof] - own;
-  if (drive.sprung(joint.dof)) return std::abs(beyond) <= in_place;
+bool back_at(const DrivenRobot& driven, const Eigen::VectorXd& dofs, const JointSpec& joint,
+             double own) {
+  const double beyond = joint.ratio * dofs[joint.dof] - own;
+  if (driven.sprung(joint.dof)) return std::abs(beyond) <= in_place;
   return beyond * (joint.ratio < 0 ? -1 : 1) <= 0;
 }
 
@@ -28,13 +30,13 @@ double span_of(const JointSpec& joint) {
 
 // bound of the distance of any point of the body from the axis of a joint that moves it, whatever
 // the joints do on the way: lengths along the links, then the body's own extent
-double lever(const Drive& drive, int joint, Id<Body> id) {
-  const Robot& robot = drive.robot();
-  const Body& body = drive.world.body(id);
-  int link = carrying_link(drive.world, drive.id, id);
+double lever(const DrivenRobot& driven, int joint, Id<Body> id) {
+  const Robot& robot = driven.robot();
+  const Body& body = driven.world.body(id);
+  int link = driven.bodies.link(id);
   // a carried robot is rigid on its link
-  const Pose X_WL = drive.world.pose(robot.links[link].body);
-  const Eigen::Vector3d centre = X_WL.inverse() * (drive.world.pose(id) * body.shape->centre());
+  const Pose X_WL = driven.world.pose(robot.links[link].body);
+  const Eigen::Vector3d centre = X_WL.inverse() * (driven.world.pose(id) * body.shape->centre());
   double length = centre.norm() + body.shape->radius();
   while (true) {
     const Link& l = robot.links[link];
@@ -48,66 +50,64 @@ double lever(const Drive& drive, int joint, Id<Body> id) {
 }
 
 // bound of the relative speed of two bodies: the joints that move one of them and not the other
-double pair_speed(const Drive& drive, const JointSpeeds& speeds, Id<Body> a, Id<Body> b) {
+double pair_speed(const DrivenRobot& driven, const JointSpeeds& speeds, Id<Body> a, Id<Body> b) {
   check_stop();
   double sum = 0;
   for (int j = 0; j < static_cast<int>(speeds.size()); ++j) {
     if (speeds[j] == 0) continue;
-    const bool moves_a = joint_moves(drive.world, drive.id, j, a);
-    if (moves_a == joint_moves(drive.world, drive.id, j, b)) continue;
-    const bool turns = drive.robot().joints[j].kind == JointKind::revolute;
-    sum += std::abs(speeds[j]) * (turns ? lever(drive, j, moves_a ? a : b) : 1);
+    const bool moves_a = driven.bodies.moved_by(j, a);
+    if (moves_a == driven.bodies.moved_by(j, b)) continue;
+    const bool turns = driven.robot().joints[j].kind == JointKind::revolute;
+    sum += std::abs(speeds[j]) * (turns ? lever(driven, j, moves_a ? a : b) : 1);
   }
   return sum;
 }
 
-// pairs that some joint can bring together, nothing known of them yet
-std::vector<PairBound> all_pairs(const Drive& drive) {
-  std::vector<PairBound> pairs;
+}  // namespace
+
+std::vector<Contact> DrivenRobot::touching() const {
+  return contacts(world, world.bodies(), bodies.movable(), &world.context());
+}
+
+PairBounds pairs_to_watch(const DrivenRobot& driven) {
+  PairBounds pairs;
   std::set<Id<Body>> done;
-  for (const auto a : drive.moving) {
+  for (const auto a : driven.bodies.movable()) {
     done.insert(a);
-    for (const auto b : drive.world.bodies())
-      if (!done.contains(b) && drive.world.may_collide(a, b)) pairs.push_back({.a = a, .b = b});
+    for (const auto b : driven.world.bodies())
+      if (!done.contains(b) && driven.world.may_collide(a, b)) pairs.push_back({.a = a, .b = b});
   }
   return pairs;
 }
 
-}  // namespace
-
-Drive begin_drive(World& world, Id<Robot> id) {
-  Drive drive{world, id, movable_bodies(world, id), world.dofs(id), world.own_joint_positions(id),
-              {}};
-  drive.pairs = all_pairs(drive);
-  return drive;
-}
-
-JointSpeeds joint_speeds(const Drive& drive, const Eigen::VectorXd& rates, bool pulled) {
+JointSpeeds joint_speeds(const DrivenRobot& driven, const std::vector<JointPosition>& own,
+                         const Eigen::VectorXd& rates, bool pulled) {
   JointSpeeds speeds;
-  for (size_t j = 0; j < drive.joint_positions.size(); ++j) {
-    const Joint& joint = drive.robot().joints[j];
-    const bool moves = !drive.joint_positions[j] || (pulled && drive.sprung(joint.dof));
+  for (size_t j = 0; j < own.size(); ++j) {
+    const Joint& joint = driven.robot().joints[j];
+    const bool moves = !own[j] || (pulled && driven.sprung(joint.dof));
     speeds.push_back(moves ? joint.ratio * rates[joint.dof] : 0);
   }
   return speeds;
 }
 
-void re_engage(Drive& drive) {
-  for (size_t j = 0; j < drive.joint_positions.size(); ++j)
-    if (JointPosition& own = drive.joint_positions[j];
-        own && back_at(drive, drive.robot().joints[j], *own))
+DrivePosture re_engaged(const DrivenRobot& driven, DrivePosture posture) {
+  for (size_t j = 0; j < posture.own.size(); ++j)
+    if (JointPosition& own = posture.own[j];
+        own && back_at(driven, posture.dofs, driven.robot().joints[j], *own))
       own.reset();
+  return posture;
 }
 
-Advance follow_path(Drive& drive, const JointSpeeds& speeds, double length,
-                    const std::function<void(double)>& place, int& queries) {
-  for (PairBound& pair : drive.pairs) pair.speed = pair_speed(drive, speeds, pair.a, pair.b);
+Advance follow_path(const DrivenRobot& driven, PairBounds& pairs, const JointSpeeds& speeds,
+                    double length, const std::function<void(double)>& place, int& queries) {
+  for (PairBound& pair : pairs) pair.speed = pair_speed(driven, speeds, pair.a, pair.b);
   // what rests keeps what is known of it
-  const auto moves = std::partition(drive.pairs.begin(), drive.pairs.end(),
+  const auto moves = std::partition(pairs.begin(), pairs.end(),
                                     [](const PairBound& pair) { return pair.speed > 0; });
-  std::vector<PairBound> watches(drive.pairs.begin(), moves);
-  const Advance end = advance(drive.world, watches, length, place, queries);
-  std::copy(watches.begin(), watches.end(), drive.pairs.begin());
+  PairBounds watches(pairs.begin(), moves);
+  const Advance end = advance(driven.world, watches, length, place, queries);
+  std::copy(watches.begin(), watches.end(), pairs.begin());
   return end;
 }
 

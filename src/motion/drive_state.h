@@ -1,5 +1,4 @@
-// A robot on its way while it is driven: its DOFs, its joints that do not follow them, the pairs
-// under watch.
+// A robot that is driven: what stays the same during a drive, and what passes from stage to stage.
 #pragma once
 #include <functional>
 
@@ -8,27 +7,35 @@
 
 namespace clench {
 
-/// What a drive changes from contact to contact.
-struct Drive {
+/// Values of DOFs, and positions of those joints that do not follow them.
+struct DrivePosture {
+  Eigen::VectorXd dofs;
+  std::vector<JointPosition> own;  ///< one per joint
+};
+
+/// The robot of a drive, with everything that it carries; the same from its beginning to its end.
+struct DrivenRobot {
   World& world;
   Id<Robot> id;
-  std::vector<Id<Body>> moving;
-  Eigen::VectorXd q;
-  std::vector<JointPosition> joint_positions;  ///< one per joint
-  std::vector<PairBound> pairs;
-  Eigen::VectorXd targets = {};  ///< of the DOFs, within their limits
+  CarriedBodies bodies;
 
   const Robot& robot() const { return world.robot(id); }
   bool sprung(int dof) const { return robot().dofs[dof].kind == DofKind::compliant; }
-  void place() { world.set_dofs_unchecked(id, q, joint_positions); }
+  void place(const DrivePosture& p) const { world.set_dofs_unchecked(id, p.dofs, p.own); }
+  /// contacts of its bodies as they stand
+  std::vector<Contact> touching() const;
 };
 
-/// A robot at rest; every pair of bodies that some joint can bring together is under watch.
-Drive begin_drive(World& world, Id<Robot> robot);
+/// What is known of the distances of bodies that some joint can bring together.
+using PairBounds = std::vector<PairBound>;
+
+/// Nothing is known of them yet.
+PairBounds pairs_to_watch(const DrivenRobot& driven);
 
 /// Speeds of joints that follow their DOFs.
 /// pulled  also of those that contacts hold against their springs
-JointSpeeds joint_speeds(const Drive& drive, const Eigen::VectorXd& rates, bool pulled = false);
+JointSpeeds joint_speeds(const DrivenRobot& driven, const std::vector<JointPosition>& own,
+                         const Eigen::VectorXd& rates, bool pulled = false);
 
 /// Visits number and spec of all joints of a DOF.
 template <class Visit>
@@ -38,12 +45,14 @@ void each_joint_of(const Robot& robot, int dof, Visit visit) {
 }
 
 /// Joints to which their DOFs have come back follow them again.
-void re_engage(Drive& drive);
+DrivePosture re_engaged(const DrivenRobot& driven, DrivePosture posture);
 
 /// Goes along a path until its end or until a pair touches.
-/// speeds  of the joints along it
-/// place   place(s) sets DOFs and joints
-Advance follow_path(Drive& drive, const JointSpeeds& speeds, double length,
-                    const std::function<void(double)>& place, int& queries);
+/// pairs    their bounds, which hold at the new place afterwards
+/// speeds   of the joints along the path
+/// place    place(s) sets DOFs and joints
+/// queries  counts distance queries
+Advance follow_path(const DrivenRobot& driven, PairBounds& pairs, const JointSpeeds& speeds,
+                    double length, const std::function<void(double)>& place, int& queries);
 
 }  // namespace clench

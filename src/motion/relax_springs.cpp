@@ -17,57 +17,64 @@ static constexpr int max_turns = 20;
 
 namespace {
 
-// how much of a way all joints can go before one of them is at its limit
-double within_limits(const Drive& drive, const JointSpeeds& way) {
+// how much of their travel all joints can go before one of them is at its limit
+double within_limits(const DrivenRobot& driven, const JointSpeeds& travel) {
   double part = 1;
-  for (int j = 0; j < static_cast<int>(way.size()); ++j) {
-    const Joint& joint = drive.robot().joints[j];
-    const double q = drive.world.joints(drive.id)[j];
-    const double room = way[j] > 0 ? joint.max - q : joint.min - q;
-    if (!joint.endless && way[j] != 0 && std::abs(way[j]) > std::abs(room))
-      part = std::min(part, std::max(0.0, room / way[j]));
+  for (int j = 0; j < static_cast<int>(travel.size()); ++j) {
+    const Joint& joint = driven.robot().joints[j];
+    const double q = driven.world.joints(driven.id)[j];
+    const double left = travel[j] > 0 ? joint.max - q : joint.min - q;
+    if (!joint.endless && travel[j] != 0 && std::abs(travel[j]) > std::abs(left))
+      part = std::min(part, std::max(0.0, left / travel[j]));
   }
   return part;
 }
 
-// the joints of compliant DOFs go the way that their springs draw them
-Advance follow_springs(Drive& drive, const JointSpeeds& way, int& queries) {
+// the joints of compliant DOFs go as far as their springs draw them, or until a pair touches
+Advance follow_springs(const DrivenRobot& driven, DrivePosture& posture, PairBounds& pairs,
+                       const JointSpeeds& travel, int& queries) {
   std::vector<double> start;
-  for (int j = 0; j < static_cast<int>(way.size()); ++j)
-    start.push_back(drive.world.joints(drive.id)[j]);
+  for (int j = 0; j < static_cast<int>(travel.size()); ++j)
+    start.push_back(driven.world.joints(driven.id)[j]);
   const auto place = [&](double s) {
-    for (size_t j = 0; j < way.size(); ++j)
-      if (way[j] != 0) drive.joint_positions[j] = start[j] + s * way[j];
-    drive.place();
+    for (size_t j = 0; j < travel.size(); ++j)
+      if (travel[j] != 0) posture.own[j] = start[j] + s * travel[j];
+    driven.place(posture);
   };
-  return follow_path(drive, way, within_limits(drive, way), place, queries);
+  return follow_path(driven, pairs, travel, within_limits(driven, travel), place, queries);
 }
 
-double longest(const JointSpeeds& way) {
+double longest(const JointSpeeds& travel) {
   double most = 0;
-  for (const double x : way) most = std::max(most, std::abs(x));
+  for (const double x : travel) most = std::max(most, std::abs(x));
   return most;
 }
 
 }  // namespace
 
-Springs relax_springs(Drive& drive, const DriveOptions& options, DriveResult& result) {
+RelaxedSprings relax_springs(const DrivenRobot& driven, const DrivePosture& start,
+                             PairBounds& pairs, const DriveOptions& options) {
+  RelaxedSprings out{start};
+  const auto is_sprung = [](const DofSpec& dof) { return dof.kind == DofKind::compliant; };
+  if (std::ranges::none_of(driven.robot().dofs, is_sprung)) return out;
   for (int turn = 0; turn < max_turns; ++turn) {
-    drive.world.context().progress().check();
+    driven.world.context().progress().check();
     check_stop();
-    const auto touching =
-        contacts(drive.world, drive.world.bodies(), drive.moving, &drive.world.context());
-    const JointSpeeds way = SpringBalance(drive.world, drive.id, touching, turn > 0).displacement();
-    if (longest(way) <= at_rest) return Springs::at_rest;
-    const Advance end = follow_springs(drive, way, result.queries);
-    re_engage(drive);
+    const auto touching = driven.touching();
+    const JointSpeeds travel =
+        SpringBalance(driven.world, driven.id, driven.bodies, touching, turn > 0).displacement();
+    if (longest(travel) <= at_rest) return out;
+    const Advance end = follow_springs(driven, out.posture, pairs, travel, out.queries);
+    out.posture = re_engaged(driven, std::move(out.posture));
     if (!end.stopped_by) continue;
-    ++result.events;
+    ++out.events;
     if (!options.stop_at_contact || end.stopped_by->touching) continue;
-    result.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
-    return Springs::stopped;
+    out.stopped_by = {{end.stopped_by->a, end.stopped_by->b}};
+    out.springs = Springs::stopped;
+    return out;
   }
-  return Springs::moving;
+  out.springs = Springs::moving;
+  return out;
 }
 
 }  // namespace clench

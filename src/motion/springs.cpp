@@ -59,8 +59,8 @@ std::optional<VectorXd> nearest_allowed(const Eigen::MatrixXd& sides, const Vect
 
 }  // namespace
 
-SpringBalance::SpringBalance(const World& world, Id<Robot> id, std::span<const Contact> touching,
-                             bool sliding) {
+SpringBalance::SpringBalance(const World& world, Id<Robot> id, const CarriedBodies& bodies,
+                             std::span<const Contact> touching, bool sliding) {
   const Robot& robot = world.robot(id);
   none_.assign(robot.joints.size(), 0);
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
@@ -69,10 +69,10 @@ SpringBalance::SpringBalance(const World& world, Id<Robot> id, std::span<const C
     joints_.push_back({j, joint.dof, joint.ratio, all_sprung(robot, joint.dof) ? joint.spring : 1,
                        joint.ratio * world.dofs(id)[joint.dof] - world.joints(id)[j]});
   }
-  add_reactions(world, id, touching, sliding);
+  add_reactions(world, id, bodies, touching, sliding);
 }
 
-void SpringBalance::add_reactions(const World& world, Id<Robot> id,
+void SpringBalance::add_reactions(const World& world, Id<Robot> id, const CarriedBodies& bodies,
                                   std::span<const Contact> touching, bool sliding) {
   const Robot& robot = world.robot(id);
   const int count = static_cast<int>(joints_.size());
@@ -86,7 +86,7 @@ void SpringBalance::add_reactions(const World& world, Id<Robot> id,
   for (const Contact& contact : touching) {
     Eigen::Matrix3Xd velocities(3, count);
     for (int i = 0; i < count; ++i)
-      velocities.col(i) = contact_velocity(world, id, frames, joints_[i].number, contact);
+      velocities.col(i) = contact_velocity(robot, bodies, frames, joints_[i].number, contact);
     if (velocities.isZero(0)) continue;
     const double open = std::max(0.0, min_gap * world.contact_threshold() - contact.gap);
     for (const Vector3d& edge : edges_of(contact, sliding))

@@ -13,10 +13,10 @@ namespace clench {
 ///         nonsmooth rigid multibody dynamics
 class SpringBalance {
  public:
-  /// touching  contacts of the robot's bodies, and of those of all robots that it carries
+  /// touching  contacts of these bodies of the robot
   /// sliding   do they rub as what slides, or as what stands still?
-  SpringBalance(const World& world, Id<Robot> robot, std::span<const Contact> touching,
-                bool sliding = false);
+  SpringBalance(const World& world, Id<Robot> robot, const CarriedBodies& bodies,
+                std::span<const Contact> touching, bool sliding = false);
 
   /// How far each joint has to go until springs and contacts are in balance, were they to stay as
   /// they are, and until no gap is below a fifth of the contact threshold; 0 for all joints of
@@ -34,8 +34,8 @@ class SpringBalance {
     double stiffness;
     double deflection;  ///< ratio * q - joint
   };
-  void add_reactions(const World& world, Id<Robot> id, std::span<const Contact> touching,
-                     bool sliding);
+  void add_reactions(const World& world, Id<Robot> id, const CarriedBodies& bodies,
+                     std::span<const Contact> touching, bool sliding);
 
   JointSpeeds none_;  // of all joints
   std::vector<Sprung> joints_;

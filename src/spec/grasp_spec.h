@@ -54,6 +54,10 @@ struct PregraspState {
 struct GraspSpec {
   std::string hand_name = {}, object_name = {};
   std::string hand_file = {}, object_file = {};  ///< files of hand and object; empty: unknown
+  /// shapes, links and joints of the hand, and surface of the object; empty: unknown
+  std::string hand_fingerprint = {}, object_fingerprint = {};
+  std::string settings_fingerprint = {};  ///< of edges, rho and the other options of its measures
+  std::string engine_version = {};        ///< of the program that measured it
   std::optional<Pose> X_OH = {};  ///< the hand's base in the object; empty: assembled by hand
   std::vector<double> dofs = {};  ///< values of all, or of the named ones [rad or m]
   std::vector<std::string> dof_names = {};    ///< empty: unknown, and `dofs` has all DOFs in order

@@ -195,6 +195,23 @@ TEST_CASE("a list that would take too much memory is refused in a sentence") {
                        Error);
 }
 
+TEST_CASE("a small archive that would take much memory is refused before it does") {
+  // 400 MB of zeros
+  const std::string bytes = npz_bytes(
+      {{"poses", {.shape = {50'000'000}, .numbers = std::vector<double>(50'000'000)}}}, true);
+  CHECK(bytes.size() < 500'000);
+  std::string said;
+  const size_t peak = peak_of([&] {
+    try {
+      read_npz("a.npz", bytes);
+    } catch (const Error& error) {
+      said = error.what();
+    }
+  });
+  CHECK(said.starts_with("a.npz: its contents take more than 7"));
+  if (counts_memory) CHECK(peak < MemoryBudget::fixed + MemoryBudget::times * bytes.size());
+}
+
 TEST_CASE("a list of many grasps is read") {
   const TemporaryFolder folder;
   const auto path = folder.write(

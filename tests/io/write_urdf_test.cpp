@@ -8,6 +8,7 @@
 #include "clench/io/read.h"
 #include "clench/io/urdf_plan.h"
 #include "clench/io/write_robot.h"
+#include "clench/spec/chains.h"
 #include "robot_compare.h"
 #include "support/chains.h"
 #include "support/shapes.h"
@@ -61,6 +62,23 @@ void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
   }
 }
 
+/// The plan numbers links and chains as the reader of its file does.
+void check_outline(const RobotSpec& robot, const RobotSpec& read) {
+  const RobotSpec outline = outline_of(plan_urdf(robot));
+  REQUIRE(outline.links.size() == read.links.size());
+  for (size_t l = 0; l < read.links.size(); ++l) {
+    CHECK(read.name + "_" + outline.links[l].body.name == read.links[l].body.name);
+    CHECK(outline.links[l].parent == read.links[l].parent);
+    CHECK(outline.links[l].joints.size() == read.links[l].joints.size());
+  }
+  const auto ours = chains_of(outline), theirs = chains_of(read);
+  REQUIRE(ours.size() == theirs.size());
+  for (size_t c = 0; c < ours.size(); ++c) {
+    CHECK(ours[c].parent == theirs[c].parent);
+    CHECK(ours[c].links == theirs[c].links);
+  }
+}
+
 /// A robot of one chain of one link, with the name.
 RobotSpec one_link(const std::string& name, const std::string& link_name) {
   RobotSpec robot;
@@ -95,6 +113,7 @@ TEST_CASE("a robot from a .urdf comes back from one as it was") {
   const TemporaryFolder folder;
   const RobotSpec robot = gripper();
   const auto urdf = written(robot, folder.path() / "other.urdf");
+  check_outline(robot, urdf.robot);
   check_same_kinematics(robot, urdf.robot);
   CHECK(largest_gap(robot, urdf.robot) < 1e-15);
   CHECK(urdf.lost.empty());
@@ -106,6 +125,7 @@ TEST_CASE("a robot of MuJoCo stands in a .urdf as it did, whatever its DOFs") {
   const TemporaryFolder folder;
   const RobotSpec robot = read_robot("tests/data/mjcf/hand.mjcf");
   const auto urdf = written(robot, folder.path() / "hand.urdf");
+  check_outline(robot, urdf.robot);
   CHECK(largest_gap(robot, urdf.robot) < 1e-12);
   CHECK(
       urdf.told("hand.urdf: 'thumb_flex_frame' is a frame without mass between two joints of one "
@@ -125,6 +145,7 @@ static void check_hands(std::initializer_list<const char*> names) {
     const RobotSpec robot = read_hand(file);
     const TemporaryFolder folder;
     const auto urdf = written(robot, folder.path() / "hand.urdf");
+    check_outline(robot, urdf.robot);
     check_same_kinematics(robot, urdf.robot);
     CHECK(largest_gap(robot, urdf.robot, 3) < 1e-12);
   }
@@ -150,6 +171,7 @@ TEST_CASE("a chain may begin on a link that moves") {
     robot.links.push_back(branch);
   }
   const auto urdf = written(robot, folder.path() / "hand.urdf");
+  check_outline(robot, urdf.robot);
   CHECK(largest_gap(robot, urdf.robot) < 1e-12);
 }
 
@@ -178,6 +200,7 @@ TEST_CASE("names with blanks, quotes and signs of XML come back") {
   const std::string name = "a \"b\" <c> & 'd'";
   const RobotSpec robot = one_link(name, name);
   const auto urdf = written(robot, folder.path() / "my hand & <co>.urdf");
+  check_outline(robot, urdf.robot);
   CHECK(urdf.robot.name == name);
   CHECK(link_of(urdf.robot, 0, 0).body.name == name + "_" + name);
   CHECK(urdf.robot.dofs[0].name == name + " turns");
@@ -189,6 +212,7 @@ TEST_CASE("links and joints of one name get others, and a name that readers trim
   robot.links.push_back(robot.links[0]);
   joint_of(robot, 0, 0).name = joint_of(robot, 1, 0).name = "${x}";
   const auto urdf = written(robot, folder.path() / "hand.urdf");
+  check_outline(robot, urdf.robot);
   REQUIRE(urdf.robot.links.size() == 2);
   CHECK(link_of(urdf.robot, 0, 0).body.name == "any_tip");
   CHECK(link_of(urdf.robot, 1, 0).body.name == "any_tip_2");
@@ -220,6 +244,7 @@ TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sen
   set.origin = Eigen::VectorXd::Constant(2, -0.3);
   robot.eigengrasps = set;
   const auto urdf = written(robot, folder.path() / "hand.urdf");
+  check_outline(robot, urdf.robot);
   CHECK(urdf.robot.dofs[0].name == "first");
   CHECK(urdf.robot.dofs[1].name == "second");
   CHECK(urdf.told("hand.urdf: DOF 0 counts 0.5 times as far in it, as its joint 'first' does"));
@@ -249,6 +274,7 @@ TEST_CASE("a follower that leaves its leader next to nothing is no slip when it 
   link_of(robot, 1, 0).body.name = "any_right";
   joint_of(robot, 1, 0).max = 0.01;
   const auto urdf = written(robot, folder.path() / "hand.urdf");
+  check_outline(robot, urdf.robot);
   CHECK(dof_range(urdf.robot, 0) == dof_range(robot, 0));
 }
 
@@ -287,6 +313,7 @@ TEST_CASE("surfaces of several colours keep them beside a .urdf, transparent one
   for (int i = 0; i < 12; ++i)
     looks.triangle_colors.push_back(i < 5 ? Eigen::Vector3f(1, 0, 0.3f) : Eigen::Vector3f(0, 1, 0));
   const auto urdf = written(robot, folder.path() / "hand.urdf");
+  check_outline(robot, urdf.robot);
   const Appearance& read = link_of(urdf.robot, 0, 0).body.appearance;
   CHECK(read.triangle_colors == looks.triangle_colors);
   CHECK(read.transparency == 0.25f);

@@ -45,7 +45,8 @@ struct SpringBench {
   }
   double unrest() const {
     double most = 0;
-    for (const double x : SpringBalance(world, hand, touching()).displacement())
+    for (const double x :
+         SpringBalance(world, hand, CarriedBodies(world, hand), touching()).displacement())
       most = std::max(most, std::abs(x));
     return most;
   }

@@ -92,6 +92,7 @@ TEST_CASE("a joint moves the links that turning it moves") {
   const RobotSpec spec = random_tree(random, 12);
   World world;
   const auto id = world.add_robot(spec, {});
+  const CarriedBodies bodies(world, id);
   for (int j = 0; j < static_cast<int>(joints_of(spec).size()); ++j) {
     World after = world;
     Eigen::VectorXd q = world.dofs(id);
@@ -100,6 +101,7 @@ TEST_CASE("a joint moves the links that turning it moves") {
     for (const auto body : world.bodies_of(id)) {
       const bool moved = !(world.pose(body) == after.pose(body));
       CHECK(joint_moves(world, id, j, body) == moved);
+      CHECK(bodies.moved_by(j, body) == moved);
     }
   }
 }

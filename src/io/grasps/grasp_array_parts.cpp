@@ -7,6 +7,7 @@
 #include "clench/base/text.h"
 #include "clench/io/grasps/dof_labels.h"
 #include "clench/io/grasps/grasp_writing.h"
+#include "clench/io/grasps/identity_texts.h"
 #include "clench/io/text/named_number.h"
 #include "clench/io/text/number_reader.h"
 
@@ -173,6 +174,9 @@ void add_named(const std::vector<GraspSpec>& grasps, NamedArrays& out) {
       grasps, "hand_files", [](const GraspSpec& g) { return g.hand_file; }, out);
   add_texts(
       grasps, "object_files", [](const GraspSpec& g) { return g.object_file; }, out);
+  for (const auto& [name, text] : identity_texts)
+    add_texts(
+        grasps, name + std::string("s"), [text](const GraspSpec& g) { return g.*text; }, out);
 }
 
 // --- reading ---
@@ -211,7 +215,11 @@ constexpr const char* known_arrays[] = {"joints",
                                         "contact_links",
                                         "contact_torsion_radius",
                                         "hand_files",
-                                        "object_files"};
+                                        "object_files",
+                                        "hand_fingerprints",
+                                        "object_fingerprints",
+                                        "settings_fingerprints",
+                                        "engine_versions"};
 
 constexpr std::string_view measure_prefix = "measure_", info_prefix = "info_",
                            label_prefix = "label_";
@@ -306,6 +314,7 @@ void ArrayParts::check_shapes() const {
     numbers(name, 0, count_);
   numbers("normal_force", any_columns, count_);
   for (const char* name : {"moduli", "hand_files", "object_files"}) texts(name, count_);
+  for (const auto& [name, text] : identity_texts) texts(name + std::string("s"), count_);
   const auto owner = arrays_.find("contact_grasps");
   if (owner != arrays_.end()) {
     const size_t contacts = owner->second.shape.empty() ? 0 : owner->second.shape[0];
@@ -422,6 +431,8 @@ void ArrayParts::read_named(size_t i, GraspSpec& out) const {
   }
   if (const NpyArray* files = texts("hand_files", count_)) out.hand_file = files->texts[i];
   if (const NpyArray* files = texts("object_files", count_)) out.object_file = files->texts[i];
+  for (const auto& [name, text] : identity_texts)
+    if (const NpyArray* found = texts(name + std::string("s"), count_)) out.*text = found->texts[i];
 }
 
 void ArrayParts::read(size_t i, GraspSpec& out) const {

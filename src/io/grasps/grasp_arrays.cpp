@@ -48,7 +48,7 @@ std::string grasp_arrays_bytes(const std::vector<GraspSpec>& grasps, const std::
   });
   add_array_parts(grasps, out);
   report_lost(grasps, everything(has_same_joints(grasps)), file, "npz", options);
-  return npz_bytes(out);
+  return npz_bytes(out, options.compress);
 }
 
 Pose pose_of_matrix(const double* m, const std::string& place) {
@@ -124,10 +124,11 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
                  *hands = of_grasps("hands", true), *objects = of_grasps("objects", true),
                  *planners = of_grasps("planners", true);
   const ArrayParts parts(file, arrays, n, d);
-  // a file of float32 counts as the same one of float64: its grasps take as much
+  // a file of smaller numbers, or a compressed one, counts as the same one of float64, up to four
+  // times its size: its grasps take as much
   size_t numbers = 0;
   for (const NpyArray* a : {poses, dofs}) numbers += a ? a->numbers.size() : 0;
-  const size_t size = std::max(bytes.size(), std::min(2 * bytes.size(), 8 * numbers));
+  const size_t size = std::clamp(8 * numbers, bytes.size(), 4 * bytes.size());
   GraspCollector list(file, size, sink);
   list.expect(n);
   for (size_t i = 0; i < n; ++i) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "clench/base/text.h"
+#include "clench/io/grasps/identity_texts.h"
 
 namespace clench {
 
@@ -160,6 +161,8 @@ std::string difference(const GraspSpec& a, const GraspSpec& back, GraspFormat fo
   if (format != csv && !same_units(a, back)) return "the unit of a DOF";
   if (a.collision_free != back.collision_free) return "collision_free";
   if (a.hand_file != back.hand_file || a.object_file != back.object_file) return "a file";
+  for (const auto& [name, text] : identity_texts)
+    if (a.*text != back.*text) return name;
   auto labels = a.labels;
   // an array of texts has empty ones where a grasp has none
   if (format == npz) std::erase_if(labels, [](const auto& one) { return one.second.empty(); });

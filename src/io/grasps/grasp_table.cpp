@@ -23,7 +23,11 @@ static constexpr std::pair<const char*, std::string GraspSpec::*> text_columns[]
     {"hand", &GraspSpec::hand_name},
     {"object", &GraspSpec::object_name},
     {"hand_file", &GraspSpec::hand_file},
-    {"object_file", &GraspSpec::object_file}};
+    {"object_file", &GraspSpec::object_file},
+    {"hand_fingerprint", &GraspSpec::hand_fingerprint},
+    {"object_fingerprint", &GraspSpec::object_fingerprint},
+    {"settings_fingerprint", &GraspSpec::settings_fingerprint},
+    {"engine_version", &GraspSpec::engine_version}};
 
 // --- writing ---
 
@@ -100,7 +104,8 @@ static bool is_one_joint_order(const std::vector<GraspSpec>& grasps) {
 
 static Row row_of(const GraspSpec& g, bool with_joints) {
   Row row;
-  for (const auto& [name, text] : text_columns) row[name] = text_cell(g.*text);
+  for (const auto& [name, text] : text_columns)
+    if (!(g.*text).empty()) row[name] = csv_cell(g.*text);
   if (g.X_OH) {
     const auto numbers = pose_numbers(*g.X_OH);
     for (size_t i = 0; i < 7; ++i) row[pose_columns[i]] = real_text(numbers[i]);
@@ -423,6 +428,16 @@ static void warn_of_cut_row(const std::string& file, const CsvRecord& record,
                            record.line, in_quotes(record.cells.front().text)));
 }
 
+/// A last row with all cells is read; without a line end its last cell may be the beginning of one.
+static void warn_of_open_row(const std::string& file, size_t rows, const CsvRecord& record,
+                             const CsvReader& reader, const ReadOptions& options) {
+  if (rows == 0 || !options.warn || !reader.ends_in_open_line()) return;
+  options.warn(
+      fmt::format("{}:{}: the last line has no end and may be cut short; its last cell is "
+                  "{}",
+                  file, record.line, in_quotes(record.cells.back().text)));
+}
+
 void read_grasp_table(const std::string& file, std::string_view text, const GraspSink& sink,
                       const ReadOptions& options) {
   CsvReader reader(file, text);
@@ -450,7 +465,7 @@ void read_grasp_table(const std::string& file, std::string_view text, const Gras
       if (!is_cut()) throw;
       return warn_of_cut_row(file, record, options);
     }
-    if (!more) return;
+    if (!more) return warn_of_open_row(file, rows, record, reader, options);
     if (table.lacks_cells(record) && is_cut()) return warn_of_cut_row(file, record, options);
     list.add(table.read(record));
   }

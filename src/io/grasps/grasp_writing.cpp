@@ -57,6 +57,9 @@ void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const
        [](const GraspSpec& g) { return !g.object_name.empty(); });
   tell(holds.files, "files of hand and object",
        [](const GraspSpec& g) { return !g.hand_file.empty() || !g.object_file.empty(); });
+  tell(holds.files, "fingerprints", [](const GraspSpec& g) {
+    return !g.hand_fingerprint.empty() || !g.object_fingerprint.empty();
+  });
   if (!lost.empty() && options.warn)
     options.warn(fmt::format("{}: the format {} does not hold {}, which are not written", file,
                              format, name_list(lost)));

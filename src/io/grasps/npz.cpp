@@ -1,36 +1,19 @@
 #include "clench/io/grasps/npz.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "clench/base/text.h"
+#include "clench/io/grasps/zip.h"
 #include "clench/io/text/byte_reader.h"
 #include "clench/io/text/byte_writer.h"
 #include "clench/io/text/memory_budget.h"
 
 namespace clench {
 
-// of a row of an array that holds no numbers: a caller makes a list of it
-static constexpr size_t empty_row_bytes = 64;
 static constexpr size_t max_indices = 32;  // as NumPy
 static constexpr std::string_view npy_mark = "\x93NUMPY";
-static constexpr uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
-
-static uint32_t crc32(std::string_view bytes) {
-  static const auto table = [] {
-    std::array<uint32_t, 256> out{};
-    for (uint32_t i = 0; i < 256; ++i) {
-      uint32_t c = i;
-      for (int bit = 0; bit < 8; ++bit) c = c & 1 ? 0xEDB88320U ^ (c >> 1) : c >> 1;
-      out[i] = c;
-    }
-    return out;
-  }();
-  uint32_t crc = ~0U;
-  for (const char c : bytes) crc = table[(crc ^ static_cast<unsigned char>(c)) & 255] ^ (crc >> 8);
-  return ~crc;
-}
 
 static std::string npy_bytes(const NpyArray& array) {
   std::string body, type = "<f8";
@@ -62,44 +45,10 @@ static std::string npy_bytes(const NpyArray& array) {
   return out + head + body;
 }
 
-std::string npz_bytes(const std::map<std::string, NpyArray>& arrays) {
-  constexpr size_t max_arrays = 65'000;
-  if (arrays.size() > max_arrays)
-    fail("an .npz holds at most {} arrays, got {}", max_arrays, arrays.size());
-  std::string out, directory;
-  for (const auto& [key, array] : arrays) {
-    const std::string name = key + ".npy", body = npy_bytes(array);
-    if (out.size() + body.size() > 0xF0000000U) fail("an .npz holds at most 4 GB of arrays");
-    const auto place = static_cast<uint32_t>(out.size());
-    // version 2.0, a name in UTF-8, stored, the first of January 1980
-    const bool is_plain = std::ranges::all_of(name, [](unsigned char c) { return c < 128; });
-    std::string fields;
-    for (const int x : {20, is_plain ? 0 : 1 << 11, 0, 0, 33})
-      append_little_endian(fields, static_cast<uint16_t>(x));
-    append_little_endian(fields, crc32(body));
-    append_little_endian(fields, static_cast<uint32_t>(body.size()));
-    append_little_endian(fields, static_cast<uint32_t>(body.size()));
-    append_little_endian(fields, static_cast<uint16_t>(name.size()));
-    append_little_endian(fields, uint16_t{0});
-    append_little_endian(out, local_mark);
-    out += fields + name + body;
-    append_little_endian(directory, entry_mark);
-    append_little_endian(directory, uint16_t{20});
-    directory += fields;
-    for (int i = 0; i < 3; ++i) append_little_endian(directory, uint16_t{0});
-    append_little_endian(directory, uint32_t{0});
-    append_little_endian(directory, place);
-    directory += name;
-  }
-  const auto start = static_cast<uint32_t>(out.size());
-  out += directory;
-  append_little_endian(out, end_mark);
-  for (const size_t x : {size_t{0}, size_t{0}, arrays.size(), arrays.size()})
-    append_little_endian(out, static_cast<uint16_t>(x));
-  append_little_endian(out, static_cast<uint32_t>(directory.size()));
-  append_little_endian(out, start);
-  append_little_endian(out, uint16_t{0});
-  return out;
+std::string npz_bytes(const std::map<std::string, NpyArray>& arrays, bool compress) {
+  std::map<std::string, std::string> files;
+  for (const auto& [name, array] : arrays) files[name] = npy_bytes(array);
+  return zip_bytes(files, compress);
 }
 
 // --- reading ---
@@ -109,7 +58,18 @@ static double next_number(ByteReader& reader) {
   return static_cast<double>(reader.next<T>());
 }
 
+/// source  IEEE 754-2019, table 3.5: binary16, with 5 bits of exponent and 10 of fraction
+static double next_half(ByteReader& reader) {
+  const auto bits = reader.next<uint16_t>();
+  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+  const double size = exponent == 31  ? (fraction ? NAN : INFINITY)
+                      : exponent == 0 ? std::ldexp(fraction, -24)
+                                      : std::ldexp(1024 + fraction, exponent - 25);
+  return bits >> 15 ? -size : size;
+}
+
 static double read_number(ByteReader& reader, char kind, size_t size) {
+  if (kind == 'f' && size == 2) return next_half(reader);
   if (kind == 'f') return size == 4 ? next_number<float>(reader) : next_number<double>(reader);
   if (kind == 'b' || (kind == 'u' && size == 1)) return next_number<uint8_t>(reader);
   if (kind == 'i')
@@ -158,20 +118,6 @@ static size_t count_of(const std::vector<size_t>& shape, size_t bytes) {
     count *= n;
   }
   return count;
-}
-
-/// Counts the rows of an array without numbers, those before its first index of 0.
-static void take_empty_rows(const std::vector<size_t>& shape, const std::string& place,
-                            MemoryBudget& budget) {
-  size_t rows = 1;
-  for (const size_t n : shape) {
-    if (n == 0) break;
-    if (n > budget.left() / empty_row_bytes / rows)
-      fail(ErrorKind::limit, "{}: expected at most {} rows without numbers, got {} or more", place,
-           budget.left() / empty_row_bytes, n);
-    rows *= n;
-  }
-  budget.take(rows * empty_row_bytes);
 }
 
 /// Reorders an array of Fortran's order, whose first index runs fastest.
@@ -225,7 +171,7 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes, Memor
   const size_t count = count_of(out.shape, bytes.size());
   const char kind = type.size() > 1 ? type[1] : '\0';
   const auto width = parse_integer(type.substr(std::min<size_t>(2, type.size())));
-  const bool number = (kind == 'f' && width && (*width == 4 || *width == 8)) ||
+  const bool number = (kind == 'f' && width && (*width == 2 || *width == 4 || *width == 8)) ||
                       (kind == 'b' && width == 1) ||
                       ((kind == 'i' || kind == 'u') && width &&
                        (*width == 1 || *width == 2 || *width == 4 || *width == 8));
@@ -236,7 +182,6 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes, Memor
   if (each > 0 ? reader.left() / each < count : count > 0)
     fail("{}: the array ends before its shape {} does", place, excerpt(shape));
   out.is_text = kind == 'U';
-  if (count == 0) take_empty_rows(out.shape, place, budget);
   budget.take(count * (out.is_text ? sizeof(std::string) + each : sizeof(double)));
   if (out.is_text)
     out.texts.reserve(count);
@@ -257,54 +202,13 @@ static NpyArray read_npy(const std::string& place, std::string_view bytes, Memor
 }
 
 std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_view bytes) {
-  // the directory's end: 22 bytes, and a comment that is perhaps there
-  size_t end = std::string_view::npos;
-  for (size_t back = 22; back <= std::min<size_t>(bytes.size(), 22 + 65535); ++back)
-    if (ByteReader(bytes.substr(bytes.size() - back)).next<uint32_t>() == end_mark) {
-      end = bytes.size() - back;
-      break;
-    }
-  if (end == std::string_view::npos)
-    fail("{}: expected a zip archive of arrays, got other bytes", file);
-  ByteReader tail(bytes.substr(end + 10));
-  const size_t count = tail.next<uint16_t>();
-  tail.next<uint32_t>();
-  const size_t start = tail.next<uint32_t>();
   std::map<std::string, NpyArray> out;
   MemoryBudget budget(file, bytes.size());
-  size_t left = bytes.size();  // of the file for the arrays to come
-  ByteReader entries(bytes.substr(std::min(start, bytes.size())));
-  for (size_t i = 0; i < count; ++i) {
-    if (entries.left() < 46 || entries.next<uint32_t>() != entry_mark)
-      fail("{}: the archive's directory is broken", file);
-    entries.skip(6);
-    const auto method = entries.next<uint16_t>();
-    entries.skip(4);
-    const auto crc = entries.next<uint32_t>();
-    const size_t packed = entries.next<uint32_t>(), unpacked = entries.next<uint32_t>();
-    const size_t name_size = entries.next<uint16_t>(), extra = entries.next<uint16_t>(),
-                 comment = entries.next<uint16_t>();
-    entries.skip(8);
-    const size_t place = entries.next<uint32_t>();
-    if (entries.left() < name_size) fail("{}: the archive's directory is broken", file);
-    std::string name(bytes.substr(start + entries.position(), name_size));
-    entries.skip(name_size + extra + comment);
-    if (name.ends_with(".npy")) name.resize(name.size() - 4);
-    const std::string where = fmt::format("{}: {}", file, excerpt(name));
-    if (method != 0 || packed != unpacked)
-      fail("{}: compressed arrays are not read; np.savez writes them uncompressed", where);
-    if (packed > left) fail("{}: the array shares bytes of the archive with others", where);
-    left -= packed;
-    ByteReader local(bytes.substr(std::min(place, bytes.size())));
-    if (local.left() < 30 || local.next<uint32_t>() != local_mark)
-      fail("{}: the archive's directory is broken", file);
-    local.skip(22);
-    const size_t skip = size_t{local.next<uint16_t>()} + local.next<uint16_t>();
-    if (local.left() < skip || local.left() - skip < packed)
-      fail("{}: the archive ends within the array", where);
-    const std::string_view body = bytes.substr(place + 30 + skip, packed);
-    if (crc32(body) != crc) fail("{}: the array's checksum is wrong", where);
-    if (!out.try_emplace(name, read_npy(where, body, budget)).second)
+  Unzipper unzip(budget);
+  for (const ZipEntry& entry : zip_entries(file, bytes)) {
+    const std::string where = fmt::format("{}: {}", file, excerpt(entry.name));
+    if (!out.try_emplace(entry.name, read_npy(where, unzip.contents_of(entry, where), budget))
+             .second)
       fail("{}: the archive holds two arrays of that name", where);
   }
   return out;

@@ -1,5 +1,5 @@
-// Arrays of NumPy in a file: .npy arrays of numbers or texts in a zip archive without compression,
-// as np.savez writes it.
+// Arrays of NumPy in a file: .npy arrays of numbers or texts in a zip archive, as np.savez and
+// np.savez_compressed write it.
 #pragma once
 #include <map>
 #include <string>
@@ -17,12 +17,14 @@ struct NpyArray {
 };
 
 /// Numbers as float64, texts as UTF-32. The same arrays give the same bytes.
-/// source  NumPy enhancement proposal 1 (format 1.0 of .npy); PKWARE's APPNOTE (zip)
-std::string npz_bytes(const std::map<std::string, NpyArray>& arrays);
+/// compress  as np.savez_compressed does
+/// source    NumPy enhancement proposal 1 (format 1.0 of .npy)
+std::string npz_bytes(const std::map<std::string, NpyArray>& arrays, bool compress = false);
 
 /// Numbers of all of NumPy's real types become doubles. Arrays take at most the memory of a
 /// MemoryBudget, as no two of them share bytes of the file.
-/// throws Error  "g.npz: poses: compressed arrays are not read; np.savez writes them uncompressed"
+/// Rows of an array without numbers are not counted: its shape may have any number of them.
+/// throws Error  "g.npz: poses: the array's checksum is wrong"
 std::map<std::string, NpyArray> read_npz(const std::string& file, std::string_view bytes);
 
 }  // namespace clench

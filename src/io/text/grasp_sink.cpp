@@ -39,7 +39,9 @@ size_t memory_of(const std::map<std::string, T>& named) {
 
 size_t memory_of(const GraspSpec& g) {
   size_t out = grasp_bytes;
-  for (const std::string* text : {&g.hand_name, &g.object_name, &g.hand_file, &g.object_file})
+  for (const std::string* text :
+       {&g.hand_name, &g.object_name, &g.hand_file, &g.object_file, &g.hand_fingerprint,
+        &g.object_fingerprint, &g.settings_fingerprint, &g.engine_version})
     out += memory_of(*text);
   for (const auto* numbers : {&g.dofs, &g.joints, &g.options.normal_force.values})
     out += memory_of(*numbers);

@@ -19,6 +19,7 @@ struct WriteOptions {
   std::function<void(const std::filesystem::path&)> check = {};
   /// of a list of grasps as such: a JSON object; empty: none
   std::string notes = {};
+  bool compress = false;  ///< of arrays in .npz; of other formats an error
 };
 
 }  // namespace clench

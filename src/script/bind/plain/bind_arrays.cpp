@@ -80,7 +80,11 @@ static int arrays(lua_State* L) {
       push(L, array.numbers);
     } else {
       // a table is 56 bytes, and its numbers are 16 each, in blocks of their own
-      budget.take(count * (120 + 16 * width));
+      const size_t row = 120 + 16 * width;
+      if (count > budget.left() / row)
+        fail(ErrorKind::limit, "{}: {}: expected at most {} rows, got {}", path, excerpt(name),
+             budget.left() / row, count);
+      budget.take(count * row);
       push_list(L, static_cast<int>(count));
       for (size_t i = 0; i < count; ++i) {
         push(L, std::span(array.numbers).subspan(i * width, width));
