@@ -8,8 +8,8 @@ local pose = clench.pose {xyz = {0.3, -0.1, 0.2}, rpy = {0.3, -0.4, 0.5}}
 -- of each device: how it is connected, read and commanded. `close_to`: is a reading what was commanded, or what is simulated?
 local kinds = {
   barrett = {
-    connect = function(at, quick)
-      local hand = devices.barrett {port = at, timeout = quick or 0.5, move_timeout = quick or 5, attempts = 300}
+    connect = function(at, quick, attempts)
+      local hand = devices.barrett {port = at, timeout = quick or 0.5, move_timeout = quick or 5, attempts = attempts or 300}
       hand:initialize()
       return hand
     end,
@@ -20,15 +20,15 @@ local kinds = {
   },
   dynamixel = {
     options = {ids = {1, 2, 3}, speed = 100},
-    connect = function(at, quick) return devices.dynamixel {port = at, ids = {1, 2, 3}, timeout = quick, attempts = 300} end,
+    connect = function(at, quick, attempts) return devices.dynamixel {port = at, ids = {1, 2, 3}, timeout = quick, attempts = attempts or 300} end,
     command = function(bus) bus:write_positions {0.1, -0.2, 0.3} loop.sleep(0.05) end,
     check = function(t, bus) t.close(bus:read_positions(), {0.1, -0.2, 0.3}, 8e-4) end,
     refuse = function(bus) bus:write_positions {0, 4, 0} end, refusal = "motor 2: expected -3.14159 to 3.14006 rad, got 4",
     stopped = function(device) return device.motors[1].memory[64] == 0 end, quick = 0.02,
   },
   robotiq = {
-    connect = function(at, quick)
-      local gripper = devices.robotiq {port = at, timeout = quick, attempts = 300, poll = 0.001}
+    connect = function(at, quick, attempts)
+      local gripper = devices.robotiq {port = at, timeout = quick, attempts = attempts or 300, poll = 0.001}
       gripper:activate()
       return gripper
     end,
@@ -39,12 +39,12 @@ local kinds = {
   },
   cyberglove = {
     options = {sensors = {10, 20, 30, 255, 1}},
-    connect = function(at, quick) return devices.cyberglove {port = at, timeout = quick, attempts = 300, readings = quick and 15 or 1} end,
+    connect = function(at, quick, attempts) return devices.cyberglove {port = at, timeout = quick, attempts = attempts or 300, readings = quick and 15 or 1} end,
     check = function(t, glove, device) t.equal(glove:read(), device.sensors) end, quick = 0.02,
   },
   flock = {
     options = {poses = {pose}},
-    connect = function(at, quick) return devices.flock {port = at, timeout = quick, attempts = 300, readings = quick and 15 or 1} end,
+    connect = function(at, quick, attempts) return devices.flock {port = at, timeout = quick, attempts = attempts or 300, readings = quick and 15 or 1} end,
     check = function(t, flock)
       local got = flock:read()[1]
       t.close((got.position - pose.position):norm(), 0, 2e-4)
@@ -106,7 +106,7 @@ for _, name in ipairs(names) do
 
   test(name .. ": a device that is silent is an error within its deadline", function(t)
     local device <close> = simulate(name)
-    local driver <close> = kind.connect(device.path, 0.001)
+    local driver <close> = kind.connect(device.path, 0.02, 20)
     device.lose_bytes = 1
     t.fails(function() kind.check(t, driver, device) end, "no valid answer from " .. device.path)
   end)
@@ -196,13 +196,14 @@ end)
 
 test("Dynamixel: the watchdog stops motors that hear nothing, and goals set it again", function(t)
   local device <close> = simulated.dynamixel {ids = {1}, speed = 100}
-  local bus <close> = devices.dynamixel {port = device.path, ids = {1}, watchdog = 0.04}
+  local bus <close> = devices.dynamixel {port = device.path, ids = {1}, watchdog = 0.2}
   bus:write_positions {0.2}
-  loop.sleep(0.15)
+  loop.sleep(0.4)
   bus:read_positions()
   t.equal(device.motors[1].memory[98], 255)
   bus:write_positions {0.5}
-  loop.sleep(0.03)
+  local last = loop.time() + 5
+  while math.abs(bus:read_positions()[1] - 0.5) > 8e-4 and loop.time() < last do bus:write_positions {0.5} end
   t.close(bus:read_positions()[1], 0.5, 8e-4)
   t.equal(bus:read_faults(), {0})
   t.close(bus:read_velocities()[1], 0, 0)
