@@ -35,7 +35,7 @@ end
 
 --- Connects to a server.
 ---@param host string  a name or an address; without `port`, the path of a Unix socket
----@param port? integer [1 to 65535]
+---@param port? integer [1 to 65535]  of the server
 ---@param seconds? number  waits at most so long; 10 by default [s]
 ---@return port
 --- > listener = clench.port.listen {}

@@ -1,0 +1,179 @@
+local class = require "clench.class"
+local device = require "clench.devices.device"
+local new_options = require "clench.options"
+local raise = require "clench.raise"
+
+local subject = "devices.barrett"
+local Barrett = class "barrett"
+
+-- motors in the order of the hand's DOFs: spread, then fingers
+local letters = {"S", "1", "2", "3"}
+local names = {"spread", "finger 1", "finger 2", "finger 3"}
+local max_counts = {3150, 17800, 17800, 17800}
+local max_angles = {math.pi, 2.51327, 2.51327, 2.51327}  -- [rad]
+local all = "123S"               -- the order in which the hand reports values
+local order_of_all = {4, 1, 2, 3}  -- of each DOF, its place there
+
+function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
+
+-- one exchange: the reply between echo and prompt; nil and why there is none
+local function exchange(self, command, seconds)
+  self.port:discard()
+  local ok, why = self.port:write(command .. "\r", seconds)
+  if not ok then return nil, why end
+  local text
+  text, why = self.port:read_until("=> ", seconds)
+  if not text then return nil, why end
+  -- another echo: the hand has understood another command, or the reply is damaged
+  if text:sub(1, #command) ~= command or text:find "[^\r\n\t -~]" then return nil, "damaged" end
+  return text:sub(#command + 1)
+end
+
+-- Sends a command until it is answered; is_once: its repetition would do more than it.
+local function ask(self, command, seconds, is_once)
+  for _ = 1, is_once and 1 or self.attempts do
+    local reply, why = exchange(self, command, seconds)
+    if reply then
+      local code = reply:match "ERR%s*(%d+)"
+      if not code then return reply end
+      raise(("%s: the hand reports error %s after %s"):format(subject, code, command), "stale")
+    end
+    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
+  end
+  device.fail(subject, self.port, "timeout", command)
+end
+
+-- Numbers of a reply, within 0 to their largest values. No checksum protects them: they count once two replies agree.
+local function ask_numbers(self, command, count, largest)
+  local seen = {}
+  for _ = 1, self.attempts do
+    local numbers = {}
+    for word in ask(self, command, self.timeout):gmatch "%S+" do
+      local value = word:match "^%d+$" and tonumber(word)
+      if not value or value > largest[#numbers + 1 <= count and #numbers + 1 or 1] then numbers = {} break end
+      numbers[#numbers + 1] = value
+    end
+    local key = #numbers == count and table.concat(numbers, " ")
+    if key and seen[key] then return numbers end
+    if key then seen[key] = true end
+  end
+  device.fail(subject, self.port, "timeout", command)
+end
+
+local function counts_of(angles)
+  local counts = {}
+  for i, angle in ipairs(angles) do counts[i] = math.floor(angle / max_angles[i] * max_counts[i] + 0.5) end
+  return counts
+end
+
+-- motors of the arguments, as the letters before a command: all without any
+local function prefix_of(method, motors)
+  if motors == nil then return "" end
+  if type(motors) ~= "string" or not motors:find "^[123S]+$" then
+    raise(("barrett:%s: motors: expected letters of 1, 2, 3 and S, as in '12S', got %s"):format(method, require "clench.described"(motors)))
+  end
+  return motors
+end
+
+--- Initializes the hand: it finds the ends of all motors. The spread then moves smoothly.
+function Barrett:initialize()
+  ask(self, "HI", self.move_timeout)
+  for _, setting in ipairs {"SAMPLE 50", "ACCEL 1", "MCV 18", "MOV 18"} do ask(self, "SFSET " .. setting, self.timeout) end
+end
+
+--- Brings all motors, or some, to their home positions.
+function Barrett:home(motors) ask(self, prefix_of("home", motors) .. "HOME", self.move_timeout) end
+
+--- Opens all motors, or some, until something stops them.
+function Barrett:open(motors) ask(self, prefix_of("open", motors) .. "O", self.move_timeout) end
+
+--- Closes all motors, or some, until something stops them.
+function Barrett:close_fingers(motors) ask(self, prefix_of("close_fingers", motors) .. "C", self.move_timeout) end
+
+--- Opens or closes by some counts. A command that is not answered is not repeated, as it may have been carried out.
+---@param counts integer  > 0 closes, < 0 opens
+function Barrett:increment(counts, motors)
+  local whole = type(counts) == "number" and math.tointeger(counts)
+  if not whole or whole == 0 or math.abs(whole) > max_counts[2] then raise "barrett:increment: counts: expected a whole number other than 0 of at most 17800" end
+  ask(self, ("%s%s %d"):format(prefix_of("increment", motors), whole > 0 and "IC" or "IO", math.abs(whole)), self.move_timeout, true)
+end
+
+--- Closes with constant torque, or opens.
+---@param direction "close"|"open"
+function Barrett:torque(direction, motors)
+  if direction ~= "close" and direction ~= "open" then raise "barrett:torque: direction: expected 'close' or 'open'" end
+  ask(self, prefix_of("torque", motors) .. (direction == "close" and "TC" or "TO"), self.move_timeout)
+end
+
+--- Switches the motors off.
+function Barrett:stop(motors) ask(self, prefix_of("stop", motors) .. "T", self.timeout) end
+
+--- Moves all motors together. Positions are checked here, set, read back, and only then is the hand told to move.
+---@param angles number[]  spread and fingers [rad]
+function Barrett:move(angles)
+  device.check_numbers("barrett:move", angles, names, {0, 0, 0, 0}, max_angles, "rad")
+  local goal = counts_of(angles)
+  for i, letter in ipairs(letters) do
+    local ok
+    for _ = 1, self.attempts do
+      ask(self, ("%sFSET DP %d"):format(letter, goal[i]), self.timeout)
+      ok = ask_numbers(self, letter .. "FGET DP", 1, {max_counts[i]})[1] == goal[i]
+      if ok then break end
+    end
+    if not ok then device.fail(subject, self.port, "timeout", "FSET DP") end
+  end
+  ask(self, all .. "M", self.move_timeout)
+end
+
+--- Where the motors are: spread and fingers.
+---@return number[] [rad]
+function Barrett:read()
+  local counts = ask_numbers(self, all .. "FGET P", 4, {17800, 17800, 17800, 3150})
+  local angles = {}
+  for i, place in ipairs(order_of_all) do angles[i] = counts[place] / max_counts[i] * max_angles[i] end
+  return angles
+end
+
+--- Which fingers have broken away, and where.
+---@return {broken: boolean, position: number}[]  of the three fingers [rad]
+function Barrett:breakaways()
+  local detected = ask_numbers(self, "123FGET BD", 3, {1, 1, 1})
+  local at = ask_numbers(self, "123FGET BP", 3, {17800, 17800, 17800})
+  local out = {}
+  for i = 1, 3 do out[i] = {broken = detected[i] == 1, position = at[i] / 17800 * 2.51327} end
+  return out
+end
+
+--- Stops the motors and closes the port.
+function Barrett:close()
+  device.send_last(self.port, "T\r")
+  if self.owns_port then self.port:close() end
+end
+
+Barrett.__close = function(self) self:close() end
+Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
+
+--- A Barrett hand BH8-262. Angles are checked before they are sent. When the program ends, the motors are switched off; a program that is
+--- killed leaves the hand as it is: it has no watchdog.
+---@param options table
+---@option port string|port  path of its serial line, or a port
+---@option baud? integer [bit/s] = 9600
+---@option timeout? number [s, > 0] = 0.5  for answers to questions and settings
+---@option move_timeout? number [s, > 0] = 20  for the ends of motions
+---@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
+---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
+--- > simulated = clench.devices.simulated.barrett {}
+--- > barrett = clench.devices.barrett {port = simulated.path}
+--- > barrett:initialize()
+--- > barrett:move {0.5, 1, 1, 1}
+--- > math.abs(barrett:read()[2] - 1) < 2e-4  --> true
+--- > barrett:move {9, 0, 0, 0}  --> error: spread: expected 0 to 3.14159 rad, got 9
+--- > simulated:unplug()
+return function(options)
+  local o = new_options(subject, options)
+  local given, baud = o:raw "port", o:count("baud", 9600, 1, 10000000)
+  local hand = {timeout = o:positive("timeout", 0.5, 3600), move_timeout = o:positive("move_timeout", 20, 3600), attempts = o:count("attempts", 10, 1, 1000)}
+  o:done()
+  hand.port, hand.owns_port = device.port_of(subject, given, baud), type(given) == "string"
+  return setmetatable(hand, Barrett)
+end

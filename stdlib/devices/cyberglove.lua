@@ -1,0 +1,98 @@
+local class = require "clench.class"
+local device = require "clench.devices.device"
+local new_options = require "clench.options"
+local raise = require "clench.raise"
+
+local subject = "devices.cyberglove"
+local Glove = class "cyberglove"
+
+local record_size = 24  -- the echo, 22 sensors, and a byte 0
+
+function Glove:__tostring() return "CyberGlove at " .. self.port.name end
+
+-- the answer to a command, up to its byte 0; nil and why there is none
+local function exchange(self, command)
+  self.port:discard()
+  local ok, why = self.port:write(command, self.timeout)
+  if not ok then return nil, why end
+  return self.port:read_until("\0", self.timeout)
+end
+
+local function ask(self, command, parse)
+  for _ = 1, self.attempts do
+    local answer, why = exchange(self, command)
+    local value = answer and parse(answer)
+    if value then return value end
+    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
+  end
+  device.fail(subject, self.port, "timeout", command)
+end
+
+-- sensors of a record; nil if it is damaged
+local function parse_record(record)
+  if #record ~= record_size - 1 or record:sub(1, 1) ~= "G" then return nil end
+  return {record:byte(2, -1)}
+end
+
+--- Is the glove connected and initialized?
+---@return boolean
+function Glove:is_ready()
+  return ask(self, "?G", function(answer)
+    local state = answer:match "^%?G([\0-\3])$"
+    return state and {state:byte() == 3}
+  end)[1]
+end
+
+--- Raw values of the 22 sensors, 1 to 255. A record has no checksum: with `readings` > 1 each value is the median of so many records.
+---@return integer[]
+function Glove:read()
+  local records = {}
+  for i = 1, self.readings do records[i] = ask(self, "G", parse_record) end
+  return device.median(records)
+end
+
+--- Values of DOFs by a calibration: DOF = intercept + slopes * raw.
+---@param calibration {slopes: number[][], intercepts: number[]}  as of `clench.files.glove_calibration` or `hand.glove`
+---@param limits? number[][]  as of hand.dof_limits; values are clamped to them
+---@return number[] [rad]
+function Glove:read_dofs(calibration, limits)
+  if type(calibration) ~= "table" or type(calibration.slopes) ~= "table" or type(calibration.intercepts) ~= "table" then
+    raise "cyberglove:read_dofs: calibration: expected {slopes, intercepts}"
+  end
+  local raw, out = self:read(), {}
+  for d, row in ipairs(calibration.slopes) do
+    local value = calibration.intercepts[d]
+    for s, slope in ipairs(row) do value = value + slope * (raw[s] or 0) end
+    local range = limits and limits[d]
+    out[d] = range and math.max(range[1], math.min(range[2], value)) or value
+  end
+  return out
+end
+
+--- Closes the port.
+function Glove:close()
+  if self.owns_port then self.port:close() end
+end
+
+Glove.__close = function(self) self:close() end
+
+--- A CyberGlove with 22 sensors.
+---@param options table
+---@option port string|port  path of its serial line, or a port
+---@option baud? integer [bit/s] = 38400
+---@option timeout? number [s, > 0] = 0.5  for an answer
+---@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
+---@option readings? integer [1 to 99] = 1  records of which each value is the median
+---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
+--- > simulated = clench.devices.simulated.cyberglove {sensors = {10, 20, 30}}
+--- > glove = clench.devices.cyberglove {port = simulated.path}
+--- > glove:is_ready(), glove:read()[2], #glove:read()  --> true, 20, 22
+--- > simulated:close()
+return function(options)
+  local o = new_options(subject, options)
+  local given, baud = o:raw "port", o:count("baud", 38400, 1, 10000000)
+  local glove = {timeout = o:positive("timeout", 0.5, 3600), attempts = o:count("attempts", 10, 1, 1000), readings = o:count("readings", 1, 1, 99)}
+  o:done()
+  glove.port, glove.owns_port = device.port_of(subject, given, baud), type(given) == "string"
+  return setmetatable(glove, Glove)
+end

@@ -1,0 +1,62 @@
+--- What drivers of devices share: their port, errors, and checks of what is sent.
+local described = require "clench.described"
+local raise = require "clench.raise"
+local device = {}
+
+--- The port of a driver: a path, which is opened as a serial line, or a port.
+---@param subject string  "devices.barrett"
+---@param given any
+---@param baud integer
+function device.port_of(subject, given, baud)
+  if type(given) == "string" then return clench.port.serial {path = given, baud = baud} end
+  local meta = debug.getmetatable(given)
+  if type(given) ~= "table" or not meta or meta.__name ~= "port" then
+    raise(("%s: port: expected the path of a serial line, or a port, got %s"):format(subject, described(given)))
+  end
+  return given
+end
+
+--- Raises an error because of the end of a port, or for want of an answer.
+---@param why string  "closed", "unplugged" or "timeout"
+function device.fail(subject, port, why, doing)
+  if why == "timeout" then raise(("%s: no valid answer from %s: %s"):format(subject, port.name, doing), "limit") end
+  raise(("%s: %s is %s"):format(subject, port.name, why), "stale")
+end
+
+--- Checks numbers that are to be sent.
+---@param names string[]  of the numbers, for messages
+---@param low number[]
+---@param high number[]
+---@param unit string
+function device.check_numbers(subject, values, names, low, high, unit)
+  if type(values) ~= "table" or #values ~= #names then
+    raise(("%s: expected %d numbers (%s), got %s"):format(subject, #names, table.concat(names, ", "), described(values)))
+  end
+  for i, name in ipairs(names) do
+    local value = values[i]
+    -- a value at a limit may be off by rounding
+    if type(value) ~= "number" or not (value >= low[i] - 1e-9 and value <= high[i] + 1e-9) then
+      raise(("%s: %s: expected %.6g to %.6g %s, got %s"):format(subject, name, low[i], high[i], unit, described(value)))
+    end
+  end
+end
+
+--- The value at which most of some readings agree, number by number: the median.
+---@param readings number[][]  at least one
+function device.median(readings)
+  local out = {}
+  for i in ipairs(readings[1]) do
+    local column = {}
+    for r, reading in ipairs(readings) do column[r] = reading[i] end
+    table.sort(column)
+    out[i] = column[(#column + 1) // 2]
+  end
+  return out
+end
+
+--- Sends bytes without waiting, where nobody can wait: when a script ends.
+function device.send_last(port, bytes)
+  if port.stream:descriptor() >= 0 then port.stream:write(bytes, 0) end
+end
+
+return device

@@ -1,0 +1,139 @@
+local class = require "clench.class"
+local device = require "clench.devices.device"
+local loop = clench.loop
+local new_options = require "clench.options"
+
+local subject = "devices.flock"
+local Flock = class "flock"
+
+local inch = 0.0254
+local range = 36 * inch  -- of a full word of a position [m]
+local modes = {matrix = {letter = "Z", words = 12}, angles = {letter = "Y", words = 6}}
+
+function Flock:__tostring() return ("Flock of %d birds at %s"):format(self.birds, self.port.name) end
+
+local function address(bird) return string.char(0xF0 + bird) end
+
+-- words of a record: the high bit of its first byte is set, and of no other; nil if it is damaged
+local function parse(record)
+  local words = {}
+  for i = 1, #record, 2 do
+    local low, high = record:byte(i, i + 1)
+    if low >= 0x80 ~= (i == 1) or high >= 0x80 then return nil end
+    local word = ((low << 1 & 0xFF) + 256 * high) << 1 & 0xFFFF
+    words[#words + 1] = word >= 0x8000 and word - 0x10000 or word
+  end
+  return words
+end
+
+-- a record of a bird; bytes before its beginning are passed over
+local function request(self, bird)
+  local size = 2 * self.mode.words
+  for _ = 1, self.attempts do
+    self.port:discard()
+    local ok, why = self.port:write(address(bird) .. "B", self.timeout)
+    local last, received = loop.time() + self.timeout, ""
+    while ok do
+      local more
+      more, why = self.port:read_some(math.max(0, last - loop.time()))
+      if not more then break end
+      received = received .. more
+      local at = received:find "[\x80-\xFF]"
+      received = at and received:sub(at) or ""
+      if #received >= size then
+        local words = parse(received:sub(1, size))
+        if words then return words end
+        received = received:sub(2)
+      end
+    end
+    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, "bird " .. bird) end
+  end
+  device.fail(subject, self.port, "timeout", "bird " .. bird)
+end
+
+local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
+
+-- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each mean nothing
+local function pose_of_matrix(words)
+  local rows = {}
+  for r = 1, 3 do
+    local row = {}
+    for c = 1, 3 do row[c] = (words[3 * r + c] & ~0x3F) / 32768 end
+    local norm = math.sqrt(row[1] ^ 2 + row[2] ^ 2 + row[3] ^ 2)
+    if math.abs(norm - 1) > 0.05 then return nil end
+    rows[r] = row
+  end
+  local function column(c) return {rows[1][c], rows[2][c], rows[3][c]} end
+  return clench.pose {xyz = position_of(words), x_axis = column(1), z_axis = column(3)}
+end
+
+-- words 4 to 6 are turns about z, y and x
+local function pose_of_angles(words)
+  local function angle(word) return word * math.pi / 32768 end
+  return clench.pose {xyz = position_of(words), rpy = {angle(words[6]), angle(words[5]), angle(words[4])}}
+end
+
+local function read_bird(self, bird)
+  for _ = 1, self.attempts do
+    local records = {}
+    for i = 1, self.readings do records[i] = request(self, bird) end
+    local words = device.median(records)
+    local pose = self.mode == modes.matrix and pose_of_matrix(words) or self.mode == modes.angles and pose_of_angles(words)
+    if pose then return pose end
+  end
+  device.fail(subject, self.port, "timeout", "bird " .. bird)
+end
+
+--- Poses of the birds in the frame of the transmitter.
+---@return pose[]
+function Flock:read()
+  local poses = {}
+  for bird = 1, self.birds do poses[bird] = read_bird(self, bird) end
+  return poses
+end
+
+--- Closes the port.
+function Flock:close()
+  if self.owns_port then self.port:close() end
+end
+
+Flock.__close = function(self) self:close() end
+
+local function write(self, bytes, doing)
+  local ok, why = self.port:write(bytes, self.timeout)
+  if not ok then device.fail(subject, self.port, why, doing) end
+end
+
+local function configure(self)
+  if self.birds > 1 then
+    write(self, "P" .. string.char(50, self.birds), "configuration")
+    loop.sleep(1)  -- the flock needs it to find all birds
+  end
+  for bird = 1, self.birds do write(self, address(bird) .. self.mode.letter, "mode") end
+end
+
+--- A Flock of Birds: 1 to 3 trackers on one bus.
+---@param options table
+---@option port string|port  path of its serial line, or a port
+---@option birds? integer [1 to 3] = 1
+---@option mode? "matrix"|"angles"
+---@option baud? integer [bit/s] = 115200
+---@option timeout? number [s, > 0] = 0.2  for a record
+---@option attempts? integer [1 to 1000] = 20  repetitions of what is not answered correctly
+---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
+---@return flock flock # `read`, `close`
+--- > simulated = clench.devices.simulated.flock {poses = {clench.pose {xyz = {0.3, 0.1, 0.2}}}}
+--- > flock = clench.devices.flock {port = simulated.path}
+--- > (flock:read()[1].position - clench.vec3(0.3, 0.1, 0.2)):norm() < 3e-4  --> true
+--- > simulated:close()
+return function(options)
+  local o = new_options(subject, options)
+  local given, baud = o:raw "port", o:count("baud", 115200, 1, 10000000)
+  local flock = {birds = o:count("birds", 1, 1, 3), mode = modes[o:choice("mode", {"matrix", "angles"})], timeout = o:positive("timeout", 0.2, 3600),
+                 attempts = o:count("attempts", 20, 1, 1000), readings = o:count("readings", 1, 1, 99)}
+  o:done()
+  flock.port, flock.owns_port = device.port_of(subject, given, baud), type(given) == "string"
+  setmetatable(flock, Flock)
+  configure(flock)
+  return flock
+end

@@ -1,0 +1,125 @@
+local class = require "clench.class"
+local described = require "clench.described"
+local device = require "clench.devices.device"
+local loop = clench.loop
+local modbus = require "clench.devices.modbus"
+local new_options = require "clench.options"
+local raise = require "clench.raise"
+
+local subject = "devices.robotiq"
+local Robotiq = class "robotiq"
+
+local request_address, status_address = 0x03E8, 0x07D0
+local objects = {[0] = "moving", [1] = "opening", [2] = "closing", [3] = "none"}  -- where it has met an object
+
+function Robotiq:__tostring() return "Robotiq gripper at " .. self.port.name end
+
+local function send(self, action, position, speed, force)
+  modbus.write(self, request_address, string.char(action, 0, 0, position, speed, force))
+end
+
+local function read_status(self)
+  local status, _, fault, echo, position, current = modbus.read(self, status_address, 3):byte(1, 6)
+  return {status = status, fault = fault, echo = echo, position = position, current = current}
+end
+
+local function is_active(status) return status.status & 0x01 == 1 and status.status >> 4 & 3 == 3 end
+
+-- waits until a status fulfills a condition
+local function wait_for(self, doing, condition)
+  local last = loop.time() + self.move_timeout
+  while true do
+    local status = read_status(self)
+    if condition(status) then return status end
+    if loop.time() > last then device.fail(subject, self.port, "timeout", doing) end
+    loop.sleep(self.poll)
+  end
+end
+
+--- Activates the gripper: it opens and closes once to find its ends.
+function Robotiq:activate()
+  send(self, 0, 0, 0, 0)
+  send(self, 1, 0, 0, 0)
+  wait_for(self, "activation", is_active)
+end
+
+-- 0 (open) to 255 (closed) of an opening
+local function count_of(self, opening) return math.floor(255 * (1 - opening / self.stroke) + 0.5) end
+
+local function part_of(name, value, default)
+  if value == nil then value = default end
+  if type(value) ~= "number" or not (value >= 0 and value <= 1) then
+    raise(("robotiq:move: %s: expected a part from 0 to 1, got %s"):format(name, described(value)))
+  end
+  return math.floor(255 * value + 0.5)
+end
+
+--- Moves the fingers until they have an opening, or meet an object.
+---@param opening number  distance of the fingers [m]
+---@param speed? number  part of the largest speed, 1 by default
+---@param force? number  part of the largest force, 0.5 by default
+---@return table state  as of read
+function Robotiq:move(opening, speed, force)
+  device.check_numbers("robotiq:move", {opening}, {"opening"}, {0}, {self.stroke}, "m")
+  local count = count_of(self, opening)
+  speed, force = part_of("speed", speed, 1), part_of("force", force, 0.5)
+  if not is_active(read_status(self)) then raise("robotiq:move: the gripper is not active; call activate first", "stale") end
+  send(self, 0x09, count, speed, force)
+  wait_for(self, "motion", function(status) return status.echo == count and status.status >> 6 ~= 0 end)
+  return self:read()
+end
+
+--- The state: opening [m], is_moving, object ("opening" or "closing": it has met one in that motion), fault (0: none), current [A].
+---@return {opening: number, is_moving: boolean, is_active: boolean, object?: string, fault: integer, current: number}
+function Robotiq:read()
+  local status = read_status(self)
+  local object = objects[status.status >> 6]
+  return {opening = self.stroke * (1 - status.position / 255), is_active = is_active(status), is_moving = object == "moving",
+          object = (object == "opening" or object == "closing") and object or nil, fault = status.fault & 0x0F, current = status.current / 100}
+end
+
+--- Stops the fingers where they are.
+function Robotiq:stop() send(self, 0x01, 0, 0, 0) end
+
+-- the frame that stops them
+local function last_frame(self)
+  local bytes = string.pack(">B B I2 I2 B", self.slave, 16, request_address, 3, 6) .. "\1\0\0\0\0\0"
+  return modbus.frame(bytes)
+end
+
+--- Stops the fingers and closes the port.
+function Robotiq:close()
+  device.send_last(self.port, last_frame(self))
+  if self.owns_port then self.port:close() end
+end
+
+Robotiq.__close = function(self) self:close() end
+Robotiq.__gc = function(self) device.send_last(self.port, last_frame(self)) end
+
+--- A Robotiq gripper of two fingers, by Modbus RTU. Openings are checked before they are sent. When the program ends, the fingers are stopped;
+--- a program that is killed lets a motion end: the gripper has no watchdog.
+---@param options table
+---@option port string|port  path of its serial line, or a port
+---@option stroke? number [m, > 0] = 0.085  largest opening
+---@option slave? integer [1 to 247] = 9
+---@option baud? integer [bit/s] = 115200
+---@option timeout? number [s, > 0] = 0.1  for an answer
+---@option move_timeout? number [s, > 0] = 10  for activation and motions
+---@option poll? number [s, >= 0] = 0.02  between two questions whether a motion has ended
+---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
+---@return robotiq gripper # `activate`, `move`, `read`, `stop`, `close`
+--- > simulated = clench.devices.simulated.robotiq {}
+--- > gripper = clench.devices.robotiq {port = simulated.path}
+--- > gripper:activate()
+--- > math.abs(gripper:move(0.04).opening - 0.04) < 2e-4  --> true
+--- > gripper:move(0.1)  --> error: opening: expected 0 to 0.085 m, got 0.1
+--- > simulated:close()
+return function(options)
+  local o = new_options(subject, options)
+  local given, baud = o:raw "port", o:count("baud", 115200, 1, 10000000)
+  local gripper = {subject = subject, stroke = o:positive("stroke", 0.085), slave = o:count("slave", 9, 1, 247), timeout = o:positive("timeout", 0.1, 3600),
+                   move_timeout = o:positive("move_timeout", 10, 3600), poll = o:not_negative("poll", 0.02), attempts = o:count("attempts", 50, 1, 1000)}
+  o:done()
+  gripper.port, gripper.owns_port = device.port_of(subject, given, baud), type(given) == "string"
+  return setmetatable(gripper, Robotiq)
+end

@@ -1,0 +1,119 @@
+local loop = clench.loop
+local new_line = require "clench.devices.simulated.line"
+
+-- CRC-16 of Modbus by a table of the reflected polynomial
+local table_of = {}
+for byte = 0, 255 do
+  local crc = byte
+  for _ = 1, 8 do crc = crc % 2 == 1 and (crc // 2) ~ 0xA001 or crc // 2 end
+  table_of[byte] = crc
+end
+
+local function checksum(bytes)
+  local crc = 0xFFFF
+  for i = 1, #bytes do crc = crc // 256 ~ table_of[(crc ~ bytes:byte(i)) % 256] end
+  return string.char(crc % 256, crc // 256)
+end
+
+-- brings the fingers to the present time
+local function update(gripper)
+  local now = loop.time()
+  local step = (now - gripper.time) * 255 / gripper.full_time
+  gripper.time = now
+  if not gripper.is_moving then return end
+  local goal = gripper.goal
+  local stop = gripper.object and goal > gripper.object and gripper.object or goal
+  gripper.position = gripper.position + math.max(-step, math.min(step, stop - gripper.position))
+  if math.abs(gripper.position - stop) < 0.5 then
+    gripper.position, gripper.is_moving = stop, false
+    gripper.met = stop ~= goal and 2 or 3
+  end
+end
+
+local function status_bytes(gripper)
+  local active = gripper.is_active and 0x31 or 0
+  local object = gripper.is_moving and 0 or gripper.met
+  return string.char(active | (gripper.has_goal and 0x08 or 0) | object << 6, 0, 0, gripper.goal, math.floor(gripper.position + 0.5), gripper.is_moving and 20 or 0)
+end
+
+local function command(gripper, bytes)
+  local action, _, _, goal = bytes:byte(1, 4)
+  gripper.is_active = action & 1 == 1
+  gripper.has_goal = action & 8 ~= 0
+  if not gripper.has_goal then
+    gripper.is_moving = false
+    gripper.stops = gripper.stops + 1
+    return
+  end
+  if gripper.goal ~= goal or not gripper.is_moving then gripper.goal, gripper.is_moving = goal, true end
+end
+
+-- the answer to a frame without its checksum
+local function answer(gripper, frame)
+  local code = frame:byte(2)
+  if code == 3 and #frame == 6 then
+    local address, count = string.unpack(">I2 I2", frame, 3)
+    if address < 0x07D0 or address + count > 0x07D3 or count == 0 then return "\x83\2" end
+    local from = 2 * (address - 0x07D0)
+    return "\3" .. string.char(2 * count) .. status_bytes(gripper):sub(from + 1, from + 2 * count)
+  elseif code == 16 and #frame >= 7 and #frame == 7 + frame:byte(7) then
+    local address, count = string.unpack(">I2 I2", frame, 3)
+    if address ~= 0x03E8 or count ~= 3 then return "\x90\2" end
+    command(gripper, frame:sub(8))
+    return "\16" .. frame:sub(3, 6)
+  end
+  return string.char(code | 0x80, 1)
+end
+
+local function size_of(bytes)
+  if bytes:byte(2) == 16 then return #bytes >= 7 and 9 + bytes:byte(7) or nil end
+  return 8
+end
+
+local function serve(gripper)
+  local waiting = ""
+  while true do
+    -- silence ends a frame
+    local bytes, why = gripper:receive(waiting ~= "" and 0.005 or nil)
+    if bytes then
+      waiting = waiting .. bytes
+    elseif why == "timeout" then
+      waiting = ""
+    else
+      return
+    end
+    local size = #waiting >= 2 and size_of(waiting)
+    if size and #waiting >= size then
+      local frame, sum = waiting:sub(1, size - 2), waiting:sub(size - 1, size)
+      waiting = ""
+      if checksum(frame) == sum and frame:byte(1) == gripper.slave then
+        update(gripper)
+        local reply = frame:sub(1, 1) .. answer(gripper, frame)
+        gripper:send(reply .. checksum(reply))
+      end
+    end
+  end
+end
+
+--- A program that plays a Robotiq gripper of two fingers.
+---@param options? table
+---@option slave? integer [1 to 247] = 9
+---@option full_time? number [s, > 0] = 0.05  from open to closed
+---@option object? integer [0 to 255]  position at which closing fingers meet an object
+---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option delay? number [s, >= 0] = 0  before each answer
+---@option seed? integer = 1
+---@return table gripper # `path`, `position`, `stops`: how often the fingers were stopped, `unplug()`, `close()`
+--- > simulated = clench.devices.simulated.robotiq {}
+--- > line = clench.port.serial {path = simulated.path}
+--- > line:write "\x09\x10\x03\xE8\x00\x03\x06\x01\x00\x00\x00\x00\x00\x72\xE1"
+--- > line:read(8, 1) == "\x09\x10\x03\xE8\x00\x03\x01\x30"  --> true
+--- > simulated:close()
+return function(options)
+  return new_line("robotiq", options, function(o)
+    local object = o:raw "object"
+    if object ~= nil and (math.type(object) ~= "integer" or object < 0 or object > 255) then o:expected("object", "a number from 0 to 255", object) end
+    return {slave = o:count("slave", 9, 1, 247), full_time = o:positive("full_time", 0.05), object = object, position = 0, goal = 0, met = 3, time = loop.time(), stops = 0}
+  end, serve)
+end

@@ -1,0 +1,264 @@
+-- Drivers of devices against programs that play them: one suite for all, and each protocol by bytes of its description.
+local test, clench = require "test", require "clench"
+local loop, devices = clench.loop, clench.devices
+local simulated = devices.simulated
+
+local pose = clench.pose {xyz = {0.3, -0.1, 0.2}, rpy = {0.3, -0.4, 0.5}}
+
+-- of each device: how it is connected, read and commanded. `close_to`: is a reading what was commanded, or what is simulated?
+local kinds = {
+  barrett = {
+    connect = function(at, quick, attempts)
+      local hand = devices.barrett {port = at, timeout = quick or 0.5, move_timeout = quick or 5, attempts = attempts or 300}
+      hand:initialize()
+      return hand
+    end,
+    command = function(hand) hand:move {0.5, 1, 1.5, 2} end,
+    check = function(t, hand) t.close(hand:read(), {0.5, 1, 1.5, 2}, 2e-3) end,
+    refuse = function(hand) hand:move {0.5, 1, 9, 2} end, refusal = "finger 2: expected 0 to 2.51327 rad, got 9",
+    stopped = function(device) return device.stops > 0 end, quick = 0.02,
+  },
+  dynamixel = {
+    options = {ids = {1, 2, 3}, speed = 100},
+    connect = function(at, quick, attempts) return devices.dynamixel {port = at, ids = {1, 2, 3}, timeout = quick, attempts = attempts or 300} end,
+    command = function(bus) bus:write_positions {0.1, -0.2, 0.3} loop.sleep(0.05) end,
+    check = function(t, bus) t.close(bus:read_positions(), {0.1, -0.2, 0.3}, 8e-4) end,
+    refuse = function(bus) bus:write_positions {0, 4, 0} end, refusal = "motor 2: expected -3.14159 to 3.14006 rad, got 4",
+    stopped = function(device) return device.motors[1].memory[64] == 0 end, quick = 0.02,
+  },
+  robotiq = {
+    connect = function(at, quick, attempts)
+      local gripper = devices.robotiq {port = at, timeout = quick, attempts = attempts or 300, poll = 0.001}
+      gripper:activate()
+      return gripper
+    end,
+    command = function(gripper) gripper:move(0.03) end,
+    check = function(t, gripper) t.close(gripper:read().opening, 0.03, 2e-4) end,
+    refuse = function(gripper) gripper:move(0.1) end, refusal = "opening: expected 0 to 0.085 m, got 0.1",
+    stopped = function(device) return device.stops > 1 and not device.has_goal end, quick = 0.02,
+  },
+  cyberglove = {
+    options = {sensors = {10, 20, 30, 255, 1}},
+    connect = function(at, quick, attempts) return devices.cyberglove {port = at, timeout = quick, attempts = attempts or 300, readings = quick and 15 or 1} end,
+    check = function(t, glove, device) t.equal(glove:read(), device.sensors) end, quick = 0.02,
+  },
+  flock = {
+    options = {poses = {pose}},
+    connect = function(at, quick, attempts) return devices.flock {port = at, timeout = quick, attempts = attempts or 300, readings = quick and 15 or 1} end,
+    check = function(t, flock)
+      local got = flock:read()[1]
+      t.close((got.position - pose.position):norm(), 0, 2e-4)
+      t.close((got:inverse() * pose):angle(), 0, 6e-3)
+    end, quick = 0.02,
+  },
+}
+local names = {"barrett", "cyberglove", "dynamixel", "flock", "robotiq"}
+
+-- a simulated device, with further options
+local function simulate(name, more)
+  local options = {}
+  for key, value in pairs(kinds[name].options or {}) do options[key] = value end
+  for key, value in pairs(more or {}) do options[key] = value end
+  return simulated[name](options)
+end
+
+for _, name in ipairs(names) do
+  local kind = kinds[name]
+
+  test(name .. ": it is connected, commanded and read, in the main program and in a coroutine", function(t)
+    local device <close> = simulate(name)
+    local driver <close> = kind.connect(device.path)
+    if kind.command then kind.command(driver) end
+    kind.check(t, driver, device)
+    local ticks, done = 0, false
+    device.delay = 0.005
+    loop.spawn(function()
+      for _ = 1, 3 do kind.check(t, driver, device) end
+      done = true
+    end)
+    loop.spawn(function() while not done do ticks = ticks + 1 loop.sleep(0.001) end end)
+    while not done do loop.run(0.01) end
+    t.ok(ticks > 3, ticks)  -- others run while it waits
+  end)
+
+  test(name .. ": 5 % bad bytes do not change what is read or commanded", function(t)
+    local device <close> = simulate(name, {seed = 3})
+    local driver <close> = kind.connect(device.path, kind.quick)
+    device.flip_bytes, device.lose_bytes = 0.04, 0.01
+    if kind.command then kind.command(driver) end
+    for _ = 1, 3 do kind.check(t, driver, device) end
+    device.flip_bytes, device.lose_bytes = 0, 0
+    kind.check(t, driver, device)
+  end)
+
+  test(name .. ": unplugged, it is an error within its deadline, and it can be connected again", function(t)
+    local device = simulate(name)
+    local driver = kind.connect(device.path)
+    device:unplug()
+    local began = loop.time()
+    t.fails(function() kind.check(t, driver, device) end, "devices." .. name, "is unplugged")
+    t.ok(loop.time() - began < 1)
+    driver:close()
+    local other <close> = simulate(name)
+    local again <close> = kind.connect(other.path)
+    kind.check(t, again, other, kind.command and kind.command(again))
+  end)
+
+  test(name .. ": a device that is silent is an error within its deadline", function(t)
+    local device <close> = simulate(name)
+    local driver <close> = kind.connect(device.path, 0.02, 20)
+    device.lose_bytes = 1
+    t.fails(function() kind.check(t, driver, device) end, "no valid answer from " .. device.path)
+  end)
+
+  test(name .. ": arguments are checked", function(t)
+    local ids = name == "dynamixel" and {1} or nil
+    t.fails(function() devices[name] {port = 5, ids = ids} end, "port: expected the path of a serial line, or a port, got 5")
+    t.fails(function() devices[name] {port = "/dev/no_such_line", ids = ids} end, "No such file or directory")
+    t.fails(function() devices[name] {port = "/dev/null", ids = ids, prot = "x"} end, "unknown key")
+    t.fails(function() simulated[name] {flip = 1} end, "unknown key 'flip'")
+    t.fails(function() simulated[name] {flip_bytes = 2} end, "flip_bytes must be a part from 0 to 1, got 2")
+  end)
+
+  if kind.refuse then
+    test(name .. ": what is out of range is refused here, and nothing is sent", function(t)
+      local device <close> = simulate(name)
+      local driver <close> = kind.connect(device.path)
+      kind.command(driver)
+      t.fails(function() kind.refuse(driver) end, kind.refusal)
+      kind.check(t, driver, device)
+    end)
+
+    test(name .. ": it stops when a script ends or fails", function(t)
+      for _, ending in ipairs {"driver:close()", "error 'x'", "driver = nil collectgarbage()"} do
+        local device <close> = simulate(name)
+        local job = clench.job(function(kind_name, path, code)
+          local clench = require "clench"
+          local options = kind_name == "dynamixel" and {port = path, ids = {1, 2, 3}} or {port = path}
+          local made = clench.devices[kind_name](options)
+          if kind_name == "barrett" then made:initialize() elseif kind_name == "robotiq" then made:activate() end
+          local env = setmetatable({driver = made}, {__index = _G})
+          made = nil
+          load(code, "=code", "t", env)()
+        end, {args = {name, device.path, ending}})
+        loop.wait(job, 10)
+        local last = loop.time() + 5
+        while not kind.stopped(device) and loop.time() < last do loop.sleep(0.01) end
+        t.ok(kind.stopped(device), ending)
+      end
+    end)
+  end
+end
+
+test("Barrett: faults of the hand are reported with their numbers", function(t)
+  local device <close> = simulated.barrett {}
+  local hand <close> = devices.barrett {port = device.path}
+  t.fails(function() hand:move {0, 0, 0, 0} end, "the hand reports error 1 after 123SM")
+  hand:initialize()
+  t.equal(device.motors.S.MOV, 18)
+  hand:close_fingers "12"
+  t.equal({device.motors["1"].P, device.motors["2"].P, device.motors["3"].P}, {17800, 17800, 0})
+  hand:increment(-800, "1")
+  t.equal(device.motors["1"].P, 17000)
+  hand:torque("open", "2")
+  t.equal(device.motors["2"].P, 0)
+  hand:home()
+  t.equal(hand:read(), {0, 0, 0, 0})
+  device.motors["2"].BD, device.motors["2"].BP = 1, 8900
+  t.equal(hand:breakaways()[2], {broken = true, position = 8900 / 17800 * 2.51327})
+  hand:move {math.pi, 2.51327, 0, 1.256635}
+  t.equal({device.motors.S.P, device.motors["1"].P, device.motors["3"].P}, {3150, 17800, 8900})
+  t.fails(function() hand:open "4" end, "motors: expected letters of 1, 2, 3 and S")
+  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0")
+end)
+
+test("Dynamixel: packets are those of the protocol's description", function(t)
+  local device <close> = simulated.dynamixel {ids = {1, 2}}
+  local bus <close> = devices.dynamixel {port = device.path, ids = {1, 2}}
+  local function bytes(hex) return (hex:gsub("%x%x ?", function(pair) return string.char(tonumber(pair:sub(1, 2), 16)) end)) end
+  t.equal(bus.packet {id = 1, instruction = "ping"}, bytes "FF FF FD 00 01 03 00 01 19 4E")
+  t.equal(bus.packet {id = 1, instruction = "read", parameters = bytes "84 00 04 00"}, bytes "FF FF FD 00 01 07 00 02 84 00 04 00 1D 15")
+  t.equal(bus.packet {id = 1, instruction = "write", parameters = bytes "74 00 00 02 00 00"}, bytes "FF FF FD 00 01 09 00 03 74 00 00 02 00 00 CA 89")
+  -- parameters that look like a header are stuffed
+  local stuffed = bus.packet {id = 1, instruction = "write", parameters = bytes "74 00 FF FF FD 00"}
+  t.equal(stuffed:sub(9, 15), bytes "74 00 FF FF FD FD 00")
+  t.fails(function() bus.packet {id = 1, instruction = "pong"} end, "instruction must be the name of an instruction, got 'pong'")
+  local packet = require "clench.devices.dynamixel_packet"
+  local found = packet.decode(bytes "00 FF FF FF FD 00 01 08 00 55 00 A6 00 00 00 8C C0", 1)
+  t.equal({found.id, found.error, found.parameters}, {1, 0, bytes "A6 00 00 00"})
+  local body = bytes "55 00 FF FF FD 01"
+  local whole = packet.encode(7, "status", body:sub(2))
+  found = packet.decode(whole, 1)
+  t.equal(found.parameters, body:sub(3))
+  local broken = whole:sub(1, 10) .. "\1" .. whole:sub(12)
+  t.equal({packet.decode(broken, 1)}, {nil, 2, true})
+end)
+
+test("Dynamixel: the watchdog stops motors that hear nothing, and goals set it again", function(t)
+  local device <close> = simulated.dynamixel {ids = {1}, speed = 100}
+  local bus <close> = devices.dynamixel {port = device.path, ids = {1}, watchdog = 0.2}
+  bus:write_positions {0.2}
+  loop.sleep(0.4)
+  bus:read_positions()
+  t.equal(device.motors[1].memory[98], 255)
+  bus:write_positions {0.5}
+  local last = loop.time() + 5
+  while math.abs(bus:read_positions()[1] - 0.5) > 8e-4 and loop.time() < last do bus:write_positions {0.5} end
+  t.close(bus:read_positions()[1], 0.5, 8e-4)
+  t.equal(bus:read_faults(), {0})
+  t.close(bus:read_velocities()[1], 0, 0)
+  bus:set_torque(false)
+  t.equal(device.motors[1].memory[64], 0)
+  local held <close> = simulated.dynamixel {ids = {4}}
+  local soft <close> = devices.dynamixel {port = held.path, ids = {4}, mode = "current_position", current = 350, velocity = 1}
+  t.equal({held.motors[4].memory[11], held.motors[4].memory[102] + 256 * held.motors[4].memory[103], held.motors[4].memory[112]}, {5, 350, 42})
+  t.equal(#soft.ids, 1)
+end)
+
+test("Robotiq: frames are those of the gripper's manual", function(t)
+  local modbus = require "clench.devices.modbus"
+  local function hex(text) return (text:gsub(".", function(byte) return ("%02X "):format(byte:byte()) end)) end
+  t.equal(hex(modbus.frame "\x09\x10\x03\xE8\x00\x03\x06\x00\x00\x00\x00\x00\x00"), "09 10 03 E8 00 03 06 00 00 00 00 00 00 73 30 ")
+  t.equal(hex(modbus.frame "\x09\x10\x03\xE8\x00\x03\x06\x09\x00\x00\xFF\xFF\xFF"), "09 10 03 E8 00 03 06 09 00 00 FF FF FF 42 29 ")
+  t.equal(hex(modbus.frame "\x09\x03\x07\xD0\x00\x01"), "09 03 07 D0 00 01 85 CF ")
+  local device <close> = simulated.robotiq {object = 128}
+  local gripper <close> = devices.robotiq {port = device.path}
+  t.fails(function() gripper:move(0.02) end, "the gripper is not active; call activate first")
+  gripper:activate()
+  local state = gripper:move(0)
+  t.equal({state.object, state.fault, state.is_moving}, {"closing", 0, false})
+  t.close(state.opening, 0.085 * (1 - 128 / 255), 1e-12)
+  t.equal(gripper:move(0.085).object, nil)
+  t.fails(function() modbus.read(gripper, 0, 1) end, "the device refuses: reading registers (exception 2)")
+end)
+
+test("CyberGlove: DOFs follow from a calibration, within their limits", function(t)
+  local device <close> = simulated.cyberglove {sensors = {100, 200}}
+  local glove <close> = devices.cyberglove {port = device.path}
+  local calibration = {slopes = {{0.01, 0}, {0.01, 0.01}}, intercepts = {-0.5, 0}}
+  t.close(glove:read_dofs(calibration), {0.5, 3}, 1e-12)
+  t.close(glove:read_dofs(calibration, {{0, 1}, {0, 1.5}}), {0.5, 1.5}, 1e-12)
+  t.ok(glove:is_ready())
+  device.state = 1
+  t.ok(not glove:is_ready())
+end)
+
+test("Flock of Birds: both modes, all directions, and several birds", function(t)
+  local random = clench.random(5)
+  local device <close> = simulated.flock {poses = {pose, clench.pose {xyz = {-0.9, 0.9, -0.5}}}}
+  local matrix <close> = devices.flock {port = device.path, birds = 2}
+  for _ = 1, 20 do
+    local wanted = clench.pose {xyz = {random:uniform(-0.9, 0.9), random:uniform(-0.9, 0.9), random:uniform(-0.9, 0.9)}} * random:rotation()
+    device.poses[1] = wanted
+    local got = matrix:read()
+    t.close((got[1].position - wanted.position):norm(), 0, 2e-4)
+    t.close((got[1]:inverse() * wanted):angle(), 0, 8e-3)
+    t.close((got[2].position - device.poses[2].position):norm(), 0, 2e-4)
+  end
+  matrix:close()
+  local angles <close> = devices.flock {port = device.path, mode = "angles"}
+  for _ = 1, 20 do
+    device.poses[1] = clench.pose {xyz = {random:uniform(-0.9, 0.9), 0, 0}} * random:rotation()
+    t.close((angles:read()[1]:inverse() * device.poses[1]):angle(), 0, 1e-3)
+  end
+end)
