@@ -49,6 +49,8 @@ end
 
 --- Ends the watch.
 function Watch:remove()
+  if self.is_removed then return end  -- the number may be another descriptor's by now
+  self.is_removed = true
   local of = watches[self.descriptor]
   local list = of and of[self.event] or {}
   for i, watch in ipairs(list) do
@@ -77,8 +79,9 @@ local function check_event(what, event)
   return event or "readable"
 end
 
-local function add_watch(descriptor, event, f)
-  local watch = setmetatable({descriptor = descriptor, event = event, fn = f}, Watch)
+-- is_wait: of a coroutine, which goes on when the descriptor is released
+local function add_watch(descriptor, event, f, is_wait)
+  local watch = setmetatable({descriptor = descriptor, event = event, fn = f, is_wait = is_wait}, Watch)
   watches[descriptor] = watches[descriptor] or {readable = {}, writable = {}}
   local list = watches[descriptor][event]
   list[#list + 1] = watch
@@ -157,7 +160,7 @@ end
 -- loop.wait outside of the loop's coroutines: runs the loop until job or descriptor is ready
 local function wait_outside(what, is_job, last, event)
   local is_ready = false
-  local watch = not is_job and add_watch(what, event, function() is_ready = true end)
+  local watch = not is_job and add_watch(what, event, function() is_ready = true end, true)
   local _ <close> = setmetatable({}, {__close = function() if watch then watch:remove() end end})
   local function is_over()
     is_ready = is_ready or is_job and what:wait(0)
@@ -197,7 +200,7 @@ function loop.wait(what, timeout, event)
   if is_job then
     task.job = what
   else
-    task.watch = add_watch(what, event, function() wake(task, true) end)
+    task.watch = add_watch(what, event, function() wake(task, true) end, true)
   end
   return pause(task) == true
 end
@@ -254,6 +257,21 @@ function loop.on(descriptor, f, event)
   check_function("on", f)
   event = check_event("on", event)
   return add_watch(descriptor, event, f)
+end
+
+--- Ends all watches of a descriptor, to be called before it is closed. Coroutines that wait for it go on, as if it were ready.
+---@param descriptor integer  of a socket, a pipe, a terminal or a device
+--- > clench.loop.release(5)
+--- > clench.loop.release "5"  --> error: expected a descriptor, got '5'
+function loop.release(descriptor)
+  if math.type(descriptor) ~= "integer" then raise(("loop.release: expected a descriptor, got %s"):format(described(descriptor))) end
+  local of = watches[descriptor]
+  for _, event in ipairs {"readable", "writable"} do
+    for _, watch in ipairs(of and {table.unpack(of[event])} or {}) do
+      if watch.is_wait then watch.fn(descriptor) end
+      watch:remove()
+    end
+  end
 end
 
 --- The descriptor of the loop: readable when a time has come, a descriptor is ready or a job has something new. A host with a loop of its own
@@ -314,7 +332,9 @@ end
 
 local function call_watches(descriptor, event)
   local of = watches[descriptor]
-  for _, watch in ipairs(of and {table.unpack(of[event])} or {}) do watch.fn(descriptor) end
+  for _, watch in ipairs(of and {table.unpack(of[event])} or {}) do
+    if not watch.is_removed then watch.fn(descriptor) end
+  end
 end
 
 local function has_work() return #ready > 0 or next(waiting) ~= nil or next(watches) ~= nil or has_jobs() end

@@ -90,6 +90,7 @@ struct Said {
   ConvertOptions convert;
   PlanOptions plan;
   RenderVerbOptions render;
+  ServeOptions serve;
   std::string interactive, test_path, doc_folder, confine;
   bool check_docs = false;
 };
@@ -179,6 +180,17 @@ static void add_render(CLI::App& app, RenderVerbOptions& render) {
       trust);
 }
 
+static void add_serve(CLI::App& app, ServeOptions& serve) {
+  auto* verb = app.add_subcommand("serve", "let other programs command a world");
+  add_serve_options(*verb, serve.words);
+  add_reading(*verb, serve.reading);
+  verb->footer(
+      "Examples:\n  clench serve worlds/barrett_mug.wld\n"
+      "  clench serve worlds/barrett_mug.wld --socket /tmp/clench.socket\n\n"
+      "Ctrl-C or SIGTERM ends it. See docs/guide/server.md." +
+      trust);
+}
+
 static void add_all(CLI::App& app, Said& said) {
   app.footer(
       "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
@@ -198,6 +210,7 @@ static void add_all(CLI::App& app, Said& said) {
   add_convert(app, said.convert);
   add_plan(app, said.plan);
   add_render(app, said.render);
+  add_serve(app, said.serve);
   for (CLI::App* verb : app.get_subcommands({})) {
     if (verb->get_name() != "doc") add_confine(*verb, said.confine);
     verb->fallthrough();
@@ -240,14 +253,15 @@ static int run_scripts_of(const CLI::App& app, Said& said) {
 static int run_verb(const CLI::App& app, Said& said) {
   for (std::string* folder :
        {&said.run.confine, &said.check.reading.confine, &said.convert.reading.confine,
-        &said.plan.reading.confine, &said.render.reading.confine})
+        &said.plan.reading.confine, &said.render.reading.confine, &said.serve.reading.confine})
     *folder = said.confine;
-  said.plan.quiet = said.run.quiet;
+  said.plan.quiet = said.serve.quiet = said.run.quiet;
   if (app.got_subcommand("test")) return run_tests(said.test_path, said.confine, said.run.quiet);
   if (app.got_subcommand("check")) return check_files(said.check);
   if (app.got_subcommand("convert")) return convert_file(said.convert);
   if (app.got_subcommand("plan")) return plan_grasps(said.plan);
   if (app.got_subcommand("render")) return render_file(said.render);
+  if (app.got_subcommand("serve")) return serve_world(said.serve);
   if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);
   return run_scripts_of(app, said);
 }

@@ -245,4 +245,15 @@ void add_render_options(CLI::App& verb, std::vector<std::string>& words) {
   add.flag("--orthographic", "parallel projection");
 }
 
+void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
+  const Adder add{verb, words};
+  add("WORLD", "a world's file")->required()->check(named);
+  add("--port", "TCP port; 0: the system chooses one; default: 4765")
+      ->type_name("N")
+      ->check(whole_number(0, 65535));
+  add("--host", "address to listen on; default: 127.0.0.1, which only this machine reaches")
+      ->type_name("ADDRESS");
+  add("--socket", "a Unix socket instead of a TCP port")->type_name("PATH")->check(named);
+}
+
 }  // namespace clench

@@ -14,9 +14,10 @@ extern const CLI::Validator named;
 void add_confine(CLI::App& verb, std::string& folder);
 void add_reading(CLI::App& verb, ReadingOptions& reading);
 
-/// Options of `clench plan` and `clench render`: each that is given adds its name and its value to
+/// Options of `clench plan`, `clench render` and `clench serve`: each that is given adds its name and its value to
 /// the words.
 void add_plan_options(CLI::App& verb, std::vector<std::string>& words);
 void add_render_options(CLI::App& verb, std::vector<std::string>& words);
+void add_serve_options(CLI::App& verb, std::vector<std::string>& words);
 
 }  // namespace clench

@@ -74,4 +74,13 @@ struct PlanOptions {
 ///          130 after Ctrl-C
 int plan_grasps(const PlanOptions& options);
 
+struct ServeOptions {
+  std::vector<std::string> words;  ///< as those of PlanOptions
+  bool quiet = false;
+  ReadingOptions reading;
+};
+
+/// Lets other programs command a world, until a signal ends it.
+int serve_world(const ServeOptions& options);
+
 }  // namespace clench

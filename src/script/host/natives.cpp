@@ -3,6 +3,7 @@
 #include "clench/base/hash.h"
 #include "clench/base/printable.h"
 #include "clench/base/suggest.h"
+#include "clench/script/bind/port/natives.h"
 #include "clench/script/host/bind_poller.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/deadline.h"
@@ -88,6 +89,12 @@ void add_natives(lua_State* L) {
                                          {"clench.fingerprint", guarded<fingerprint>},
                                          {"clench.poller", guarded<new_poller>},
                                          {"clench.has_jobs", guarded<has_jobs>},
+                                         {"clench.open_serial", guarded<open_serial_stream>},
+                                         {"clench.open_pty", guarded<open_pty_stream>},
+                                         {"clench.open_pair", guarded<open_stream_pair>},
+                                         {"clench.begin_connect", guarded<begin_stream>},
+                                         {"clench.open_acceptor", guarded<open_acceptor>},
+                                         {"clench.resolve_host", guarded<resolve_host>},
                                          {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);

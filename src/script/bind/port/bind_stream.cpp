@@ -1,0 +1,206 @@
+// clench.open_serial, clench.open_pty, ...: streams of bytes and those who accept them, for
+// stdlib/port.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "clench/base/file.h"
+#include "clench/port/pty.h"
+#include "clench/port/serial.h"
+#include "clench/port/socket.h"
+#include "clench/port/stream.h"
+#include "clench/script/bind/port/natives.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
+#include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+namespace {
+
+using StreamPtr = std::shared_ptr<Stream>;
+using AcceptorPtr = std::shared_ptr<Acceptor>;
+
+Stream& stream_of(lua_State* L) { return *self<StreamPtr>(L); }
+
+// stream:fill(): reads what has arrived.   returns  how many bytes
+int fill(lua_State* L) { return push(L, static_cast<lua_Integer>(stream_of(L).fill())); }
+
+// stream:size(): bytes that were read and not yet taken
+int size(lua_State* L) { return push(L, static_cast<lua_Integer>(stream_of(L).received().size())); }
+
+// stream:take(count)
+int take(lua_State* L) {
+  const int64_t count = check_integer(L, 2, "count");
+  return push(
+      L, std::string_view(stream_of(L).take(static_cast<size_t>(std::max<int64_t>(count, 0)))));
+}
+
+// stream:tail(count): the last bytes that were read, which stay
+int tail(lua_State* L) {
+  const std::string_view bytes = stream_of(L).received();
+  const auto count = static_cast<size_t>(std::max<int64_t>(check_integer(L, 2, "count"), 0));
+  return push(L, bytes.substr(bytes.size() - std::min(count, bytes.size())));
+}
+
+// stream:find(delimiter): bytes before the first delimiter; nil: there is none yet
+int find(lua_State* L) {
+  const size_t at = stream_of(L).find(string_at(L, 2));
+  return at == std::string_view::npos ? push_nil(L) : push(L, static_cast<lua_Integer>(at));
+}
+
+// stream:write(bytes, from): sends the bytes behind the first `from`.   returns  how many were sent
+int write(lua_State* L) {
+  const std::string_view bytes = string_at(L, 2);
+  const auto from = static_cast<size_t>(std::max<int64_t>(check_integer(L, 3, "from"), 0));
+  const size_t sent = stream_of(L).write(bytes.substr(std::min(from, bytes.size())));
+  return push(L, static_cast<lua_Integer>(sent));
+}
+
+int push_end(lua_State* L, Stream::End end) {
+  switch (end) {
+    case Stream::End::none:
+      return push_nil(L);
+    case Stream::End::closed:
+      return push(L, "closed");
+    case Stream::End::unplugged:
+      break;
+  }
+  return push(L, "unplugged");
+}
+
+// stream:ending(), stream:write_ending(): why nothing more arrives, or can be sent: nil, "closed" or
+// "unplugged"
+int ending(lua_State* L) { return push_end(L, stream_of(L).end()); }
+int write_ending(lua_State* L) { return push_end(L, stream_of(L).write_end()); }
+
+// stream:connect_error(): why a connection has failed; nil: it has not
+int connect_error(lua_State* L) {
+  const int error = stream_of(L).connect_error();
+  return error == 0 ? push_nil(L) : push(L, system_reason(error));
+}
+
+int stream_name(lua_State* L) { return push(L, stream_of(L).name()); }
+int stream_descriptor(lua_State* L) { return push(L, stream_of(L).descriptor()); }
+int close_stream(lua_State* L) {
+  stream_of(L).close();
+  return 0;
+}
+
+const Entry stream_methods[] = {
+    {"fill", guarded<fill>, ""},
+    {"size", guarded<size>, ""},
+    {"take", guarded<take>, "\n@param count integer"},
+    {"tail", guarded<tail>, "\n@param count integer"},
+    {"find", guarded<find>, "\n@param delimiter string"},
+    {"write", guarded<write>, "\n@param bytes string\n@param from integer"},
+    {"ending", guarded<ending>, ""},
+    {"write_ending", guarded<write_ending>, ""},
+    {"connect_error", guarded<connect_error>, ""},
+    {"name", guarded<stream_name>, ""},
+    {"descriptor", guarded<stream_descriptor>, ""},
+    {"close", guarded<close_stream>, ""}};
+const Class stream_class{
+    .name = "stream", .variable = "stream", .doc = "", .methods = stream_methods};
+
+}  // namespace
+
+template <>
+inline constexpr const Class* script_class<StreamPtr> = &stream_class;
+
+namespace {
+
+int push_stream(lua_State* L, Stream stream) {
+  return push_object(L, std::make_shared<Stream>(std::move(stream)));
+}
+
+// acceptor:accept(): the stream of the next client; nil: none waits
+int accept(lua_State* L) {
+  std::optional<Stream> client = self<AcceptorPtr>(L)->accept();
+  return client ? push_stream(L, std::move(*client)) : push_nil(L);
+}
+
+int acceptor_name(lua_State* L) { return push(L, self<AcceptorPtr>(L)->name()); }
+int acceptor_port(lua_State* L) { return push(L, self<AcceptorPtr>(L)->port()); }
+int acceptor_descriptor(lua_State* L) { return push(L, self<AcceptorPtr>(L)->descriptor()); }
+int close_acceptor(lua_State* L) {
+  self<AcceptorPtr>(L)->close();
+  return 0;
+}
+
+const Entry acceptor_methods[] = {{"accept", guarded<accept>, ""},
+                                  {"name", guarded<acceptor_name>, ""},
+                                  {"port", guarded<acceptor_port>, ""},
+                                  {"descriptor", guarded<acceptor_descriptor>, ""},
+                                  {"close", guarded<close_acceptor>, ""}};
+const Class acceptor_class{
+    .name = "acceptor", .variable = "acceptor", .doc = "", .methods = acceptor_methods};
+
+}  // namespace
+
+template <>
+inline constexpr const Class* script_class<AcceptorPtr> = &acceptor_class;
+
+// open_serial(options)
+int open_serial_stream(lua_State* L) {
+  Table t(L, 1, "clench.port.serial");
+  SerialOptions options{.path = t.string("path")};
+  options.baud = t.integer("baud", options.baud);
+  options.data_bits = t.integer("data_bits", options.data_bits);
+  options.stop_bits = t.integer("stop_bits", options.stop_bits);
+  options.parity =
+      t.choice("parity", {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}},
+               options.parity);
+  options.flow = t.choice("flow",
+                          {{"none", FlowControl::none},
+                           {"hardware", FlowControl::hardware},
+                           {"software", FlowControl::software}},
+                          options.flow);
+  t.done();
+  return push_stream(L, open_serial(options));
+}
+
+// open_pty(): the stream of our side, and the path of the other one
+int open_pty_stream(lua_State* L) {
+  Pty pty = open_pty();
+  push_stream(L, std::move(pty.stream));
+  push(L, pty.path);
+  return 2;
+}
+
+// open_pair(): two streams
+int open_stream_pair(lua_State* L) {
+  auto [a, b] = open_pair();
+  push_stream(L, std::move(a));
+  push_stream(L, std::move(b));
+  return 2;
+}
+
+// connect(address, port), connect(path): a stream that can be written once it is connected
+int begin_stream(lua_State* L) {
+  const std::string host = check_string(L, 1, "host");
+  if (!given(L, 2)) return push_stream(L, begin_connect_unix(host));
+  return push_stream(L, begin_connect({host}, check_int(L, 2, "port")));
+}
+
+// accept_at(address, port), accept_at(path)
+int open_acceptor(lua_State* L) {
+  const std::string host = check_string(L, 1, "host");
+  return push_object(
+      L, std::make_shared<Acceptor>(given(L, 2) ? Acceptor::tcp({host}, check_int(L, 2, "port"))
+                                                : Acceptor::unix_socket(host)));
+}
+
+// resolve(host, numeric): a list of numeric addresses
+int resolve_host(lua_State* L) {
+  const std::string host = check_string(L, 1, "host");
+  return push_list_of(L, resolve(host, lua_toboolean(L, 2)),
+                      [L](const HostAddress& one) { push(L, one.address); });
+}
+
+}  // namespace clench

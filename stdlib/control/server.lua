@@ -1,0 +1,191 @@
+local check = require "clench.port.check"
+local class = require "clench.class"
+local classes = require "clench.classes"
+local described = require "clench.described"
+local is_stopped = require "clench.is_stopped"
+local loop = clench.loop
+local new_client = require "clench.control.client"
+local new_options = require "clench.options"
+local raise = require "clench.raise"
+local text = require "clench.control.text"
+local token = require "clench.control.token"
+local getmetatable = debug.getmetatable
+
+local subject = "clench.control.server"
+local Server = class "server"
+
+function Server:__tostring()
+  return ("server at %s, %d clients%s"):format(self.listener.name, #self.clients, self.is_closed and " (closed)" or "")
+end
+
+local function is_loopback(host) return host == "localhost" or host == "::1" or host:find "^127%." ~= nil end
+
+local methods = {"GET", "POST", "HEAD", "PUT", "DELETE", "OPTIONS", "CONNECT", "PATCH", "TRACE"}
+
+-- a page in a browser can make it send such lines to any port
+local function looks_like_http(line)
+  for _, method in ipairs(methods) do
+    if line:find("^" .. method .. "%s") then return true end
+  end
+  return line:find "HTTP/%d" ~= nil
+end
+
+local function answer_text(self, client, line)
+  if looks_like_http(line) then return client:close "an HTTP request" end
+  if not self.serves_text then
+    client:send "Error: commands without a token are accepted on loopback only\n"
+    return client:finish "text from another machine"
+  end
+  client.state = client.state or {}
+  local reply = text.answer(self.session, client.state, line)
+  if reply ~= "" then client:send(reply) end
+end
+
+local function answer(self, client, line) answer_text(self, client, line) end
+
+local function refuse_long(client)
+  client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line))
+  client:finish "a line was too long"
+end
+
+-- one line of one client; false: there is none
+local function serve_one(self, client)
+  if client.is_closed or client.is_finishing then return false end
+  local line, why = client:take_line()
+  if line then
+    answer(self, client, line)
+  elseif why then
+    refuse_long(client)
+  elseif client.has_ended then
+    client:finish "closed by the client"
+  end
+  return line ~= nil
+end
+
+-- Serves clients in the order in which they connected, a line of each in turn, until no lines are left.
+local function serve(self)
+  local some
+  repeat
+    some = false
+    for _, client in ipairs {table.unpack(self.clients)} do some = serve_one(self, client) or some end
+    if some then coroutine.yield() end
+  until not some
+  self.is_serving = false
+end
+
+local function start_serving(self)
+  if self.is_serving or self.is_closed then return end
+  self.is_serving = true
+  loop.spawn(function() serve(self) end)
+end
+
+local function remove(self, client)
+  for i, other in ipairs(self.clients) do
+    if other == client then table.remove(self.clients, i) break end
+  end
+  if self.on_close then self.on_close(client) end
+end
+
+local function add(self, port)
+  if #self.clients >= self.max_clients then
+    port:send(("Error: the server has %d clients and takes no more\n"):format(self.max_clients))
+    return port:close()
+  end
+  port.max_line, port.max_queue = self.max_line, self.max_queue
+  self.count = self.count + 1
+  local client = new_client(port, self.count, function() start_serving(self) end, function(client) remove(self, client) end)
+  table.insert(self.clients, client)
+  if self.on_connect then self.on_connect(client) end
+end
+
+local function accept_clients(self)
+  while true do
+    local ok, port, why = pcall(self.listener.accept, self.listener)
+    if not ok then
+      if is_stopped(port) then error(port, 0) end
+      loop.sleep(0.1)  -- no descriptor is left: until one is closed
+    elseif port then
+      add(self, port)
+    elseif why == "closed" then
+      return
+    end
+  end
+end
+
+--- Closes the server and the connections of its clients.
+function Server:close()
+  if self.is_closed then return end
+  self.is_closed = true
+  self.listener:close()
+  for _, client in ipairs {table.unpack(self.clients)} do client:close "the server was closed" end
+end
+
+Server.__close = function(self) self:close() end
+
+local function read_session(o)
+  local world, session = o:raw "world", o:raw "session"
+  if world ~= nil and session ~= nil then o:fail "expected either a world or a session, got both" end
+  if world == nil and session == nil then o:fail "world: expected a world, got nothing" end
+  if world ~= nil then
+    if clench.type(world) ~= "world" then o:expected("world", "a world", world) end
+    return clench.session(world)
+  end
+  if not classes.session or getmetatable(session) ~= classes.session then o:expected("session", "a session", session) end
+  return session
+end
+
+local function read_token(o, is_local)
+  local given = o:raw "token"
+  if given == nil then return token.new() end
+  if given == false then
+    if not is_local then o:fail "token: only a server on loopback may have none" end
+    return nil
+  end
+  if type(given) ~= "string" or #given < 16 or given:find "[^%w_-]" then
+    o:fail("token: expected at least 16 letters and digits, or false, got %s", type(given) == "string" and "another string" or described(given))
+  end
+  return given
+end
+
+local function read_options(options)
+  local o = new_options(subject, options)
+  local session = read_session(o)
+  local port, host, path = o:count("port", 4765, 0, 65535), o:raw "host", o:raw "path"
+  if host ~= nil then check.string(subject, "host", host) end
+  local is_local = path ~= nil or is_loopback(host or "localhost")
+  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0,
+                  max_clients = o:count("max_clients", 64, 1, 1000), max_line = o:count("max_line", 1 << 20, 1000, 1 << 28),
+                  max_queue = o:count("max_queue", 4 << 20, 1000, 1 << 30), on_connect = o:callback "on_connect", on_close = o:callback "on_close"}
+  o:done()
+  local where = path ~= nil and {path = path} or {host = host, port = port}
+  return server, where
+end
+
+--- A server through which other programs command a world, as long as the loop runs: by the text protocol of GraspIt!, on loopback.
+---@param options table
+---@option world? world  or a session
+---@option session? session  whose commands clients run
+---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
+---@option host? string = "127.0.0.1"  address on which it listens
+---@option path? string  of a Unix socket, instead of host and port
+---@option token? string|false  the secret of clients; one is made by default, the server's field `token`
+---@option max_clients? integer [1 to 1000] = 64
+---@option max_line? integer = 1048576  of a request [bytes]
+---@option max_queue? integer = 4194304  replies that a client may leave unread before it is dropped [bytes]
+---@option on_connect? function  called with each new client
+---@option on_close? function  called with each client that has gone; its field `reason` says why
+---@return server server # `port`, `token`, `session`, `close()`
+--- > server = clench.control.server {world = world, port = 0}
+--- > client = clench.port.connect("127.0.0.1", server.port)
+--- > client:write "getRobotName 1 0\n"
+--- > client:read_line(1) == hand.name  --> true
+--- > server:close()
+--- > clench.control.server {}  --> error: world: expected a world, got nothing
+return function(options)
+  local server, where = read_options(options)
+  setmetatable(server, Server)
+  server.listener = clench.port.listen(where)
+  server.port = server.listener.port
+  loop.spawn(function() accept_clients(server) end)
+  return server
+end

@@ -1,0 +1,23 @@
+--- Lists of bodies and robots as the text protocol writes them: `ALL`, or a count and so many indices from 0.
+local lists = {}
+
+---@param kind string  "body" or "robot"
+---@param all table[]  the bodies or robots of the world
+---@return table[] chosen
+---@return string[] reply  of a list of all: a line with their number
+function lists.read(words, kind, all)
+  if words:peek() == "ALL" then
+    words:next()
+    return all, {tostring(#all)}
+  end
+  local count = words:index("ALL or the number of indices")
+  if count > #words - words.at then words.fail("%s: expected %d indices, got %d", words.command, count, #words - words.at) end
+  local chosen = {}
+  for i = 1, count do
+    local index = words:index()
+    chosen[i] = all[index + 1] or words.fail("Cannot find %s %d", kind, index)
+  end
+  return chosen, {}
+end
+
+return lists

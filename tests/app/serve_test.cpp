@@ -1,0 +1,99 @@
+// `clench serve`: a port, a socket, and the signals that end it.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <thread>
+
+#include "command.h"
+
+using namespace clench::test;
+
+namespace {
+
+// a server in the background, and what it prints
+class Served {
+ public:
+  explicit Served(const std::string& arguments) {
+    int ends[2];
+    REQUIRE(pipe(ends) == 0);
+    process_ = fork();
+    if (process_ == 0) {
+      dup2(ends[1], 1);
+      dup2(ends[1], 2);
+      close(ends[0]);
+      execl("/bin/sh", "sh", "-c", fmt::format("exec {} {}", CLENCH_COMMAND, arguments).c_str(),
+            nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    output_ = ends[0];
+    char byte = 0;
+    while (read(output_, &byte, 1) == 1 && byte != '\n') line_ += byte;
+  }
+  ~Served() {
+    if (process_ > 0) end(SIGKILL);
+    close(output_);
+  }
+
+  const std::string& line() const { return line_; }
+  int port() const { return std::atoi(line_.c_str() + line_.rfind(':') + 1); }
+
+  // the exit code after a signal, or minus the signal that ended it
+  int end(int signal) {
+    kill(process_, signal);
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  pid_t process_ = 0;
+  int output_ = -1;
+  std::string line_;
+};
+
+// the replies to some lines, until the server has sent so many
+std::string ask_port(int port, const std::string& text, int lines) {
+  const int client = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  REQUIRE(connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  REQUIRE(write(client, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+  std::string reply;
+  char byte = 0;
+  while (lines > 0 && read(client, &byte, 1) == 1) {
+    reply += byte;
+    if (byte == '\n') --lines;
+  }
+  close(client);
+  return reply;
+}
+
+}  // namespace
+
+TEST_CASE("a world is served until a signal ends it") {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Served server("serve worlds/barrett_mug.wld --root . --port 0");
+    CHECK(has(server.line(), "worlds/barrett_mug.wld is served at 127.0.0.1:"));
+    CHECK(ask_port(server.port(), "getRobotName ALL\n", 2) == "1\nbarrett\n");
+    CHECK(server.end(signal) == 0);
+  }
+}
+
+TEST_CASE("faults of clench serve are named") {
+  CHECK(run("serve").code == 2);
+  CHECK(run("serve worlds/barrett_mug.wld --port 70000").code == 2);
+  const Outcome missing = run("serve no_such.wld --port 0");
+  CHECK(missing.code == 1);
+  CHECK(has(missing.out, "clench serve: "));
+  CHECK(has(missing.out, "no such file"));
+  Served server("serve worlds/barrett_mug.wld --root . --port 0");
+  const Outcome second =
+      run(fmt::format("serve worlds/barrett_mug.wld --root . --port {}", server.port()));
+  CHECK(second.code == 1);
+  CHECK(has(second.out, "Address already in use"));
+}
