@@ -811,6 +811,12 @@ local world_settings = {}
 ---@param b? body|robot # the other of two; without it, all pairs of the first
 function world_settings:set_collision(on, a, b) end
 
+---Does collision count for a pair, for one entity with anything, or for anything in the world? False for pairs that `set_collision` or `set_collision_bits` has switched off, and for neighbors of a robot.
+---@param a? body|robot # one of two; without both, any pair counts
+---@param b? body|robot # the other of two; without it, any body
+---@return boolean
+function world_settings:may_collide(a, b) end
+
 ---Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair collide whatever its bits are.
 ---@param entity body|robot # body or robot to set
 ---@param bits? {type?: integer, affinity?: integer, fixed?: boolean} # type and affinity: 1 by default; fixed: is it fixed to the world? false by default

@@ -1,5 +1,4 @@
 --- `clench check`: files read for a person's eyes, or as JSON for a program's.
-local report = require "clench.report"
 local described = require "clench.described"
 local name_list = require "clench.name_list"
 local in_utf8 = require "clench.in_utf8"
@@ -216,9 +215,9 @@ end
 ---@return integer  the exit code: 1 when a file could not be read
 function check.main(root, folder, package, unit, strict, form, ...)
   local options = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
-  local all, code = {}, 0
+  local all, code, session = {}, 0, clench.session()
   for i, path in ipairs {...} do
-    all[i] = report.of(path, options)
+    all[i] = session:run("file.check", {path = path, options = options})
     if all[i].error then code = 1 end
     if form == "text" then print_report(all[i]) end
   end

@@ -23,7 +23,7 @@ function convert.main(root, folder, package, unit, strict, from, to, format, dof
     local options = reading(clench.file_kind(from), said)
     if format ~= "" then options.format = format end
     options.dof_order = names_in(dof_order)
-    return clench.convert(from, to, options)
+    return clench.session():run("file.convert", {from = from, to = to, options = options})
   end)
   if not ok then
     if is_stopped(kind) then error(kind, 0) end

@@ -42,16 +42,20 @@ local function approach_of(text)
   return {direction = {x[1], x[2], x[3]}, point = #x == 6 and {x[4], x[5], x[6]} or nil}
 end
 
-local function set_friction(world, hand, object, mu)
-  for _, body in ipairs(hand.bodies) do world:set_friction(body.material, object.material, {static = mu, kinetic = mu}) end
+local function set_friction(session, mu)
+  local done, object = {}, session.object.material
+  for _, body in ipairs(session.hand.bodies) do
+    if not done[body.material] then session:run("world.friction", {a = body.material, b = object, mu = mu}) end
+    done[body.material] = true
+  end
 end
 
---- A new world with the hand, the object and the obstacles that the options of the command line give.
+--- A session with the hand, the object and the obstacles that the options of the command line give in a new world.
 ---@param given table<string, string|string[]>  options by name
 ---@param said table  options of readers: root, folder, package, unit, strict
----@return world, robot, body
+---@return world, robot, body, table session
 function scene.load(given, said)
-  local world = clench.world()
+  local session = clench.session(clench.world())
   local function body(option, pose)
     local options = reading("body", said)
     options.pose = pose and scene.pose_of(option, pose) or nil
@@ -61,16 +65,16 @@ function scene.load(given, said)
   of_robot.unit = nil  -- robots' files have units of their own
   of_robot.close = given.close and closing_of(given.close)
   of_robot.approach = given.approach and approach_of(given.approach)
-  local hand = world:add_robot(given.hand, of_robot)
+  local hand = session:run("world.import_robot", {path = given.hand, options = of_robot})
   local options = body("--pose", given.pose)
   options.mass, options.material = tonumber(given.mass), given.material
-  local object = world:add_object(given.object, options)
+  local object = session:run("world.import_object", {path = given.object, options = options})
   for i, path in ipairs(given.obstacle) do
-    world:add_obstacle(path, body("--obstacle-pose", given["obstacle-pose"][i]))
+    session:run("world.import_obstacle", {path = path, options = body("--obstacle-pose", given["obstacle-pose"][i])})
   end
-  if given.friction then set_friction(world, hand, object, tonumber(given.friction)) end
+  if given.friction then set_friction(session, tonumber(given.friction)) end
   if not object.mesh then fail("%s: an object without a surface cannot be grasped", given.object) end
-  return world, hand, object
+  return session.world, hand, object, session
 end
 
 --- Words of the command line, name, value, name, value ..., as a table.

@@ -8,6 +8,15 @@ local types = {number = true, integer = true, string = true, boolean = true, tab
 local command_fields = {name = true, label = true, shortcut = true, menu = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true}
 local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true}
 
+-- "ctrl+shift+s": modifiers in this order and a key, in lower case
+local function check_shortcut(command)
+  local keys = command.shortcut
+  if keys == nil then return end
+  local key = type(keys) == "string" and keys:gsub("^ctrl%+", ""):gsub("^alt%+", ""):gsub("^shift%+", "")
+  if key and #key > 0 and key == key:lower() and not key:find "%s" and not key:find "^.+%+." then return end
+  raise(("session:command: %s: shortcut: expected a key in lower case, with ctrl+, alt+ and shift+ before it, in this order, got %s"):format(command.name, described(keys)))
+end
+
 --- Raises an error of one sentence if a field of a command is missing, unknown or of a wrong type.
 function arguments.check_command(command)
   if type(command) ~= "table" then raise("session:command: expected a table, got " .. described(command)) end
@@ -19,6 +28,7 @@ function arguments.check_command(command)
   for field in pairs(command) do
     if not command_fields[field] then raise(("session:command: %s: unknown key '%s'"):format(name, tostring(field))) end
   end
+  check_shortcut(command)
   for i, parameter in ipairs(command.parameters or {}) do
     if type(parameter) ~= "table" or type(parameter.name) ~= "string" then
       raise(("session:command: %s: parameters[%d]: expected a table with a name, got %s"):format(name, i, described(parameter)))
@@ -49,6 +59,14 @@ local function check_range(subject, parameter, value)
   raise(("%s: %s: expected a number %s%s, got %.10g"):format(subject, parameter.name, range, parameter.unit and " " .. parameter.unit or "", value))
 end
 
+local function check_choice(subject, parameter, value)
+  for _, choice in ipairs(parameter.choices) do
+    if choice == value then return end
+  end
+  raise(("%s: %s: expected %s, got %s%s"):format(subject, parameter.name, table.concat(parameter.choices, ", "), described(value),
+                                               suggest(tostring(value), parameter.choices)))
+end
+
 --- Reads the arguments of a command.
 ---@param command table
 ---@param given? table
@@ -72,6 +90,7 @@ function arguments.read(command, given)
     if value ~= nil then
       if not is_of(parameter.type, value) then raise(("%s: %s: expected a %s, got %s"):format(subject, name, parameter.type, described(value))) end
       if type(value) == "number" then check_range(subject, parameter, value) end
+      if parameter.choices then check_choice(subject, parameter, value) end
     end
     out[name] = value
   end
@@ -114,6 +133,20 @@ end
 function arguments.find_body(session, address)
   local found = arguments.find(session, address)
   return clench.type(found) == "robot" and found.base or found
+end
+
+--- The body or robot of an address in a list; without an address the selection.
+function arguments.find_several(session, address)
+  if address ~= nil then return {arguments.find(session, address)} end
+  if #session.selection == 0 then raise "session: expected a body or robot, as nothing is selected" end
+  return {table.unpack(session.selection)}
+end
+
+--- The job of a number in `session.jobs`; the last one by default.
+function arguments.find_job(session, number)
+  local jobs = session.jobs
+  if #jobs == 0 then raise "session: no job was started" end
+  return jobs[number or #jobs] or raise(("session: job: expected 1 to %d, got %d"):format(#jobs, number))
 end
 
 --- The robot of an address, or the current hand.

@@ -6,7 +6,13 @@ local script = {}
 local function number(x)
   if x ~= x then return "0 / 0" end
   if x == math.huge or x == -math.huge then return x > 0 and "math.huge" or "-math.huge" end
-  return math.type(x) == "integer" and ("%d"):format(x) or ("%.17g"):format(x)
+  if math.type(x) == "integer" then return ("%d"):format(x) end
+  -- the shortest of the texts that are read back to the bit
+  for digits = 15, 16 do
+    local text = ("%." .. digits .. "g"):format(x)
+    if tonumber(text) == x then return text end
+  end
+  return ("%.17g"):format(x)
 end
 
 --- A value as a Lua expression.
@@ -36,11 +42,16 @@ function script.literal(value)
   return "{" .. table.concat(parts, ", ") .. "}"
 end
 
---- The call that finds a body or robot: `world:body "flask"`.
+--- The call that finds a body, a robot or a link: `world:body "flask"`.
 function script.name_of(thing)
   if clench.type(thing) == "robot" then return ("world:robot(%q)"):format(thing.name) end
-  return ("world:body(%q)"):format(thing.name)
+  local robot = thing.robot
+  if not robot then return ("world:body(%q)"):format(thing.name) end
+  return robot.base == thing and ("world:robot(%q).base"):format(robot.name) or ("world:robot(%q):link(%q)"):format(robot.name, thing.name)
 end
+
+--- The loop that makes some steps.
+function script.steps(count, step) return ("for _ = 1, %d do world:run(%s) end"):format(count, number(step)) end
 
 local function same(a, b)
   for i = 1, math.max(#a, #b) do
@@ -49,30 +60,61 @@ local function same(a, b)
   return true
 end
 
---- Lines that bring a world from the state before a command to the present one: poses, DOFs and masses that differ.
-function script.of_change(session, before)
-  local lines, world = {}, session.world
-  if before.world ~= world or not world then raise "session: a command that opens another world must say what it does, by its field script" end
-  if #world.bodies ~= #before.clone.bodies then raise "session: a command that adds or removes bodies must say what it does, by its field script" end
-  for _, robot in ipairs(world.robots) do
-    local old, name = robot:in_world(before.clone), script.name_of(robot)
-    if robot.pose ~= old.pose and not robot.parent then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(robot.pose)) end
-    if not same(robot.dofs, old.dofs) then lines[#lines + 1] = ("%s.dofs = %s"):format(name, script.literal(robot.dofs)) end
+-- rows of joints that their DOFs do not move
+local function loose_joints(robot)
+  local rows = {}
+  for c, chain in ipairs(robot.chains) do
+    for j, joint in ipairs(chain.joints) do
+      if joint.broken_away then rows[#rows + 1] = {c, j, joint.value} end
+    end
   end
-  for _, body in ipairs(world.bodies) do
-    local old, name = body:in_world(before.clone), script.name_of(body)
-    if not body.robot and body.pose ~= old.pose then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(body.pose)) end
-    if body.mass ~= old.mass then lines[#lines + 1] = ("%s.mass = %s"):format(name, script.literal(body.mass)) end
-    if body.material ~= old.material then lines[#lines + 1] = ("%s.material = %s"):format(name, script.literal(body.material)) end
+  return rows
+end
+
+-- joints: joints that have left their DOFs are listed, too
+local function lines_of_robot(robot, old, joints, lines)
+  local name = script.name_of(robot)
+  if robot.pose ~= old.pose and not robot.parent then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(robot.pose)) end
+  local loose = joints and loose_joints(robot) or {}
+  if #loose > 0 then
+    lines[#lines + 1] = ("%s:set_dofs(%s, {joint_positions = %s})"):format(name, script.literal(robot.dofs), script.literal(loose))
+  elseif joints or not same(robot.dofs, old.dofs) then
+    lines[#lines + 1] = ("%s.dofs = %s"):format(name, script.literal(robot.dofs))
   end
-  local text = table.concat(lines, "\n")
-  -- the lines are tried, so that nothing that they leave out goes unnoticed
-  local copy = before.clone:clone()
+end
+
+local function lines_of_body(body, old, lines)
+  local name = script.name_of(body)
+  if not body.robot and body.pose ~= old.pose then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(body.pose)) end
+  if body.mass ~= old.mass then lines[#lines + 1] = ("%s.mass = %s"):format(name, script.literal(body.mass)) end
+  if body.material ~= old.material then lines[#lines + 1] = ("%s.material = %s"):format(name, script.literal(body.material)) end
+end
+
+local function lines_of_change(world, old, joints)
+  local lines = {}
+  for _, robot in ipairs(world.robots) do lines_of_robot(robot, robot:in_world(old), joints, lines) end
+  for _, body in ipairs(world.bodies) do lines_of_body(body, body:in_world(old), lines) end
+  return table.concat(lines, "\n")
+end
+
+-- do the lines lead from the old world to the present one? They are tried, so that nothing that they leave out goes unnoticed
+local function leads(text, old, world)
+  local copy = old:clone()
   local try = load("local clench, world = ... " .. text, "=script", "t")
-  if not pcall(try, clench, copy) or copy:hash() ~= world:hash() then
-    raise "session: a command that changes more than poses, DOFs, masses and materials must say what it does, by its field script"
+  return pcall(try, clench, copy) and copy:hash() == world:hash()
+end
+
+--- Lines that bring a world from the state before a command to the present one: poses, DOFs, joints, masses and materials that differ.
+function script.of_change(session, before)
+  local world = session.world
+  if before.world ~= world or not world then raise "session: a command that opens another world must say what it does, by its field script" end
+  local old = before.clone
+  if #world.bodies ~= #old.bodies then raise "session: a command that adds or removes bodies must say what it does, by its field script" end
+  for _, joints in ipairs {false, true} do
+    local text = lines_of_change(world, old, joints)
+    if leads(text, old, world) then return text end
   end
-  return text
+  raise "session: a command that changes more than poses, DOFs, masses and materials must say what it does, by its field script"
 end
 
 --- The commands done and not undone, as a script; its local `world` is the open world.

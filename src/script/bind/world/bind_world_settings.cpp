@@ -2,6 +2,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/base/watched.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/getter.h"
@@ -31,6 +32,23 @@ static int set_collision(lua_State* L) {
     for (const auto b : group_b)
       if (a != b) world->set_collision(on, a, b);
   return 0;
+}
+
+// bodies of the argument, or all bodies of the world without it
+static std::vector<Id<Body>> bodies_or_all(lua_State* L, int index, const char* name,
+                                           const WorldPtr& world) {
+  return given(L, index) ? check_bodies(L, index, name, world) : world->bodies();
+}
+
+static int may_collide(lua_State* L) {
+  const auto& world = self<WorldHandle>(L).world;
+  const auto group_a = bodies_or_all(L, 2, "a", world), group_b = bodies_or_all(L, 3, "b", world);
+  for (const auto a : group_a) {
+    check_stop();
+    for (const auto b : group_b)
+      if (world->may_collide(a, b)) return push(L, true);
+  }
+  return push(L, false);
 }
 
 static int set_collision_bits(lua_State* L) {
@@ -222,6 +240,15 @@ Switches collision on or off: for the whole world, for one entity against everyt
 @param b? body|robot  the other of two; without it, all pairs of the first
 > world:set_collision(false, hand, flask)
 > #world:contacts(hand, flask)  --> 0)"},
+    {"may_collide", guarded<may_collide>, R"(
+Does collision count for a pair, for one entity with anything, or for anything in the world? False for pairs that `set_collision` or `set_collision_bits` has
+switched off, and for neighbors of a robot.
+@param a? body|robot  one of two; without both, any pair counts
+@param b? body|robot  the other of two; without it, any body
+@return boolean
+> world:may_collide(hand, flask)  --> true
+> world:set_collision(false, hand, flask)
+> world:may_collide(hand, flask), world:may_collide()  --> false, true)"},
     {"set_collision_bits", guarded<set_collision_bits>, R"(
 Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the
 affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair

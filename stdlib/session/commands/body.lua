@@ -1,0 +1,92 @@
+--- Commands of the Element menu: bodies and robots by their addresses, or those that are selected.
+local arguments = require "clench.session.arguments"
+local conditions = require "clench.session.conditions"
+local script = require "clench.session.script"
+
+local body = {name = "body", type = "body", text = "address of a body or robot"}
+local bodies = {name = "body", type = "body", optional = true, text = "address of a body or robot; the selection by default"}
+
+local function lines_for(list, line)
+  local lines = {}
+  for i, thing in ipairs(list) do lines[i] = line(thing) end
+  return table.concat(lines, "\n")
+end
+
+-- a command that sets one field of bodies; of a robot, of all its bodies
+local function setter(field, label, parameter)
+  parameter.name = field
+  local function targets(session, args)
+    local list = {}
+    for _, thing in ipairs(arguments.find_several(session, args.body)) do
+      local parts = clench.type(thing) == "robot" and thing.bodies or {thing}
+      table.move(parts, 1, #parts, #list + 1, list)
+    end
+    return list
+  end
+  return {
+    name = "body." .. field, label = label, menu = "Element", enabled = conditions.world, parameters = {bodies, parameter},
+    run = function(session, args)
+      for _, thing in ipairs(targets(session, args)) do thing[field] = args[field] end
+    end,
+    script = function(session, args)
+      return lines_for(targets(session, args), function(thing) return ("%s.%s = %s"):format(script.name_of(thing), field, script.literal(args[field])) end)
+    end,
+  }
+end
+
+local function pose_of(value) return clench.type(value) == "pose" and value or clench.pose(value) end
+
+local function names_of(list) return (lines_for(list, script.name_of):gsub("\n", ", ")) end
+
+-- bodies whose collisions a command switches: none stands for the world, two for their pair, others for each with everything
+local function collision_calls(session, args)
+  local list = args.body == nil and session.selection or arguments.find_several(session, args.body)
+  if args.other ~= nil then list = {list[1], arguments.find(session, args.other)} end
+  local on = args.on
+  if on == nil then on = not session.world:may_collide(list[1], #list == 2 and list[2] or nil) end
+  if #list == 0 or #list == 2 then return {{on, table.unpack(list)}} end
+  local calls = {}
+  for i, thing in ipairs(list) do calls[i] = {on, thing} end
+  return calls
+end
+
+return {
+  {name = "body.move", label = "Move…", menu = "Element", enabled = conditions.world,
+   parameters = {body, {name = "pose", type = "pose", text = "where it is from now on, in the world frame"},
+                 {name = "stop_at_contact", type = "boolean", default = false, text = "true: it moves there on a straight line, until it touches something"}},
+   run = function(session, args)
+     local thing = arguments.find(session, args.body)
+     if args.stop_at_contact then return thing:move_to(pose_of(args.pose)) end
+     thing.pose = pose_of(args.pose)
+   end,
+   script = function(session, args)
+     return (args.stop_at_contact and "%s:move_to(%s)" or "%s.pose = %s"):format(script.name_of(arguments.find(session, args.body)), script.literal(pose_of(args.pose)))
+   end},
+  {name = "body.remove", label = "Remove", menu = "Element", shortcut = "delete", enabled = conditions.world, parameters = {bodies},
+   run = function(session, args)
+     for _, thing in ipairs(arguments.find_several(session, args.body)) do session.world:remove(thing) end
+   end,
+   script = function(session, args)
+     return lines_for(arguments.find_several(session, args.body), function(thing) return ("world:remove(%s)"):format(script.name_of(thing)) end)
+   end},
+  {name = "body.collisions", label = "Collisions ON/OFF", menu = "Element", enabled = conditions.world,
+   parameters = {{name = "body", type = "body", optional = true, text = "address of a body or robot; the selection by default, and without one the complete world"},
+                 {name = "other", type = "body", optional = true, text = "the other one of a pair; without it, the body and everything"},
+                 {name = "on", type = "boolean", optional = true, text = "do they collide? By default the opposite of now"}},
+   run = function(session, args)
+     for _, call in ipairs(collision_calls(session, args)) do session.world:set_collision(table.unpack(call)) end
+   end,
+   script = function(session, args)
+     return lines_for(collision_calls(session, args), function(call)
+       local names = names_of {table.unpack(call, 2)}
+       return ("world:set_collision(%s%s)"):format(tostring(call[1]), names ~= "" and ", " .. names or "")
+     end)
+   end},
+  setter("mass", "Mass…", {type = "number", min = 0, unit = "kg", text = "mass"}),
+  setter("material", "Material…", {type = "string", text = "name of a material"}),
+  setter("transparency", "Transparency…", {type = "number", min = 0, max = 1, text = "0: opaque, 1: invisible"}),
+  setter("color", "Color…", {type = "table", text = "red, green and blue, each from 0 to 1"}),
+  {name = "body.distance", label = "Distance…", menu = "Element", shortcut = "v", enabled = conditions.world, reads = true,
+   parameters = {{name = "a", type = "body", text = "address of a body or robot"}, {name = "b", type = "body", text = "address of the other one"}},
+   run = function(session, args) return session.world:distance(arguments.find(session, args.a), arguments.find(session, args.b)) end},
+}

@@ -1,0 +1,29 @@
+--- Commands of the Dynamics menu: simulated time, in one go, in steps or beside the clock, and a stack of states.
+local conditions = require "clench.session.conditions"
+local playback = require "clench.session.playback"
+local script = require "clench.session.script"
+
+return {
+  {name = "dynamics.run", label = "Run…", menu = "Dynamics", enabled = conditions.world,
+   parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "of simulated time"}},
+   run = function(session, args) session.world:run(args.seconds) end,
+   script = function(_, args) return ("world:run(%s)"):format(script.literal(args.seconds)) end},
+  {name = "dynamics.step", label = "Step", menu = "Dynamics", enabled = conditions.world,
+   parameters = {{name = "count", type = "integer", min = 1, max = 1e9, default = 1, text = "number of steps"}},
+   run = function(session, args)
+     local step = session.world.time_step
+     for _ = 1, args.count do session.world:run(step) end
+   end,
+   script = function(session, args) return script.steps(args.count, session.world.time_step) end},
+  {name = "dynamics.play", label = "Play/Pause", menu = "Dynamics", shortcut = "space", enabled = conditions.world, reads = true,
+   parameters = {{name = "speed", type = "number", min = 1e-6, max = 1000, default = 1, text = "simulated seconds per second of the clock"}},
+   run = function(session, args)
+     if playback.is_on(session) then playback.stop(session) else playback.start(session, args.speed) end
+   end},
+  {name = "dynamics.pause", label = "Pause", menu = "Dynamics", reads = true,
+   enabled = function(session) return playback.is_on(session), "the simulation does not play" end, run = playback.stop},
+  {name = "dynamics.push", label = "Push State", menu = "Dynamics", enabled = conditions.world,
+   run = function(session) table.insert(session.stack, session.world:snapshot()) end, script = function() return "world:push()" end},
+  {name = "dynamics.pop", label = "Pop State", menu = "Dynamics", enabled = function(session) return #session.stack > 0, "no state was pushed" end,
+   run = function(session) session.world:restore(table.remove(session.stack)) end, script = function() return "world:pop()" end},
+}

@@ -1,0 +1,12 @@
+--- Commands on files that belong to no world.
+local report = require "clench.report"
+
+local options = {name = "options", type = "table", optional = true, text = "of the function that reads it"}
+
+return {
+  {name = "file.check", label = "Check File…", menu = "File", reads = true, parameters = {{name = "path", type = "string", text = "a file"}, options},
+   run = function(_, args) return report.of(args.path, args.options) end},
+  {name = "file.convert", label = "Convert File…", menu = "File", reads = true,
+   parameters = {{name = "from", type = "string", text = "a file"}, {name = "to", type = "string", text = "file to write; its ending selects the format"}, options},
+   run = function(_, args) return clench.convert(args.from, args.to, args.options) end},
+}

@@ -1,0 +1,36 @@
+--- Commands that choose what other commands act on. They change nothing in the world, and are undone together with what follows them.
+local arguments = require "clench.session.arguments"
+local conditions = require "clench.session.conditions"
+local raise = require "clench.raise"
+
+local function chosen(session, what)
+  session:emit("changed", {selection = true})
+  return what
+end
+
+return {
+  {name = "world.select", label = "Select", enabled = conditions.world, reads = true,
+   parameters = {{name = "addresses", type = "table", text = "of bodies and robots"}},
+   run = function(session, args)
+     local selection = {}
+     for i, address in ipairs(args.addresses) do selection[i] = arguments.find(session, address) end
+     session.selection = selection
+     chosen(session)
+   end},
+  {name = "grasp.select_hand", label = "Select Hand…", menu = "Grasp", enabled = conditions.world, reads = true,
+   parameters = {{name = "hand", type = "robot", text = "address of the robot that becomes the current hand"}},
+   run = function(session, args)
+     session.hand = arguments.find_robot(session, args.hand)
+     return chosen(session, session.hand)
+   end},
+  {name = "grasp.select_object", label = "Select Object…", menu = "Grasp", enabled = conditions.world, reads = true,
+   parameters = {{name = "object", type = "body", text = "address of the object that is to be grasped"}},
+   run = function(session, args)
+     local object = arguments.find(session, args.object)
+     if clench.type(object) ~= "body" or object.kind ~= "object" then
+       raise(("session: expected an object, got '%s', %s"):format(object.name, clench.type(object) == "robot" and "a robot" or "of the kind " .. object.kind))
+     end
+     session.object = object
+     return chosen(session, object)
+   end},
+}
