@@ -1,6 +1,6 @@
 #include "clench/viewer/gui.h"
 
-#include <imgui_impl_opengl3.h>
+#include <backends/imgui_impl_opengl3.h>
 
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
@@ -81,7 +81,6 @@ Gui::Gui(std::unique_ptr<Screen> screen, const GuiStyle& style)
     io.LogFilename = nullptr;
     io.MousePos = ImVec2(-1, -1);
     io.ConfigWindowsMoveFromTitleBarOnly = true;
-    io.ConfigInputTrickleEventQueue = false;
     name_keys(io);
     if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
       fail("the view needs OpenGL 3.3; install the packages libgl1 and libgl1-mesa-dri");

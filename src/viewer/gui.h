@@ -190,8 +190,9 @@ class Gui {
   void circle(double x, double y, double radius, const Rgba& color, double width, bool filled);
   void label(double x, double y, const std::string& text, const Rgba& color);
 
+  struct State;  ///< for the files that implement this class
+
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

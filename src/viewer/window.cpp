@@ -78,7 +78,7 @@ class Window final : public Screen {
         add(w, {.kind = Kind::key, .code = key, .down = action == GLFW_PRESS});
     });
     glfw().on_char(window_, [](GLFWwindow* w, unsigned c) {
-      add(w, {.kind = Kind::text, .text = utf8(std::u32string(1, static_cast<char32_t>(c)))});
+      add(w, {.kind = Kind::text, .text = text_of(std::u32string(1, static_cast<char32_t>(c)))});
     });
     glfw().on_resize(window_, [](GLFWwindow* w, int x, int y) {
       add(w, {.kind = Kind::resize, .x = double(x), .y = double(y)});

@@ -1,4 +1,8 @@
 #include "clench/script/bind/bind.h"
+
+#include <cstring>
+
+#include "clench/base/hash.h"
 #include "clench/script/bind/picture/read_scene.h"
 #include "clench/script/bind/view/ui.h"
 #include "clench/script/lua/getter.h"
@@ -286,7 +290,8 @@ int ui_tabs(lua_State* L) {
   Gui& gui = frame_of(L);
   const std::string name = check_string(L, 2, "id");
   const std::vector<std::string> names = check_names(L, 3, "names");
-  (void)BodyOf(L, 4);
+  const BodyOf checked(L, 4);
+  (void)checked;
   gui.tabs(name, names, [&](size_t i) {
     lua_pushvalue(L, 4);
     lua_pushvalue(L, 1);
@@ -541,6 +546,18 @@ int get_size(lua_State* L) {
 }
 int ui_poll(lua_State* L) { return push(L, open_gui(L).poll()); }
 int ui_read(lua_State* L) { return push_object(L, open_gui(L).read()); }
+int ui_hash(lua_State* L) {
+  const Picture picture = open_gui(L).read();
+  Hasher hash;
+  for (size_t i = 0; i + 8 <= picture.pixels.size(); i += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, &picture.pixels[i], 8);
+    hash.add(word);
+  }
+  for (size_t i = picture.pixels.size() / 8 * 8; i < picture.pixels.size(); ++i)
+    hash.add(uint64_t{picture.pixels[i]});
+  return push(L, fmt::format("{:016x}", hash.value()));
+}
 int ui_set_title(lua_State* L) { return open_gui(L).set_title(check_string(L, 2, "title")), 0; }
 int ui_key_down(lua_State* L) { return push(L, open_gui(L).key_down(check_int(L, 2, "key"))); }
 int ui_keep_open(lua_State* L) { return open_gui(L).close_handled(), 0; }
@@ -598,6 +615,7 @@ Draws a world behind the panels, as a draft of clench.render.
 @param world world
 @param options? table  eye, target, up, field_of_view, orthographic and those of clench.render that choose what is drawn)"},
     {"read", guarded<ui_read>, "The pixels of the last frame.\n@return picture"},
+    {"hash", guarded<ui_hash>, "Hash of the pixels of the last frame.\n@return string"},
     {"input", guarded<ui_input>, R"(
 Adds input, which the next frames apply.
 @param event {kind: string, x?: number, y?: number, code?: integer, down?: boolean, text?: string}  kind: "move", "button", "wheel", "key", "text", "close" or "drop"; code: of a key of GLFW, or 0 left, 1 right, 2 middle)"},
