@@ -90,7 +90,9 @@ Gui::Gui(std::unique_ptr<Screen> screen, const GuiStyle& style)
   }
 }
 
+// another one may be in the middle of a frame when this one is collected
 Gui::~Gui() {
+  ImGuiContext* const before = ImGui::GetCurrentContext();
   try {
     state_->entered.reset();
     const std::shared_ptr<void> entered = state_->screen->enter();
@@ -102,8 +104,11 @@ Gui::~Gui() {
   } catch (const Error&) {
     // without the OpenGL context its objects are gone already
   }
+  ImGui::SetCurrentContext(before == state_->context ? nullptr : before);
   release_thread();
 }
+
+void Gui::resume() { state_->use(); }
 
 void Gui::set_style(const GuiStyle& style) { state_->style = style, state_->style_changed = true; }
 const GuiStyle& Gui::style() const { return state_->style; }
@@ -201,6 +206,7 @@ Eye Gui::frame_all(const Scene& scene) {
 
 void Gui::end() {
   State& s = *state_;
+  s.use();
   ImGui::Render();
   if (!s.shown) clear_screen(s);
   glBindFramebuffer(GL_FRAMEBUFFER, s.screen->framebuffer());

@@ -89,6 +89,8 @@ class Gui {
   /// Camera that frames the scene.
   Eye frame_all(const Scene& scene);
   void end();
+  /// Continues its frame after frames of others.
+  void resume();
   /// The pixels of the last frame.
   Picture read();
   int width() const;

@@ -5,8 +5,8 @@ local least_distance = 1e-4  -- of eye and target [m]
 
 --- Axes of a camera in the world: right, up, and backwards, from target to eye.
 function camera.axes(c)
-  local back = (c.eye - c.target):normalized()
-  local right = c.up:cross(back):normalized()
+  local back = (c.eye - c.target):unit()
+  local right = c.up:cross(back):unit()
   return right, back:cross(right), back
 end
 
@@ -37,7 +37,7 @@ function camera.ray(c, size, x, y)
   local scale = camera.height(c) / size[2]
   local offset = right * ((x - size[1] / 2) * scale) + up * ((size[2] / 2 - y) * scale)
   if c.orthographic then return c.eye + offset, back * -1 end
-  return c.eye, (c.target + offset - c.eye):normalized()
+  return c.eye, (c.target + offset - c.eye):unit()
 end
 
 local function with_eye(c, eye, target, up)

@@ -25,6 +25,7 @@ Gui& open_gui(lua_State* L) {
 Gui& frame_of(lua_State* L) {
   Gui& gui = open_gui(L);
   if (!self<UiHandle>(L).in_frame) fail("{}: expected a call within ui:frame", subject(L));
+  gui.resume();
   return gui;
 }
 
