@@ -4,6 +4,9 @@
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/planning/planning.h"
+#ifdef CLENCH_VIEWER
+#include "clench/script/bind/view/ui.h"
+#endif
 
 namespace clench {
 
@@ -18,6 +21,9 @@ std::span<const Library* const> all_libraries() {
       &film_library,         &render_library,      &chart_library,   &plot_library,
       &progress_library,     &grasps_library,      &energy_library,  &annealing_library,
       &parallel_library,    &job_library,
+#ifdef CLENCH_VIEWER
+      &ui_library,
+#endif
   };
   return libraries;
 }
@@ -42,6 +48,9 @@ std::span<const Class* const> all_classes() {
       &world_queries_class,  &world_dynamics_class,
       &world_control_class,  &motion_class,
       &joint_dynamics_class, &robot_dynamics_class,
+#ifdef CLENCH_VIEWER
+      &ui_class,
+#endif
   };
   return classes;
 }

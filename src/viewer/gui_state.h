@@ -1,0 +1,65 @@
+// Data of a Gui, shared by the files that implement it.
+#pragma once
+#include <imgui.h>
+
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "clench/render/gl/gl_objects.h"
+#include "clench/viewer/gui.h"
+
+namespace clench {
+
+struct Gui::State {
+  std::unique_ptr<Screen> screen;
+  std::shared_ptr<void> entered;  // between begin() and end()
+  ImGuiContext* context = nullptr;
+  GuiStyle style;
+  bool style_changed = true;
+  std::deque<InputEvent> waiting;
+  std::vector<KeyPress> pressed;
+  std::vector<std::string> dropped;
+  bool close_requested = false;
+  std::vector<GuiItem> items, last_items;
+  std::vector<std::string> windows;  // that are being described, outermost first
+  int disabled = 0;
+  struct Texture {
+    gl::Object texture;
+    int width = 0, height = 0;
+    int frame = 0;  // in which it was used last
+  };
+  std::map<std::string, Texture> images;
+  Renderer renderer{Renderer::Context::caller};
+  bool shown = false;  // has the scene of this frame been drawn?
+  int frame = 0;
+
+  /// Makes its context of Dear ImGui the current one.
+  void use() const { ImGui::SetCurrentContext(context); }
+  /// Records the last widget.
+  void note(const std::string& label, const char* kind);
+};
+
+/// The visible part of a label: without "##id".
+std::string visible_label(const std::string& label);
+
+ImVec4 to_imgui(const Rgba& color);
+ImU32 packed(const Rgba& color);
+
+/// Sets colors and sizes.
+void apply_style(const GuiStyle& style);
+
+/// While it lives, what a container has opened; closes it at the end, also after an exception.
+template <class Close>
+class Closing {
+ public:
+  explicit Closing(Close close) : close_(close) {}
+  ~Closing() { close_(); }
+  Closing(const Closing&) = delete;
+  Closing& operator=(const Closing&) = delete;
+
+ private:
+  Close close_;
+};
+
+}  // namespace clench

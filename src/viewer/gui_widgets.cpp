@@ -1,0 +1,238 @@
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clench/viewer/gui_state.h"
+
+namespace clench {
+
+namespace {
+
+// formats of numbers come from scripts: only one conversion of a floating-point number is allowed
+std::string checked_format(const std::string& format) {
+  const size_t percent = format.find('%');
+  const bool single =
+      percent != std::string::npos && format.find('%', percent + 1) == std::string::npos;
+  const size_t end = single ? format.find_first_not_of("0123456789.+- #", percent + 1) : percent;
+  if (end != std::string::npos &&
+      std::string_view("fgeFGE").find(format[end]) != std::string_view::npos)
+    return format;
+  return "%.4g";
+}
+
+template <class T>
+Edited<T> edited(T value, bool changed) {
+  return {std::move(value), changed, ImGui::IsItemDeactivatedAfterEdit()};
+}
+
+}  // namespace
+
+void Gui::text(const std::string& text, std::optional<Rgba> color, bool wrap) {
+  if (color) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(*color));
+  if (wrap) ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  if (wrap) ImGui::PopTextWrapPos();
+  if (color) ImGui::PopStyleColor();
+  state_->note(text, "text");
+}
+
+bool Gui::button(const std::string& label, double width, double height, bool selected) {
+  if (selected)
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+  const bool clicked =
+      ImGui::Button(label.c_str(), {static_cast<float>(width), static_cast<float>(height)});
+  if (selected) ImGui::PopStyleColor();
+  state_->note(label, "button");
+  return clicked;
+}
+
+Edited<bool> Gui::checkbox(const std::string& label, bool value) {
+  const bool changed = ImGui::Checkbox(label.c_str(), &value);
+  state_->note(label, "checkbox");
+  return {value, changed, changed};
+}
+
+bool Gui::radio(const std::string& label, bool selected) {
+  const bool clicked = ImGui::RadioButton(label.c_str(), selected);
+  state_->note(label, "radio");
+  return clicked;
+}
+
+bool Gui::selectable(const std::string& label, bool selected) {
+  const bool clicked =
+      ImGui::Selectable(label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick);
+  state_->note(label, "selectable");
+  return clicked;
+}
+
+Edited<double> Gui::slider(const std::string& label, double value, double low, double high,
+                           const std::string& format) {
+  const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &low, &high,
+                                           checked_format(format).c_str());
+  const Edited<double> result = edited(value, changed);
+  state_->note(label, "slider");
+  return result;
+}
+
+Edited<double> Gui::drag(const std::string& label, double value, double speed, double low,
+                         double high, const std::string& format) {
+  const bool bounded = std::isfinite(low) || std::isfinite(high);
+  const bool changed =
+      ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, static_cast<float>(speed),
+                        bounded ? &low : nullptr, bounded ? &high : nullptr,
+                        checked_format(format).c_str(), ImGuiSliderFlags_AlwaysClamp);
+  const Edited<double> result = edited(value, changed);
+  state_->note(label, "drag");
+  return result;
+}
+
+Edited<double> Gui::number(const std::string& label, double value, double step,
+                           const std::string& format) {
+  const bool changed =
+      ImGui::InputDouble(label.c_str(), &value, step, 10 * step, checked_format(format).c_str());
+  const Edited<double> result = edited(std::isfinite(value) ? value : 0, changed);
+  state_->note(label, "number");
+  return result;
+}
+
+Edited<std::string> Gui::input(const std::string& label, const std::string& value,
+                               const InputOptions& options) {
+  std::string text = value;
+  ImGuiInputTextFlags flags = 0;
+  if (options.on_enter) flags |= ImGuiInputTextFlags_EnterReturnsTrue;
+  if (options.password) flags |= ImGuiInputTextFlags_Password;
+  if (options.focus) ImGui::SetKeyboardFocusHere();
+  bool changed;
+  if (options.lines > 1)
+    changed = ImGui::InputTextMultiline(
+        label.c_str(), &text,
+        {-1, ImGui::GetTextLineHeight() * static_cast<float>(options.lines + 1)}, flags);
+  else
+    changed = ImGui::InputTextWithHint(label.c_str(), options.hint.c_str(), &text, flags);
+  Edited<std::string> result = edited(text, text != value);
+  result.finished = options.on_enter ? changed : result.finished;
+  state_->note(label, "input");
+  return result;
+}
+
+Edited<int> Gui::combo(const std::string& label, int index, std::span<const std::string> choices) {
+  const bool known = index >= 0 && index < static_cast<int>(choices.size());
+  const bool open = ImGui::BeginCombo(label.c_str(), known ? choices[index].c_str() : "");
+  int chosen = index;
+  if (open) {
+    state_->windows.push_back(visible_label(label));
+    const Closing closing([this] { state_->windows.pop_back(), ImGui::EndCombo(); });
+    for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable(choices[i].c_str(), i == index)) chosen = i;
+      state_->note(choices[i], "choice");
+      ImGui::PopID();
+    }
+  }
+  state_->note(label, "combo");
+  return {chosen, chosen != index, chosen != index};
+}
+
+void Gui::progress(double fraction, const std::string& text, double width) {
+  ImGui::ProgressBar(static_cast<float>(std::clamp(fraction, 0.0, 1.0)),
+                     {width > 0 ? static_cast<float>(width) : -FLT_MIN, 0}, text.c_str());
+  state_->note(text, "progress");
+}
+
+void Gui::plot(const std::string& label, std::span<const double> values, std::optional<double> low,
+               std::optional<double> high, double height) {
+  std::vector<float> points(values.begin(), values.end());
+  ImGui::PlotLines(label.c_str(), points.data(), static_cast<int>(points.size()), 0, nullptr,
+                   low ? static_cast<float>(*low) : FLT_MAX,
+                   high ? static_cast<float>(*high) : FLT_MAX, {0, static_cast<float>(height)});
+  state_->note(label, "plot");
+}
+
+bool Gui::image(const std::string& key, const Picture& picture, bool changed, double width,
+                double height) {
+  State::Texture& image = state_->images[key];
+  if (image.width != picture.width || image.height != picture.height) {
+    image.texture = gl::make_texture(gl::Format::rgba8, picture.width, picture.height);
+    image.width = picture.width, image.height = picture.height;
+    changed = true;
+  }
+  if (changed) {
+    glBindTexture(GL_TEXTURE_2D, image.texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE,
+                    picture.pixels.data());
+  }
+  image.frame = state_->frame;
+  const unsigned name = image.texture;
+  ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(name)),
+               {static_cast<float>(width), static_cast<float>(height)});
+  state_->note(key, "image");
+  return ImGui::IsItemClicked();
+}
+
+void Gui::separator() { ImGui::Separator(); }
+void Gui::same_line(double spacing) { ImGui::SameLine(0, static_cast<float>(spacing)); }
+void Gui::spacing() { ImGui::Spacing(); }
+void Gui::indent(double width) { ImGui::Indent(static_cast<float>(width)); }
+void Gui::next_width(double width) { ImGui::SetNextItemWidth(static_cast<float>(width)); }
+void Gui::tooltip(const std::string& text) {
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", text.c_str());
+}
+void Gui::focus_next() { ImGui::SetKeyboardFocusHere(); }
+void Gui::scroll_to_end() { ImGui::SetScrollHereY(1); }
+bool Gui::hovered() const { return ImGui::IsItemHovered(); }
+bool Gui::active() const { return ImGui::IsItemActive(); }
+bool Gui::deactivated_after_edit() const { return ImGui::IsItemDeactivatedAfterEdit(); }
+std::array<double, 2> Gui::available() const {
+  const ImVec2 space = ImGui::GetContentRegionAvail();
+  return {space.x, space.y};
+}
+GuiRect Gui::last_rect() const {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  return {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+double Gui::line_height() const { return ImGui::GetFrameHeightWithSpacing(); }
+
+// --- over the picture ---
+
+static std::vector<ImVec2> to_points(std::span<const std::array<double, 2>> points) {
+  std::vector<ImVec2> result;
+  for (const auto& p : points)
+    result.emplace_back(static_cast<float>(p[0]), static_cast<float>(p[1]));
+  return result;
+}
+
+void Gui::line(std::span<const std::array<double, 2>> points, const Rgba& color, double width,
+               bool closed) {
+  const std::vector<ImVec2> at = to_points(points);
+  ImGui::GetBackgroundDrawList()->AddPolyline(at.data(), static_cast<int>(at.size()), packed(color),
+                                              closed ? ImDrawFlags_Closed : ImDrawFlags_None,
+                                              static_cast<float>(width));
+}
+
+void Gui::polygon(std::span<const std::array<double, 2>> points, const Rgba& color) {
+  const std::vector<ImVec2> at = to_points(points);
+  ImGui::GetBackgroundDrawList()->AddConvexPolyFilled(at.data(), static_cast<int>(at.size()),
+                                                      packed(color));
+}
+
+void Gui::circle(double x, double y, double radius, const Rgba& color, double width, bool filled) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 at(static_cast<float>(x), static_cast<float>(y));
+  if (filled)
+    list.AddCircleFilled(at, static_cast<float>(radius), packed(color));
+  else
+    list.AddCircle(at, static_cast<float>(radius), packed(color), 0, static_cast<float>(width));
+}
+
+void Gui::label(double x, double y, const std::string& text, const Rgba& color) {
+  ImGui::GetBackgroundDrawList()->AddText({static_cast<float>(x), static_cast<float>(y)},
+                                          packed(color), text.c_str());
+}
+
+}  // namespace clench

@@ -1,0 +1,40 @@
+// Where a user interface is drawn: a framebuffer without a display, or a window.
+#pragma once
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "clench/render/figure/picture.h"
+#include "clench/viewer/event.h"
+
+namespace clench {
+
+class Screen {
+ public:
+  static constexpr int min_size = 16, max_size = 8192;  // [pixels]
+
+  virtual ~Screen() = default;
+  /// Makes its OpenGL context current on this thread until the returned object is destroyed.
+  virtual std::shared_ptr<void> enter() = 0;
+  /// Framebuffer to draw into, while entered.
+  virtual unsigned framebuffer() = 0;
+  virtual int width() const = 0;   ///< [pixels]
+  virtual int height() const = 0;  ///< [pixels]
+  /// Ratio of the monitor's resolution to 96 dpi.
+  virtual double scale() const { return 1; }
+  /// Shows what was drawn; while entered.
+  virtual void present() {}
+  /// Appends events of the window system, without waiting.
+  virtual void poll(std::deque<InputEvent>&) {}
+  /// Title of the window.
+  virtual void set_title(const std::string&) {}
+  /// The pixels drawn last; while entered.
+  Picture read();
+};
+
+/// throws  Error if the size is out of range, or there is no EGL or no OpenGL 3.3
+std::unique_ptr<Screen> make_offscreen(int width, int height);
+/// throws  Error if there is no display or no OpenGL 3.3
+std::unique_ptr<Screen> make_window(int width, int height, const std::string& title);
+
+}  // namespace clench

@@ -1,0 +1,82 @@
+--- The camera of a view: projection, rays and navigation. A camera is a table {eye, target, up, field_of_view}, as clench.render takes it.
+local camera = {}
+
+local least_distance = 1e-4  -- of eye and target [m]
+
+--- Axes of a camera in the world: right, up, and backwards, from target to eye.
+function camera.axes(c)
+  local back = (c.eye - c.target):unit()
+  local right = c.up:cross(back):unit()
+  return right, back:cross(right), back
+end
+
+--- Height of the visible part of the plane through the target [m].
+function camera.height(c)
+  return c.orthographic or 2 * (c.eye - c.target):norm() * math.tan(c.field_of_view / 2)
+end
+
+--- Pixel of a point; nil behind the camera.
+---@param size number[]  of the screen [pixels]
+function camera.project(c, size, point)
+  local right, up, back = camera.axes(c)
+  local p = point - c.eye
+  local depth = -p:dot(back)
+  local scale
+  if c.orthographic then
+    scale = size[2] / c.orthographic
+  else
+    if depth <= 0 then return nil end
+    scale = size[2] / (2 * depth * math.tan(c.field_of_view / 2))
+  end
+  return size[1] / 2 + p:dot(right) * scale, size[2] / 2 - p:dot(up) * scale
+end
+
+--- The ray through a pixel: its origin and unit direction.
+function camera.ray(c, size, x, y)
+  local right, up, back = camera.axes(c)
+  local scale = camera.height(c) / size[2]
+  local offset = right * ((x - size[1] / 2) * scale) + up * ((size[2] / 2 - y) * scale)
+  if c.orthographic then return c.eye + offset, back * -1 end
+  return c.eye, (c.target + offset - c.eye):unit()
+end
+
+local function with_eye(c, eye, target, up)
+  return {eye = eye, target = target or c.target, up = up or c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
+end
+
+--- The camera turned about its target.
+---@param yaw number  about the vertical axis [rad]
+---@param pitch number  upwards [rad]; it stops short of the poles
+function camera.orbited(c, yaw, pitch)
+  local z = clench.vec3(0, 0, 1)
+  local offset = c.eye - c.target
+  local distance = offset:norm()
+  local elevation = math.asin(math.max(-1, math.min(1, offset.z / distance)))
+  local azimuth = math.atan(offset.y, offset.x)
+  elevation = math.max(-1.55, math.min(1.55, elevation + pitch))
+  azimuth = azimuth - yaw
+  local turned = clench.vec3(math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)) * distance
+  return with_eye(c, c.target + turned, nil, z)
+end
+
+--- The camera moved across its view by pixels.
+function camera.panned(c, size, dx, dy)
+  local right, up = camera.axes(c)
+  local scale = camera.height(c) / size[2]
+  local shift = right * (-dx * scale) + up * (dy * scale)
+  return with_eye(c, c.eye + shift, c.target + shift)
+end
+
+--- The camera nearer to its target by a factor below 1, or farther.
+function camera.zoomed(c, factor)
+  local offset = c.eye - c.target
+  if offset:norm() * factor < least_distance then return c end
+  local nearer = with_eye(c, c.target + offset * factor)
+  if c.orthographic then nearer.orthographic = c.orthographic * factor end
+  return nearer
+end
+
+--- The camera with a new target, at the same distance and from the same direction.
+function camera.centered(c, target) return with_eye(c, target + (c.eye - c.target), target) end
+
+return camera

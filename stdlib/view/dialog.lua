@@ -1,0 +1,138 @@
+--- Dialogs of commands, made from their parameters.
+local keys = require "clench.view.keys"
+local dialog = {}
+
+local planner_group = "^planner%."
+
+-- what a field shows for a value of any type
+local function shown(value)
+  if value == nil then return "" end
+  if type(value) == "table" then return require("clench.session.script").literal(value) end
+  return tostring(value)
+end
+
+-- the value of a typed text; nil where it is empty
+local function read(parameter, text)
+  if text == "" then return nil end
+  if parameter.type == "number" then return tonumber(text) or text end
+  if parameter.type == "integer" then return math.tointeger(tonumber(text)) or text end
+  if parameter.type == "table" or parameter.type == "vec3" or parameter.type == "pose" or parameter.type == "any" then
+    local f = load("return " .. text, "=" .. parameter.name, "t", {clench = clench, math = math})
+    local ok, value = pcall(f or error, not f and "expected a Lua expression")
+    if ok then return value end
+  end
+  return text
+end
+
+-- names of bodies or robots for a choice
+local function names_of(session, kind)
+  local names = {}
+  if not session.world then return names end
+  for i, thing in ipairs(kind == "robot" and session.world.robots or session.world.objects) do names[i] = thing.name end
+  return names
+end
+
+local function index_in(list, value)
+  for i, item in ipairs(list) do
+    if item == value then return i end
+  end
+  return 0
+end
+
+local function draw_choice(ui, state, parameter, choices)
+  local label = "##" .. parameter.name
+  local index, changed = ui:combo(label, index_in(choices, state[parameter.name]), choices)
+  if changed then state[parameter.name] = choices[index] end
+end
+
+local function draw_field(view, ui, state, parameter)
+  local name = parameter.name
+  ui:next_column()
+  ui:text(name:gsub("_", " ") .. (parameter.unit and (" [%s]"):format(parameter.unit) or ""))
+  if parameter.text then ui:tooltip(parameter.text) end
+  ui:next_column()
+  ui:width(-1)
+  local choices = parameter.choices or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter.type)
+  if choices and #choices > 0 then
+    draw_choice(ui, state, parameter, choices)
+  elseif parameter.type == "boolean" then
+    local value, changed = ui:checkbox("##" .. name, state[name] == true)
+    if changed then state[name] = value end
+  else
+    local text, changed = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = parameter.optional and "default" or ""})
+    if changed then state.texts[name], state[name] = text, read(parameter, text) end
+  end
+  if parameter.text then ui:tooltip(parameter.text) end
+end
+
+local function run(view, command, state)
+  local args = {}
+  for _, parameter in ipairs(command.parameters or {}) do args[parameter.name] = state[parameter.name] end
+  state.error = nil
+  local ok, result = pcall(view.session.run, view.session, command.name, args)
+  if not ok then
+    state.error = tostring(result)
+    return
+  end
+  view:report(command, result)
+  if command.name:find(planner_group) then state.job = result else view.dialogs[command.name] = nil end
+end
+
+--- Opens the dialog of a command; one without parameters that must be given, and without "…" in its label, runs at once.
+function dialog.open(view, command)
+  local asks = (command.label or ""):find "…"
+  for _, parameter in ipairs(command.parameters or {}) do
+    if not parameter.optional and parameter.default == nil then asks = true end
+  end
+  if not asks then return view:run(command.name) end
+  local state = {texts = {}}
+  for _, parameter in ipairs(command.parameters or {}) do state[parameter.name] = parameter.default end
+  view.dialogs[command.name] = state
+end
+
+local function title(command) return (command.label or command.name):gsub("…", "") .. "##" .. command.name end
+
+local function draw(view, ui, command, state)
+  if command.parameters and #command.parameters > 0 then
+    local rows = #command.parameters
+    ui:child("fields", {height = math.min(rows * ui.line_height + 8, 420), width = 440}, function(ui)
+      ui:table("parameters", {"##name", "##value"}, {}, function(ui)
+        for _, parameter in ipairs(command.parameters) do draw_field(view, ui, state, parameter) end
+      end)
+    end)
+  end
+  if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
+  local is_planner = command.name:find(planner_group)
+  if is_planner then
+    local running = state.job and (state.job.state == "running" or state.job.state == "queued")
+    ui:disabled(running == true, function(ui)
+      if ui:button("Start", {width = 90}) then run(view, command, state) end
+    end)
+    ui:same_line()
+    ui:disabled(not running, function(ui)
+      if ui:button("Stop", {width = 90}) then state.job:stop() end
+    end)
+    ui:same_line()
+    if state.job then ui:text(("%s, %d grasps"):format(state.job.state, #view.session:grasps_of(state.job))) end
+  else
+    if ui:button("OK", {width = 90}) then run(view, command, state) end
+    ui:same_line()
+    if ui:button("Cancel", {width = 90}) then view.dialogs[command.name] = nil end
+  end
+end
+
+--- Draws the open dialogs.
+function dialog.draw(view, ui)
+  local names = {}
+  for name in pairs(view.dialogs) do names[#names + 1] = name end
+  table.sort(names)
+  for i, name in ipairs(names) do
+    local command, state = view.session.commands[name], view.dialogs[name]
+    local open = ui:window(title(command), {x = 320 + 24 * i, y = 120 + 24 * i, width = 470, height = 0, movable = true, resizable = true, can_close = true},
+                           function(ui) draw(view, ui, command, state) end)
+    if not open then view.dialogs[name] = nil end
+  end
+end
+
+dialog.shown = keys.shown
+return dialog

@@ -1,0 +1,45 @@
+--- The viewer: `clench.view.open` shows a session in a window, `clench.view.offscreen` draws the same without a display, with synthetic input.
+local described = require "clench.described"
+local raise = require "clench.raise"
+
+local function check(subject, options)
+  if not clench.ui then raise(subject .. ": this build has no viewer (CLENCH_VIEWER=OFF)") end
+  if type(options) ~= "table" then raise(("%s: expected a table of options, got %s"):format(subject, described(options))) end
+  for key in pairs(options) do
+    if key ~= "session" and key ~= "size" and key ~= "dark" and key ~= "scale" and key ~= "title" then
+      raise(("%s: unknown key '%s'"):format(subject, tostring(key)))
+    end
+  end
+end
+
+local view = {}
+
+--- A view without a display: the same panels and pictures as in a window, driven by synthetic input.
+---@param options {session: table, size?: number[], dark?: boolean, scale?: number}  session: of clench.session; size: width and height [pixels]
+---@return table view
+function view.offscreen(options)
+  check("clench.view.offscreen", options)
+  return require "clench.view.viewer" {session = options.session, size = options.size, dark = options.dark, scale = options.scale}
+end
+
+--- Opens a window. Its frames are drawn while clench.loop runs; view:wait() shows it until it is closed.
+---@param what session|world  what it shows
+---@param options? {size?: number[], dark?: boolean, scale?: number, title?: string}  size: width and height [pixels]
+---@return table view
+function view.open(what, options)
+  check("clench.view.open", options or {})
+  local session = clench.type(what) == "world" and clench.session(what) or what
+  options = options or {}
+  return require "clench.view.viewer" {session = session, window = true, size = options.size, dark = options.dark, scale = options.scale, title = options.title}
+end
+
+--- Adds a panel to all views; one of the same name is replaced. An error in it is shown in it and stops nothing else.
+---@param panel {name: string, draw: fun(ui: ui, view: table), place?: string}  place: "left", "right" or "bottom"
+function view.panel(panel)
+  if type(panel) ~= "table" or type(panel.name) ~= "string" or type(panel.draw) ~= "function" then
+    raise("clench.view.panel: expected {name = string, draw = function}, got " .. described(panel))
+  end
+  require("clench.view.layout").add(panel)
+end
+
+return view

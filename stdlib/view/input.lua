@@ -1,0 +1,89 @@
+--- Synthetic input of a view, as a user's mouse and keyboard would give it. Each function returns when all of it has been handled.
+local keys = require "clench.view.keys"
+local raise = require "clench.raise"
+local suggest = require "clench.suggest"
+local input = {}
+
+-- draws frames until no input waits, and one more in which widgets have settled
+local function settle(view)
+  local count = 0
+  repeat
+    view:frame()
+    count = count + 1
+  until not view.ui:poll() or count > 1000
+  view:frame()
+end
+input.settle = settle
+
+local function move(view, x, y) view.ui:input {kind = "move", x = x, y = y} end
+local function button(view, down, code) view.ui:input {kind = "button", code = code or 0, down = down} end
+
+--- Presses and releases a mouse button at a pixel.
+function input.click(view, x, y, code)
+  move(view, x, y)
+  settle(view)
+  button(view, true, code)
+  settle(view)
+  button(view, false, code)
+  settle(view)
+end
+
+--- Drags from one pixel to another in steps.
+function input.drag(view, x, y, to_x, to_y, options)
+  local steps = options and options.steps or 10
+  local code = options and options.button or 0
+  move(view, x, y)
+  settle(view)
+  button(view, true, code)
+  settle(view)
+  for i = 1, steps do
+    move(view, x + (to_x - x) * i / steps, y + (to_y - y) * i / steps)
+    settle(view)
+  end
+  button(view, false, code)
+  settle(view)
+end
+
+--- Presses a shortcut such as "ctrl+z".
+function input.key(view, shortcut)
+  local codes = keys.codes(shortcut)
+  for _, code in ipairs(codes) do view.ui:input {kind = "key", code = code, down = true} end
+  settle(view)
+  for i = #codes, 1, -1 do view.ui:input {kind = "key", code = codes[i], down = false} end
+  settle(view)
+end
+
+--- Types a text.
+function input.type(view, text)
+  for _, code in utf8.codes(text) do view.ui:input {kind = "text", text = utf8.char(code)} end
+  settle(view)
+end
+
+--- The widget with a label.
+---@param kind? string  of the widget
+function input.find(view, label, kind)
+  local found, labels = nil, {}
+  for _, item in ipairs(view.ui.items) do
+    labels[#labels + 1] = item.label
+    if item.label == label and (not kind or item.kind == kind) and (not found or item.kind ~= "text") then found = item end
+  end
+  if found then return found end
+  raise(("view: there is no %s '%s' on screen%s"):format(kind or "widget", label, suggest(label, labels)))
+end
+
+--- Clicks on the widget with a label.
+function input.click_label(view, label, kind)
+  local item = input.find(view, label, kind)
+  if not item.enabled then raise(("view: '%s' is disabled"):format(label)) end
+  input.click(view, item.x + math.min(item.width, 24) / 2, item.y + item.height / 2)
+end
+
+--- Chooses the entry of a menu: "Grasp/Auto Grasp".
+function input.menu(view, path)
+  settle(view)
+  local parts = {}
+  for part in path:gmatch "[^/]+" do parts[#parts + 1] = part end
+  for i, part in ipairs(parts) do input.click_label(view, part, i < #parts and "menu" or "menu item") end
+end
+
+return input

@@ -1,0 +1,193 @@
+--- The arrangement of tool bar, panels and status bar around the picture.
+local dialog = require "clench.view.dialog"
+local keys = require "clench.view.keys"
+local menus = require "clench.view.menus"
+local layout = {}
+
+local panel_width, bottom_height, bar_height = 230, 170, 36  -- [pixels]
+local user_panels = {}  -- that scripts have added, by name and in order
+
+local own_panels = {"tree", "quality", "inspector", "jobs", "console", "history"}
+
+--- The panels of a view: its own, and those of the user.
+function layout.panels()
+  local list = {}
+  for i, name in ipairs(own_panels) do list[i] = require("clench.view.panels." .. name) end
+  return list
+end
+
+--- Adds a panel, or replaces one of the same name.
+---@param panel {name: string, draw: fun(ui: ui, view: table), place?: string}
+function layout.add(panel)
+  for i, other in ipairs(user_panels) do
+    if other.name == panel.name then
+      user_panels[i] = panel
+      return
+    end
+  end
+  user_panels[#user_panels + 1] = panel
+end
+
+-- an error of a panel is shown in it
+local function draw_panel(view, ui, panel)
+  local ok, message = pcall(panel.draw, ui, view)
+  if not ok then ui:text(tostring(message), {color = {0.84, 0.37, 0}, wrap = true}) end
+end
+
+local function placed(view, place)
+  local list = {}
+  for _, panels in ipairs {view.panels, user_panels} do
+    for _, panel in ipairs(panels) do
+      if (panel.place or "right") == place and not view.hidden[panel.name] then list[#list + 1] = panel end
+    end
+  end
+  return list
+end
+
+-- panels below each other in a column
+local function draw_column(view, ui, place, x, y, width, height)
+  local list = placed(view, place)
+  if #list == 0 then return end
+  local each = height / #list
+  for i, panel in ipairs(list) do
+    ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
+  end
+end
+
+local function draw_bottom(view, ui, x, y, width, height)
+  local list = placed(view, "bottom")
+  if #list == 0 then return end
+  local names, by_name = {}, {}
+  for i, panel in ipairs(list) do names[i], by_name[panel.name] = panel.name, panel end
+  ui:window("bottom", {x = x, y = y, width = width, height = height, title = false}, function(ui)
+    ui:tabs("bottom tabs", names, function(ui, name) draw_panel(view, ui, by_name[name]) end)
+  end)
+end
+
+local function command_button(view, ui, label, name)
+  local command = view.session.commands[name]
+  local enabled = not command.enabled or (command.enabled(view.session)) and true or false
+  ui:disabled(not enabled, function(ui)
+    if ui:button(label) then dialog.open(view, command) end
+  end)
+  ui:tooltip(("%s%s\nsession:run(%q)"):format(command.label or name, command.shortcut and "  " .. keys.shown(command.shortcut) or "", name))
+  ui:same_line()
+end
+
+local function names_of(list)
+  local names = {}
+  for i, thing in ipairs(list) do names[i] = thing.name end
+  return names
+end
+
+local function choose(view, ui, label, list, current, command, argument)
+  local names, index = names_of(list), 0
+  for i, thing in ipairs(list) do
+    if thing == current then index = i end
+  end
+  ui:width(130)
+  local chosen, changed = ui:combo(label, index, names)
+  if changed then view:run(command, {[argument] = names[chosen]}) end
+  ui:same_line()
+end
+
+local function draw_bar(view, ui, y, width)
+  ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height, title = false, scroll = false}, function(ui)
+    for i, tool in ipairs(view.tools) do
+      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then view.current_tool = tool end
+      ui:tooltip(tool .. " (" .. i .. ")")
+      ui:same_line()
+    end
+    for _, entry in ipairs {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}} do
+      if view.session.commands[entry[2]] then command_button(view, ui, entry[1], entry[2]) end
+    end
+    local world = view.session.world
+    if world then
+      choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
+      choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
+    end
+  end)
+end
+
+local function draw_status(view, ui, y, width, height)
+  ui:window("status bar", {x = 0, y = y, width = width, height = height, title = false, scroll = false}, function(ui)
+    local world = view.session.world
+    ui:text(view.status)
+    ui:same_line()
+    ui:text(("   %s   %s%s"):format(view.session.path or "Untitled", view.current_tool, view.session:is_modified() and "   modified" or ""),
+            {color = {0.5, 0.5, 0.55}})
+  end)
+end
+
+local function draw_question(view, ui)
+  if view.ask then
+    local ask = view.ask
+    local open = ui:window(ask.title, {width = 0, modal = true, can_close = true}, function(ui)
+      ui:width(320)
+      local text, _, entered = ui:text_input("path", ask.text, {on_enter = true})
+      ask.text = text
+      if ui:button("Save##ask") or entered then
+        local ok, message = pcall(ask.done, ask.text)
+        if ok then view.ask = nil else ask.error = tostring(message) end
+      end
+      ui:same_line()
+      if ui:button "Cancel##ask" then view.ask = nil end
+      if ask.error then ui:text(ask.error, {color = {0.84, 0.37, 0}}) end
+    end)
+    if not open then view.ask = nil end
+  end
+  if view.asks_to_leave then
+    ui:window("Unsaved changes", {width = 0, modal = true}, function(ui)
+      ui:text "The world has changed since it was saved."
+      if ui:button "Save" then
+        view.asks_to_leave = nil
+        dialog.open(view, view.session.commands["world.save"])
+      end
+      ui:same_line()
+      if ui:button "Don't Save" then view.asks_to_leave, view.leaves = nil, true end
+      ui:same_line()
+      if ui:button "Stay" then view.asks_to_leave = nil end
+    end)
+  end
+end
+
+local function draw_help(view, ui)
+  if view.shows_about and not ui:window("About", {width = 0, x = 0, movable = true, can_close = true}, function(ui)
+    ui:text("Clench " .. clench.version)
+    ui:text "Simulates, evaluates and plans robotic grasps."
+  end) then view.shows_about = nil end
+  if view.shows_manual and not ui:window("Manual", {width = 0, movable = true, can_close = true}, function(ui)
+    ui:text "docs/guide/viewer.md describes the viewer; help() in the console describes a function."
+  end) then view.shows_manual = nil end
+  if view.shows_keys and not ui:window("Keys", {x = 300, y = 100, width = 420, height = 460, movable = true, resizable = true, can_close = true}, function(ui)
+    ui:table("keys", {"Key", "Command"}, {}, function(ui)
+      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4", "Tools"}} do
+        ui:next_column() ui:text(own[1]) ui:next_column() ui:text(own[2])
+      end
+      for _, name in ipairs(view.session.order) do
+        local command = view.session.commands[name]
+        if command.shortcut then ui:next_column() ui:text(keys.shown(command.shortcut)) ui:next_column() ui:text(command.label or name) end
+      end
+    end)
+  end) then view.shows_keys = nil end
+end
+
+--- Draws all panels.
+function layout.draw(view, ui)
+  local width, height = ui.size[1], ui.size[2]
+  local menu_height = 24
+  menus.draw(view, ui)
+  draw_bar(view, ui, menu_height, width)
+  local status_height = 28
+  local top = menu_height + bar_height
+  local bottom = height - status_height - bottom_height
+  draw_column(view, ui, "left", 0, top, panel_width, bottom - top)
+  draw_column(view, ui, "right", width - panel_width, top, panel_width, bottom - top)
+  draw_bottom(view, ui, 0, bottom, width, bottom_height)
+  draw_status(view, ui, height - status_height, width, status_height)
+  dialog.draw(view, ui)
+  draw_question(view, ui)
+  draw_help(view, ui)
+end
+
+return layout

@@ -1,0 +1,73 @@
+--- The menu bar: menus of the session's commands, in the order of the original's, and those of the view itself.
+local dialog = require "clench.view.dialog"
+local keys = require "clench.view.keys"
+local menus = {}
+
+local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
+
+local function draw_command(view, ui, command)
+  local enabled = not command.enabled or (command.enabled(view.session)) and true or false
+  if ui:menu_item(command.label or command.name, {shortcut = keys.shown(command.shortcut), enabled = enabled}) then dialog.open(view, command) end
+end
+
+local own = {
+  File = function(view, ui)
+    ui:separator()
+    if ui:menu_item("Save Image…") then view.ask = {title = "Save Image", text = "picture.png", done = function(path) view:screenshot {path = path, panels = false} end} end
+    if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
+    if ui:menu_item("Exit") then view.wants_exit = true end
+  end,
+  Element = function(view, ui)
+    for i, tool in ipairs(view.tools) do
+      if ui:menu_item(tool, {shortcut = tostring(i), selected = view.current_tool == tool}) then view.current_tool = tool end
+    end
+    ui:separator()
+  end,
+}
+
+local function view_menu(view, ui)
+  if ui:menu_item("Home", {shortcut = "Home"}) then view:home() end
+  if ui:menu_item("View All") then view:home(true) end
+  if ui:menu_item("Orthographic", {selected = view.camera.orthographic ~= nil}) then view:toggle_orthographic() end
+  ui:separator()
+  for _, panel in ipairs(view.panels) do
+    if ui:menu_item(panel.name, {selected = not view.hidden[panel.name]}) then view.hidden[panel.name] = not view.hidden[panel.name] or nil end
+  end
+  if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
+  ui:separator()
+  if ui:menu_item("Dark Theme", {selected = view.dark}) then view:set_theme(not view.dark) end
+end
+
+local function help_menu(view, ui)
+  if ui:menu_item("Command Palette…", {shortcut = "Ctrl+P"}) then view:open_palette() end
+  if ui:menu_item("Keys…", {shortcut = "?"}) then view.shows_keys = true end
+  if ui:menu_item("Manual…") then view.shows_manual = true end
+  if ui:menu_item("About…") then view.shows_about = true end
+end
+
+--- Draws the menu bar.
+function menus.draw(view, ui)
+  local by_name, names = {}, {}
+  for _, menu in ipairs(view.session:menus()) do by_name[menu.name] = menu.commands end
+  for _, name in ipairs(order) do names[#names + 1] = name end
+  for _, menu in ipairs(view.session:menus()) do
+    local known = false
+    for _, name in ipairs(order) do known = known or name == menu.name end
+    if not known then names[#names + 1] = menu.name end
+  end
+  ui:menu_bar(function(ui)
+    for _, name in ipairs(names) do
+      if by_name[name] or own[name] then
+        ui:menu(name, function(ui)
+          if own[name] and name ~= "File" then own[name](view, ui) end
+          for _, command in ipairs(by_name[name] or {}) do draw_command(view, ui, command) end
+          if name == "File" then own.File(view, ui) end
+        end)
+      end
+    end
+    ui:menu("View", function(ui) view_menu(view, ui) end)
+    ui:menu("Help", function(ui) help_menu(view, ui) end)
+  end)
+end
+
+return menus

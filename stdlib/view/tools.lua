@@ -1,0 +1,133 @@
+--- Tools of the picture: what a click and a drag on the picture do. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag what
+--- is selected until it touches something. The middle and right buttons and the wheel always move the camera.
+local camera = require "clench.view.camera"
+local tools = {}
+
+tools.names = {"Camera", "Select", "Translate", "Rotate"}
+
+local orbit_speed = math.pi / 400  -- [rad per pixel]
+local rotate_speed = math.pi / 300  -- [rad per pixel]
+
+--- What lies under a pixel: body, point and normal; nil where nothing is.
+function tools.pick(view, x, y)
+  local world = view.session.world
+  if not world then return nil end
+  local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
+  return world:raycast(origin, direction)
+end
+
+-- what a drag of a body moves: its robot, or the robot that carries that robot's mount; the body itself otherwise
+local function movable(body) return body.robot or body end
+
+local function select_at(view, x, y, adds)
+  local hit = tools.pick(view, x, y)
+  local list = adds and {table.unpack(view.session.selection)} or {}
+  if hit then
+    local what = hit.body
+    if view.session.selection[1] == what and what.robot then what = what.robot end
+    list[#list + 1] = what
+  end
+  local addresses = {}
+  for i, thing in ipairs(list) do addresses[i] = view:address(thing) end
+  view:run("world.select", {addresses = addresses})
+end
+
+-- the pose of a drag's target after the mouse has moved
+local function dragged_pose(view, drag, x, y)
+  local size = view.ui.size
+  local right, up, back = camera.axes(view.camera)
+  if view.current_tool == "Rotate" then
+    local turn = clench.pose {axis = up, angle = (x - drag.x) * rotate_speed} * clench.pose {axis = right, angle = (y - drag.y) * rotate_speed}
+    local center = drag.center
+    return clench.pose {xyz = center} * turn * clench.pose {xyz = center * -1} * drag.pose
+  end
+  local origin, direction = camera.ray(view.camera, size, x, y)
+  local along = direction:dot(back)
+  if math.abs(along) < 1e-9 then return drag.pose end
+  local point = origin + direction * ((drag.point - origin):dot(back) / along)
+  return clench.pose {xyz = point - drag.point} * drag.pose
+end
+
+local function begin_drag(view, x, y)
+  local hit = tools.pick(view, x, y)
+  if not hit then return nil end
+  local target = movable(hit.body)
+  if target.parent then return nil end
+  local selected = view.session.selection[1]
+  if selected ~= target and selected ~= hit.body then view:run("world.select", {addresses = {view:address(target)}}) end
+  local pose = target.pose
+  local body = clench.type(target) == "robot" and target.base or target
+  view.session:begin_gesture(view.current_tool .. " " .. target.name)
+  return {target = target, point = hit.point, pose = pose, center = body.pose * body.com, x = x, y = y}
+end
+
+local function use_camera(view, mouse)
+  local size = view.ui.size
+  if mouse.middle.down or mouse.left.down and view.ui:key_down(341) then
+    view.camera = camera.panned(view.camera, size, mouse.dx, mouse.dy)
+  else
+    view.camera = camera.orbited(view.camera, mouse.dx * orbit_speed, mouse.dy * orbit_speed)
+  end
+end
+
+local function begin_press(view, mouse)
+  local tool = view.current_tool
+  if view.ui:key_down(342) or tool == "Camera" then return {kind = "camera"} end
+  if tool == "Select" then return {kind = "select", x = mouse.x, y = mouse.y} end
+  local drag = begin_drag(view, mouse.x, mouse.y)
+  return drag and {kind = "drag", drag = drag} or {kind = "camera"}
+end
+
+--- Applies the mouse of this frame to the picture.
+function tools.update(view)
+  local ui = view.ui
+  local mouse = ui.mouse
+  if not view.press and ui.wants_mouse then return end
+  if mouse.wheel ~= 0 then
+    view.camera = camera.zoomed(view.camera, 0.9 ^ mouse.wheel)
+    view.camera_moved = true
+  end
+  if not view.session.world then return end
+  if mouse.left.clicked then view.press = begin_press(view, mouse) end
+  if mouse.right.clicked or mouse.middle.clicked then view.press = {kind = "camera"} end
+  local press = view.press
+  if not press then return end
+  local moved = mouse.dx ~= 0 or mouse.dy ~= 0
+  if press.kind == "camera" and moved then
+    use_camera(view, mouse)
+  elseif press.kind == "drag" and moved then
+    press.drag.target:move_to(dragged_pose(view, press.drag, mouse.x, mouse.y))
+    view.session:emit("changed", {gesture = true})
+  end
+  if mouse.left.released or mouse.right.released or mouse.middle.released then
+    view.press = nil
+    if press.kind == "drag" then view.session:end_gesture() end
+    if press.kind == "select" then select_at(view, mouse.x, mouse.y, ui:key_down(340)) end
+  end
+end
+
+--- Outlines what is selected, by the boxes of its bodies.
+function tools.draw(view, ui)
+  local size = ui.size
+  for _, thing in ipairs(view.session.selection) do
+    for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do
+      local bounds = body.bounds_in_world
+      if bounds then
+        local low, high = bounds.low, bounds.high
+        local corners = {}
+        for i = 0, 7 do
+          local p = clench.vec3(i & 1 == 0 and low.x or high.x, i & 2 == 0 and low.y or high.y, i & 4 == 0 and low.z or high.z)
+          corners[i] = {camera.project(view.camera, size, p)}
+        end
+        for i = 0, 7 do
+          for _, bit in ipairs {1, 2, 4} do
+            local a, b = corners[i], corners[i ~ bit]
+            if i & bit == 0 and a[1] and b[1] then ui:line({a[1], a[2], b[1], b[2]}, {color = {0.9, 0.6, 0, 0.9}, width = 1.5}) end
+          end
+        end
+      end
+    end
+  end
+end
+
+return tools

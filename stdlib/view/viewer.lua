@@ -1,0 +1,262 @@
+--- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
+local camera = require "clench.view.camera"
+local class = require "clench.class"
+local described = require "clench.described"
+local dialog = require "clench.view.dialog"
+local input = require "clench.view.input"
+local keys = require "clench.view.keys"
+local layout = require "clench.view.layout"
+local menus = require "clench.view.menus"
+local palette = require "clench.view.palette"
+local raise = require "clench.raise"
+local tools = require "clench.view.tools"
+
+local Viewer = class "view"
+
+local frame_time = 1 / 60  -- of synthetic frames [s]
+local max_lines = 2000  -- kept in the console
+
+function Viewer:__tostring() return ("view of %s"):format(tostring(self.session.world or "no world")) end
+
+--- Notes that the world or the panels have changed: the next frame is drawn anew.
+function Viewer:changed()
+  self.stamp = self.stamp + 1
+  self.needs_frame = true
+end
+
+--- Prints a line in the console.
+function Viewer:print(text, kind)
+  for line in (tostring(text) .. "\n"):gmatch "(.-)\n" do self.lines[#self.lines + 1] = {text = line, kind = kind} end
+  while #self.lines > max_lines do table.remove(self.lines, 1) end
+  self.scroll_console = true
+end
+
+--- Shows the result of a command.
+function Viewer:report(command, result)
+  if result == nil or command.name:find "^planner%." then return end
+  self:print(("%s: %s"):format(command.label or command.name, tostring(result)))
+end
+
+--- Runs a command of the session; an error is shown in the console and in the status bar.
+---@param name string  of the command
+---@param args? table  by name
+function Viewer:run(name, args)
+  local ok, result = pcall(self.session.run, self.session, name, args)
+  if ok then
+    self:report(self.session.commands[name], result)
+    return result
+  end
+  self.status = tostring(result)
+  self:print(self.status, "error")
+end
+
+--- The address of a body or robot.
+function Viewer:address(thing)
+  local escaped = function(name) return (name:gsub("/", "\\/")) end
+  if clench.type(thing) == "robot" or not thing.robot then return escaped(thing.name) end
+  return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
+end
+
+--- Points the camera at the grasp, or at everything.
+---@param all? boolean  true: at everything
+function Viewer:home(all)
+  if not self.session.world then return end
+  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
+  self.needs_frame = true
+end
+
+--- Switches between perspective and orthographic projection.
+function Viewer:toggle_orthographic()
+  local c = self.camera
+  self.camera = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = not c.orthographic and camera.height(c) or nil}
+end
+
+function Viewer:set_theme(dark)
+  self.dark = dark
+  self.ui:set_style {dark = dark}
+end
+
+function Viewer:open_palette() self.palette = {text = "", index = 1} end
+
+--- Writes the session as a script.
+function Viewer:save_script(path)
+  local file, message = io.open(path, "w")
+  if not file then raise("view: the script cannot be written: " .. message) end
+  local ok, reason = file:write(self.session:script())
+  local closed, at_close = file:close()
+  if not (ok and closed) then raise(("view: the script cannot be written: %s"):format(reason or at_close)) end
+end
+
+local function own_key(self, shortcut)
+  if shortcut == "ctrl+p" then self:open_palette() return true end
+  if shortcut == "f9" then self.panels_visible = not self.panels_visible return true end
+  if shortcut == "home" then self:home() return true end
+  if shortcut == "escape" then
+    if self.palette then self.palette = nil elseif self.press then self.press = nil self.session:cancel_gesture() end
+    return true
+  end
+  local number = tonumber(shortcut)
+  if number and tools.names[number] then self.current_tool = tools.names[number] return true end
+end
+
+-- shortcuts, unless a text is being typed
+local function handle_keys(self)
+  if self.ui.wants_text then
+    for _, press in ipairs(self.ui.pressed) do
+      if keys.shortcut(press) == "escape" then self.palette = nil end
+    end
+    return
+  end
+  for _, press in ipairs(self.ui.pressed) do
+    local shortcut = keys.shortcut(press)
+    if shortcut and not own_key(self, shortcut) then
+      for _, name in ipairs(self.session.order) do
+        local command = self.session.commands[name]
+        if command.shortcut == shortcut then dialog.open(self, command) break end
+      end
+    end
+  end
+end
+
+local function draw_world(self, ui)
+  local world = self.session.world
+  if not world then return end
+  if self.shown_world ~= world then
+    self.shown_world = world
+    self:home()
+  end
+  local c = self.camera
+  ui:show(world, {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic})
+end
+
+--- Draws one frame.
+function Viewer:frame()
+  if self.is_closed then raise "view:frame: the view was closed" end
+  clench.loop.run(0)
+  self.ui:frame(frame_time, function(ui)
+    draw_world(self, ui)
+    if self.panels_visible then
+      tools.draw(self, ui)
+      layout.draw(self, ui)
+    end
+    palette.draw(self, ui)
+    handle_keys(self)
+    tools.update(self)
+  end)
+  self.needs_frame = false
+end
+
+--- Saves a picture of the view.
+---@param options {path: string, camera?: table, panels?: boolean}  camera: that of the view by default; panels: as they are by default
+---@return picture
+function Viewer:screenshot(options)
+  local before, visible = self.camera, self.panels_visible
+  if options.camera then self.camera = options.camera end
+  if options.panels ~= nil then self.panels_visible = options.panels end
+  self:frame()
+  local picture = self.ui:read()
+  self.camera, self.panels_visible = before, visible
+  if options.path then picture:save(options.path) end
+  return picture
+end
+
+--- Hash of the pixels of the last frame.
+function Viewer:hash() return self.ui:hash() end
+
+--- Widgets of the last frame.
+function Viewer:items()
+  if #self.ui.items == 0 then self:frame() end
+  return self.ui.items
+end
+
+--- The pixel of a point; nil behind the camera.
+---@param point vec3  in the world [m]
+function Viewer:project(point) return camera.project(self.camera, self.ui.size, point) end
+
+--- What lies under a pixel: body, point, normal, distance; nil where nothing is.
+function Viewer:pick(x, y) return tools.pick(self, x, y) end
+
+--- Turns the camera about its target.
+---@param yaw number  [degrees]
+---@param pitch number  [degrees]
+function Viewer:orbit(yaw, pitch)
+  self.camera = camera.orbited(self.camera, math.rad(yaw), math.rad(pitch))
+  self:frame()
+end
+
+--- Chooses a tool: "Camera", "Select", "Translate" or "Rotate".
+function Viewer:tool(name)
+  for _, known in ipairs(tools.names) do
+    if known == name then
+      self.current_tool = name
+      return input.settle(self)
+    end
+  end
+  raise(("view:tool: expected one of %s, got %s"):format(table.concat(tools.names, ", "), described(name)))
+end
+
+--- Selects a body or robot by its address.
+function Viewer:select(address)
+  self.session:run("world.select", {addresses = {address}})
+  self:frame()
+end
+
+function Viewer:menu(path) input.menu(self, path) end
+function Viewer:key(shortcut) input.key(self, shortcut) end
+function Viewer:type(text) input.type(self, text) end
+function Viewer:click(x, y) input.click(self, x, y) end
+function Viewer:click_label(label) input.click_label(self, label) end
+function Viewer:drag(x, y, to_x, to_y, options) input.drag(self, x, y, to_x, to_y, options) end
+
+--- Closes the view.
+function Viewer:close()
+  if self.is_closed then return end
+  self.is_closed = true
+  for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
+  if self.timer then self.timer:remove() end
+  self.ui:close()
+end
+
+-- draws frames when something has changed, until the window is closed
+local function follow(self)
+  local function step()
+    if self.is_closed then return end
+    local waits = self.ui:poll()
+    if waits or self.needs_frame or self.session.gesture then self:frame() end
+    if self.ui.close_requested or self.wants_exit then
+      self.ui:keep_open()
+      self.wants_exit = false
+      if self.session:is_modified() and not self.asks_to_leave then
+        self.asks_to_leave = true
+        self:changed()
+      elseif not self.asks_to_leave then
+        self:close()
+      end
+    end
+    if self.leaves then self:close() end
+  end
+  self.timer = clench.loop.every(1 / 60, step)
+end
+
+--- Shows the window until the user closes it. Jobs, devices and coroutines of clench.loop run meanwhile.
+function Viewer:wait()
+  while not self.is_closed do clench.loop.run(0.1) end
+end
+
+---@param options table  {session, size, window, title, dark, scale}
+return function(options)
+  local session = options.session
+  local view = setmetatable({
+    session = session, stamp = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
+    panels_visible = true, current_tool = "Camera", tools = tools.names, dark = options.dark or false, status = "Ready", subscriptions = {},
+  }, Viewer)
+  view.ui = clench.ui {size = options.size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
+  view.panels = layout.panels()
+  view:home()
+  for _, event in ipairs {"changed", "progress", "result"} do
+    view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
+  end
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.level) end)
+  if options.window then follow(view) end
+  return view
+end
