@@ -91,6 +91,7 @@ struct Said {
   PlanOptions plan;
   RenderVerbOptions render;
   ServeOptions serve;
+  ViewOptions view;
   std::string interactive, test_path, doc_folder, confine;
   bool check_docs = false;
 };
@@ -191,6 +192,17 @@ static void add_serve(CLI::App& app, ServeOptions& serve) {
       trust);
 }
 
+static void add_view(CLI::App& app, ViewOptions& view) {
+  auto* verb = app.add_subcommand("view", "show a world in a window");
+  add_view_options(*verb, view.words);
+  add_reading(*verb, view.reading);
+  verb->footer(
+      "Examples:\n  clench view worlds/barrett_mug.wld\n"
+      "  clench view worlds/barrett_mug.wld --screenshot view.png\n\n"
+      "See docs/guide/viewer.md." +
+      trust);
+}
+
 static void add_all(CLI::App& app, Said& said) {
   app.footer(
       "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
@@ -211,6 +223,7 @@ static void add_all(CLI::App& app, Said& said) {
   add_plan(app, said.plan);
   add_render(app, said.render);
   add_serve(app, said.serve);
+  add_view(app, said.view);
   for (CLI::App* verb : app.get_subcommands({})) {
     if (verb->get_name() != "doc") add_confine(*verb, said.confine);
     verb->fallthrough();
@@ -253,15 +266,17 @@ static int run_scripts_of(const CLI::App& app, Said& said) {
 static int run_verb(const CLI::App& app, Said& said) {
   for (std::string* folder :
        {&said.run.confine, &said.check.reading.confine, &said.convert.reading.confine,
-        &said.plan.reading.confine, &said.render.reading.confine, &said.serve.reading.confine})
+        &said.plan.reading.confine, &said.render.reading.confine, &said.serve.reading.confine,
+        &said.view.reading.confine})
     *folder = said.confine;
-  said.plan.quiet = said.serve.quiet = said.run.quiet;
+  said.plan.quiet = said.serve.quiet = said.view.quiet = said.run.quiet;
   if (app.got_subcommand("test")) return run_tests(said.test_path, said.confine, said.run.quiet);
   if (app.got_subcommand("check")) return check_files(said.check);
   if (app.got_subcommand("convert")) return convert_file(said.convert);
   if (app.got_subcommand("plan")) return plan_grasps(said.plan);
   if (app.got_subcommand("render")) return render_file(said.render);
   if (app.got_subcommand("serve")) return serve_world(said.serve);
+  if (app.got_subcommand("view")) return view_world(said.view);
   if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);
   return run_scripts_of(app, said);
 }

@@ -267,4 +267,16 @@ void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
       ->check(CLI::ExistingDirectory);
 }
 
+void add_view_options(CLI::App& verb, std::vector<std::string>& words) {
+  const Adder add{verb, words};
+  add("FILE", "a world, robot or body")->check(named);
+  add("--script", "a script of Lua to run first; session and view are defined")
+      ->type_name("FILE")
+      ->check(named);
+  add("--screenshot", "writes a picture instead of opening a window")
+      ->type_name("OUT.png")
+      ->check(named);
+  add("--size", "width and height in pixels, as in 1070x937")->type_name("WxH");
+}
+
 }  // namespace clench

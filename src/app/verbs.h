@@ -83,4 +83,14 @@ struct ServeOptions {
 /// Lets other programs command a world, until a signal ends it.
 int serve_world(const ServeOptions& options);
 
+struct ViewOptions {
+  std::vector<std::string> words;  ///< as those of PlanOptions
+  bool quiet = false;
+  ReadingOptions reading;
+};
+
+/// Shows a file or a session in a window, or draws one frame of it.
+/// returns  1 if there is no display
+int view_world(const ViewOptions& options);
+
 }  // namespace clench

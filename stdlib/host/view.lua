@@ -1,0 +1,73 @@
+--- `clench view`: a file or an empty world in a window, or one frame of it as a picture.
+local error_text = require "clench.host.error_text"
+local fail = require "clench.host.usage"
+local in_utf8 = require "clench.in_utf8"
+local is_stopped = require "clench.is_stopped"
+local printable = require "clench.printable"
+local reading = require "clench.host.reading"
+local scene = require "clench.host.scene"
+local view = {}
+
+local imports = {robot = "world.import_robot", body = "world.import_object"}
+
+local function read_size(text)
+  if not text then return nil end
+  local width, height = text:match "^(%d+)x(%d+)$"
+  if not width then fail("--size: expected width and height in pixels, as in 1070x937, got '%s'", text) end
+  return {tonumber(width), tonumber(height)}
+end
+
+local function check_screenshot(path)
+  if not path then return end
+  if not path:lower():match "%.png$" then fail("--screenshot: expected a file .png, got '%s'", path) end
+  clench.files.check_writable(path)
+end
+
+local function open_file(session, given, said)
+  if not given.file then return session:run "world.new" end
+  local kind = clench.file_kind(given.file)
+  if kind == "world" then return session:open(given.file, reading("world", said)) end
+  if not imports[kind] then fail("%s: expected a world, a robot or a body, got a file of kind '%s'", given.file, kind) end
+  session:run "world.new"
+  session:run(imports[kind], {path = given.file, options = reading(kind, said)})
+end
+
+local function run_script(path, session, shown)
+  local env = setmetatable({session = session, view = shown}, {__index = _G})
+  local f = assert(loadfile(path, "t", env))
+  f()
+end
+
+local function run(root, folder, package, unit, strict, ...)
+  local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
+  local given = scene.read_words({}, ...)
+  local size = read_size(given.size)
+  check_screenshot(given.screenshot)
+  local session = clench.session()
+  open_file(session, given, said)
+  local options = {session = session, size = size}
+  local shown = given.screenshot and clench.view.offscreen(options) or clench.view.open(session, {size = size})
+  if given.script then run_script(given.script, session, shown) end
+  if given.screenshot then
+    for _ = 1, 2 do shown:frame() end
+    local picture = shown:screenshot {path = given.screenshot}
+    print(printable(in_utf8(("%s: %d x %d pixels"):format(given.screenshot, picture.width, picture.height))))
+  else
+    shown:wait()
+  end
+  shown:close()
+end
+
+--- Shows the file until its window is closed.
+---@param root string  this and the next four: options of readers, "" if not given
+---@return string  the exit code
+function view.main(...)
+  local ok, problem = pcall(run, ...)
+  if ok then return "0" end
+  if is_stopped(problem) then error(problem, 0) end
+  local usage = type(problem) == "table" and problem.usage
+  io.stderr:write("clench view: ", printable(in_utf8(usage or error_text(problem)), "\n"), "\n")
+  return usage and "2" or "1"
+end
+
+return view
