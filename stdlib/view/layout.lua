@@ -7,7 +7,7 @@ local layout = {}
 local panel_width, bottom_height, bar_height = 230, 170, 36  -- [pixels]
 local user_panels = {}  -- that scripts have added, by name and in order
 
-local own_panels = {"tree", "quality", "inspector", "jobs", "console", "history"}
+local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "console", "history", "gallery", "plots"}
 
 --- The panels of a view: its own, and those of the user.
 function layout.panels()
@@ -44,24 +44,34 @@ local function placed(view, place)
   return list
 end
 
--- panels below each other in a column
+-- panels in one window, each behind a tab
+local function draw_tabs(view, ui, name, list, rect)
+  local names, by_name = {}, {}
+  for i, panel in ipairs(list) do names[i], by_name[panel.name] = panel.name, panel end
+  rect.title = false
+  ui:window(name, rect, function(ui)
+    ui:tabs(name .. " tabs", names, function(ui, chosen) draw_panel(view, ui, by_name[chosen]) end)
+  end)
+end
+
+-- panels below each other in a column, then those that share a window
 local function draw_column(view, ui, place, x, y, width, height)
-  local list = placed(view, place)
-  if #list == 0 then return end
-  local each = height / #list
-  for i, panel in ipairs(list) do
+  local rows, tabs = {}, {}
+  for _, panel in ipairs(placed(view, place)) do
+    local list = panel.tab and tabs or rows
+    list[#list + 1] = panel
+  end
+  local count = #rows + (#tabs > 0 and 1 or 0)
+  local each = count > 0 and height / count or 0
+  for i, panel in ipairs(rows) do
     ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
   end
+  if #tabs > 0 then draw_tabs(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = each}) end
 end
 
 local function draw_bottom(view, ui, x, y, width, height)
   local list = placed(view, "bottom")
-  if #list == 0 then return end
-  local names, by_name = {}, {}
-  for i, panel in ipairs(list) do names[i], by_name[panel.name] = panel.name, panel end
-  ui:window("bottom", {x = x, y = y, width = width, height = height, title = false}, function(ui)
-    ui:tabs("bottom tabs", names, function(ui, name) draw_panel(view, ui, by_name[name]) end)
-  end)
+  if #list > 0 then draw_tabs(view, ui, "bottom", list, {x = x, y = y, width = width, height = height}) end
 end
 
 local function command_button(view, ui, label, name)

@@ -52,7 +52,7 @@ local function begin_drag(view, x, y)
   local hit = tools.pick(view, x, y)
   if not hit then return nil end
   local target = movable(hit.body)
-  if target.parent then return nil end
+  if clench.type(target) == "robot" and target.parent then return nil end
   local selected = view.session.selection[1]
   if selected ~= target and selected ~= hit.body then view:run("world.select", {addresses = {view:address(target)}}) end
   local pose = target.pose
@@ -106,8 +106,17 @@ function tools.update(view)
   end
 end
 
---- Outlines what is selected, by the boxes of its bodies.
+-- a contact that was clicked in the list
+local function draw_highlight(view, ui)
+  local contact = view.quality and view.highlighted and view.quality.contacts[view.highlighted]
+  if not contact then return end
+  local x, y = camera.project(view.camera, ui.size, contact.point)
+  if x then ui:circle(x, y, 12, {color = {0.84, 0.37, 0, 1}, width = 3}) end
+end
+
+--- Outlines what is selected, by the boxes of its bodies, and marks the highlighted contact.
 function tools.draw(view, ui)
+  draw_highlight(view, ui)
   local size = ui.size
   for _, thing in ipairs(view.session.selection) do
     for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do

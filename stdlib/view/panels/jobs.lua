@@ -23,4 +23,4 @@ local function draw(ui, view)
   end
 end
 
-return {name = "Jobs", place = "right", draw = draw}
+return {name = "Jobs", place = "right", tab = true, draw = draw}
