@@ -59,6 +59,14 @@ end
 
 function Options:expected(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
 
+--- The given value of a name, which is checked; nil when it was not given, whatever its default is.
+function Options:checked(name)
+  local option, value = self:described(name), self:raw(name)
+  local fault = value ~= nil and fitting.fault(option, value, self.largest)
+  if fault then self:expected(name, fault, value) end
+  return value
+end
+
 --- The value of a name, or its default: the described one, else `default`; nil where there is neither. Whole numbers are integers, whatever
 --- their subtype was.
 function Options:get(name, default)

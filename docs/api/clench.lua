@@ -277,7 +277,7 @@ function hand:add_virtual_contact(contact) end
 function hand:remove_virtual_contact(number) end
 
 ---Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
----@param options? {count_per_link?: integer, palm?: boolean, object_material?: string} # object_material: material to be grasped, "wood" by default
+---@param options? {count_per_link?: integer, palm?: boolean, object_material?: string} # where they are, and of what is grasped
 ---@return virtual_contact[]
 function hand:find_virtual_contacts(options) end
 
@@ -292,7 +292,7 @@ local kinematics = {}
 ---Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. Where none are found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
 ---@param link body|string # a link, or its name; or a body of a robot that it carries
 ---@param pose pose # where it is to be, in the world
----@param options? {frame?: pose, orientation?: string, dofs?: (integer|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean} # frame: what of the link is to be there, in its own frame; orientation: "full" (default), "axis" (only where +z points), "none"; dofs: that may move; starts: 20 at most, the first from where it is, the others at random; tolerance 1e-6 [m], angle_tolerance 1e-6 [rad]; collision_free: nothing that it moves may collide
+---@param options? {frame?: pose, orientation?: "full"|"axis"|"none", dofs?: (integer|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean} # what is reached, and how it is searched for
 ---@return table result # `reached`, `dofs`, `distance` [m] and `angle` [rad] from the pose, `starts`, `iterations`, `in_collision` (starts that reached it, but collided)
 function kinematics:ik(link, pose, options) end
 
@@ -331,12 +331,12 @@ function dofs:set_posture(pose, values) end
 
 ---Drives all DOFs in proportion towards values, until contact stops them.
 ---@param values number[]|table<string, number> # as of set_dofs
----@param options? {stop_at_contact?: boolean} # true: end at the first new contact of any link
+---@param options? {stop_at_contact?: boolean} # how it moves
 ---@return table result # as of autograsp
 function dofs:move_dofs(values, options) end
 
 ---Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
----@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][], dynamic?: boolean} # dofs: only these, by number or name; stages: lists of them, one after the other
+---@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][], dynamic?: boolean} # how it closes
 ---@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function dofs:autograsp(options) end
 
@@ -377,7 +377,7 @@ function robot:link(name) end
 function robot:move_to(pose) end
 
 ---Moves the hand along its approach direction until it touches something.
----@param options? {reach?: number} # at most this far, 1 by default [m]
+---@param options? {reach?: number} # how far
 ---@return table result # `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 function robot:approach_object(options) end
 
@@ -457,7 +457,7 @@ local virtual_contact = {}
 local contact = {}
 
 ---The patch of a soft contact by options of one's own; nil of others.
----@param options? {radius?: number, max_radius?: number, fit?: string} # radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; max_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+---@param options? {radius?: number, max_radius?: number, fit?: "quadric"|"jet"} # where and how the surface is fitted
 ---@return patch?
 function contact:fit_patch(options) end
 
@@ -1028,7 +1028,7 @@ function robot_dynamics:set_forces(forces) end
 
 ---Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table by names leaves out go on as they did.
 ---@param dofs number[]|table<string, number> # [rad or m]
----@param options? {velocity?: number} # the largest on the way [rad/s or m/s]
+---@param options? {velocity?: number} # how fast
 function robot_dynamics:set_targets(dofs, options) end
 
 ---The velocities that its motors are to keep. DOFs that a table by names leaves out go on as they did.
@@ -1187,7 +1187,7 @@ function clench.progress(total, text) end
 function clench.grasps(path, options) end
 
 ---A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.
----@param options {hand: robot, object: body, energy: energy|function, world?: world, position?: string, posture?: string, semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: string, variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table} # world: a clone to move instead; position: "axis_angle" (default: Tx Ty Tz theta phi alpha), "complete", "ellipsoid", "approach", "fixed"; posture: "eigengrasps" (default), "dofs", "fixed"; limits: {Tx = {min, max}}; values: where variables begin, and stay when they are `fixed`; start: "hand", from where it is; targets: {Tx = {value, confidence}} draw neighbours near them; variables: the user's own, {name = {min =, max =, value =, jump =, circular =}}; schedule: "default", "loop", "modified", "strict", "online", or {like =, t0 =, first_step =, ...}; collisions = false: states that collide are legal; best: {size = 20, distance = 0.2, posture = true, max_energy =}
+---@param options {hand: robot, object: body, energy: energy|function, world?: world, position?: "axis_angle"|"complete"|"ellipsoid"|"approach"|"fixed", posture?: "eigengrasps"|"dofs"|"fixed", semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: "default"|"hand", variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table} # the hand, the object, and the variables of the search
 ---@return annealing
 function clench.annealing(options) end
 
@@ -1367,37 +1367,37 @@ function clench.files.save_gif(path, pictures, options) end
 clench.energy = {}
 
 ---How far the hand's virtual contacts are from the object, and how they face it: the mean of distance [mm] + normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
----@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string} # contacts: "preset" (default), the hand's virtual contacts, or "live", the point of each link that is nearest; normal_weight: 50 [mm]; facing: the normal against the way to the "nearest" point (default), the "surface" there, or "away" from it
+---@param options {hand: robot, object: body, contacts?: "preset"|"live", normal_weight?: number, facing?: "nearest"|"surface"|"away"} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.contact(options) end
 
 ---What the virtual contacts could hold if they touched, nearer ones more: minus epsilon of their forces (with `torques`, of their wrenches). 1 where fewer than min_count are near and face the object, or they hold not in all directions.
----@param options {hand: robot, object: body, contacts?: string, reach?: number, min_count?: integer, torques?: boolean} # reach: 0.05 [m], beyond which a contact does not count; min_count 3
+---@param options {hand: robot, object: body, contacts?: "preset"|"live", reach?: number, min_count?: integer, torques?: boolean} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.potential_quality(options) end
 
 ---potential_quality where that is at most 0, else contact, which leads there.
----@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string, reach?: number, min_count?: integer, torques?: boolean}
+---@param options {hand: robot, object: body, contacts?: "preset"|"live", normal_weight?: number, facing?: "nearest"|"surface"|"away", reach?: number, min_count?: integer, torques?: boolean} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.guided_potential_quality(options) end
 
 ---Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with `tasks`, also minus task_weight times the largest multiple of all these wrenches on the object that it resists.
----@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string} # weights 30, 100 and, with tasks, 1; tasks: {fx, fy, fz, tx, ty, tz} each, object axes, about its centre of mass [N, N m]
+---@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.autograsp_quality(options) end
 
 ---contact, and, where two virtual contacts are near the object and face it, less volume_weight times the volume of the closed grasp. GraspIt! has the sign of the angle wrong here, and its numbers are the default; `facing = "nearest"` is the right one.
----@param options {hand: robot, object: body, contacts?: string, facing?: string, volume_weight?: number, near?: number, min_contacts?: integer} # facing: "away" (default), "nearest", "surface"; volume_weight 1000; near 0.02 [m]; min_contacts 4, that the closed grasp needs
+---@param options {hand: robot, object: body, contacts?: "preset"|"live", facing?: "nearest"|"surface"|"away", volume_weight?: number, near?: number, min_contacts?: integer} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.guided_autograsp_quality(options) end
 
 ---autograsp_quality after an approach of 30 mm that ends at a touch; where the base touches nothing then, the hand stays where it was. 1e8 where the grasp is worth nothing.
----@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string}
+---@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.strict_autograsp(options) end
 
 ---For hands with springs: comes to the first touch along the approach direction, closes, and asks for the balance of contacts and joints at full effort: -200 + the unbalanced force [N]; 1 where a finger moves on, fewer than two touch, or epsilon is below min_epsilon.
----@param options {hand: robot, object: body, approach?: number, min_epsilon?: number} # 0.2 [m], 0.05
+---@param options {hand: robot, object: body, approach?: number, min_epsilon?: number} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.compliant(options) end
 
@@ -1407,12 +1407,12 @@ function clench.energy.compliant(options) end
 function clench.energy.dynamic(options) end
 
 ---How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
----@param options {hand: robot, axis: vec3, angle?: number} # axis: in the world; angle: 0 [rad]
+---@param options {hand: robot, axis: vec3, angle?: number} # the hand and the cone
 ---@return energy
 function clench.energy.approach_cone(options) end
 
 ---How deep the hand reaches into a box of space, by the boxes around its bodies [mm].
----@param options {hand: robot, low: vec3, high: vec3, pose?: pose} # corners along the axes of the pose [m]
+---@param options {hand: robot, low: vec3, high: vec3, pose?: pose} # the hand and the box
 ---@return energy
 function clench.energy.keep_out(options) end
 

@@ -12,20 +12,8 @@ local closing = require "clench.plan.closing"
 ---@option steps? integer [1 to 1000000000] = 70000  steps of annealing
 ---@option seconds? number [s, > 0]  time limit, unlimited by default
 ---@option seed? integer = 1  seed of the random numbers
----@option schedule? string|table  as of clench.annealing
----@option best? table  as of clench.annealing
----@option position? string  as of clench.annealing
----@option posture? string  as of clench.annealing
----@option semi_axes? vec3  as of clench.annealing
----@option limits? table  as of clench.annealing
----@option jumps? table  as of clench.annealing
----@option values? table  as of clench.annealing
----@option targets? table  as of clench.annealing
----@option fixed? string[]  as of clench.annealing
----@option start? string  as of clench.annealing
----@option variables? table  as of clench.annealing
----@option collisions? boolean  as of clench.annealing
----@option max_tries? integer  as of clench.annealing
+---@like clench.annealing  schedule, best, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables, collisions,
+---  max_tries
 ---@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
 ---@option touch? table  links that touch, in place of contacts
 ---@option touch.must? table  names of links, or lists of which one must touch
@@ -43,7 +31,7 @@ return function(options)
   local job = new_job("plan.anneal", options, function(read, job)
     job.energy = read:get "energy"
     job.steps = read:get "steps"
-    job.schedule, job.best = read:raw "schedule", read:raw "best"
+    job.schedule, job.best = read:checked "schedule", read:checked "best"
   end)
   local search = job:annealing {energy = job:energy_of(job.energy), seed = job.seed, schedule = job.schedule, best = job.best}
   local told = chain.run(job, search, job.steps)

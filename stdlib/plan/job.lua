@@ -232,7 +232,7 @@ return function(subject, given, own)
   job.touch = touch.read(read, hand)
   job.max_effort = read:get "max_effort"
   for _, key in ipairs(space_keys) do
-    if read:has(key) then job.space[key] = read:raw(key) end
+    if read:has(key) then job.space[key] = read:checked(key) end
   end
   if own then own(read, job) end
   read:done()

@@ -110,7 +110,7 @@ test("what is no virtual contact is refused by a sentence", function(t)
   t.fails(function() clench.eigengrasps {} end, "expected postures or vectors")
   t.fails(function() clench.eigengrasps {vectors = {{1, 0}, {2, 0}}} end, "eigengrasp 2: it is a sum of those before it")
   t.fails(function() clench.eigengrasps {postures = {{0}, {1}}, count = 0} end, "count: expected 1 or more, got 0")
-  t.fails(function() hand:find_virtual_contacts {count_per_link = 0} end, "count_per_link: expected 1 to 100, got 0")
+  t.fails(function() hand:find_virtual_contacts {count_per_link = 0} end, "count_per_link must be 1 to 100, got 0")
   t.fails(function() hand:find_virtual_contacts {object_material = "wod"} end, "wood")
 end)
 

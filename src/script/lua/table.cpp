@@ -4,6 +4,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/script/lua/described_options.h"
 
 namespace clench {
 
@@ -127,8 +128,39 @@ void Table::refuse(int key) const {
   fail("{}: unknown key {}{}", subject_, described(L_, key), instead_of(name, known_));
 }
 
+// The options that the doc of the running entry describes for its argument at the index; none for
+// a table within another, whose subject is longer.
+static std::span<const DescribedOption> options_at(lua_State* L, int index,
+                                                   const std::string& table_subject) {
+  const Entry* entry = running_entry(L);
+  if (!entry || table_subject != subject(L)) return {};
+  return described_options(*entry, index - (running_class(L) ? 2 : 1));
+}
+
+// Refuses numbers beyond the range of their option.
+static void check_ranges(lua_State* L, int index, std::span<const DescribedOption> options,
+                         const std::string& table_subject) {
+  for (const DescribedOption& option : options) {
+    if (!option.min && !option.max) continue;
+    lua_pushstring(L, option.name.c_str());
+    lua_rawget(L, index);
+    const bool is_number = lua_type(L, -1) == LUA_TNUMBER;
+    const double x = is_number ? lua_tonumber(L, -1) : 0;
+    lua_pop(L, 1);
+    if (is_number && !option.holds(x))
+      fail("{}: {} must be {}, got {}", table_subject, option.name, option.range(), x);
+  }
+}
+
 void Table::done() {
   if (!index_) return;
+  const auto options = options_at(L_, index_, subject_);
+  check_ranges(L_, index_, options, subject_);
+  if (!options.empty()) {
+    // what the doc does not describe is unknown, even if the function would read it
+    known_.clear();
+    for (const DescribedOption& option : options) known_.push_back(option.name);
+  }
   // the least unknown name, so that the message does not hang on the order of a hash table
   std::string unknown;
   for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {

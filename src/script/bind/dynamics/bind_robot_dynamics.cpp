@@ -183,7 +183,8 @@ names leaves out keep what they had.
 Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table
 by names leaves out go on as they did.
 @param dofs number[]|table<string, number>  [rad or m]
-@param options? {velocity?: number}  the largest on the way [rad/s or m/s]
+@param options? table  how fast
+@option velocity? number [rad/s or m/s, > 0]  the largest on the way
 > hand:set_targets({dof2 = 0.3}, {velocity = 1})
 > hand:set_targets({dof2 = 100})  --> error: must lie in)"},
     {"set_target_velocities", guarded<set_target_velocities>, R"(

@@ -208,7 +208,26 @@ std::string annealing_text(const AnnealingHandle& x) {
 static const Entry annealing_functions[] = {
     {"annealing", guarded<make_annealing>, R"(
 A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.
-@param options {hand: robot, object: body, energy: energy|function, world?: world, position?: string, posture?: string, semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: string, variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table}  world: a clone to move instead; position: "axis_angle" (default: Tx Ty Tz theta phi alpha), "complete", "ellipsoid", "approach", "fixed"; posture: "eigengrasps" (default), "dofs", "fixed"; limits: {Tx = {min, max}}; values: where variables begin, and stay when they are `fixed`; start: "hand", from where it is; targets: {Tx = {value, confidence}} draw neighbours near them; variables: the user's own, {name = {min =, max =, value =, jump =, circular =}}; schedule: "default", "loop", "modified", "strict", "online", or {like =, t0 =, first_step =, ...}; collisions = false: states that collide are legal; best: {size = 20, distance = 0.2, posture = true, max_energy =}
+@param options table  the hand, the object, and the variables of the search
+@option hand robot  hand that the search moves
+@option object body  object that is grasped
+@option energy energy|function  objective
+@option world? world  a clone to move instead
+@option position? "axis_angle"|"complete"|"ellipsoid"|"approach"|"fixed" = "axis_angle"  variables of the position; axis_angle: Tx Ty Tz theta phi alpha
+@option posture? "eigengrasps"|"dofs"|"fixed" = "eigengrasps"  variables of the fingers
+@option semi_axes? vec3 [m]  of the ellipsoid
+@option limits? table  ranges by names of variables, {Tx = {min, max}}
+@option jumps? table  longest jumps by names of variables
+@option values? table  where variables begin, by their names, and stay when they are `fixed`
+@option targets? table  {Tx = {value, confidence}} draw neighbours near them
+@option fixed? string[]  names of variables that do not change
+@option start? "default"|"hand" = "default"  hand: from where the hand is
+@option variables? table  more variables, {name = {min =, max =, value =, jump =, circular =}}
+@option schedule? string|table = "default"  "default", "loop", "modified", "strict" or "online", or {like =, t0 =, first_step =, ...}
+@option seed? integer = 0  seed of the random numbers
+@option collisions? boolean = true  false: states that collide are legal
+@option max_tries? integer [>= 1] = 11  tries to find a legal neighbour
+@option best? table  {size = 20, distance = 0.2, posture = true, max_energy =}
 @return annealing
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}, seed = 1}
 > search:run(100), search.counts.steps  --> 100, 100

@@ -275,7 +275,12 @@ static const Entry energy_functions[] = {
     {"contact", guarded<contact>, R"(
 How far the hand's virtual contacts are from the object, and how they face it: the mean of distance [mm] +
 normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
-@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string}  contacts: "preset" (default), the hand's virtual contacts, or "live", the point of each link that is nearest; normal_weight: 50 [mm]; facing: the normal against the way to the "nearest" point (default), the "surface" there, or "away" from it
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option contacts? "preset"|"live" = "preset"  preset: virtual contacts of the hand; live: the nearest point of each link
+@option normal_weight? number [mm, >= 0] = 50  weight of the angle
+@option facing? "nearest"|"surface"|"away" = "nearest"  what the normal is compared with: the direction to the nearest point, the surface there, or the direction away from it
 @return energy
 > e = clench.energy.contact {hand = hand, object = flask}
 > e() > 0  --> true
@@ -286,18 +291,39 @@ normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
     {"potential_quality", guarded<potential_quality>, R"(
 What the virtual contacts could hold if they touched, nearer ones more: minus epsilon of their forces (with
 `torques`, of their wrenches). 1 where fewer than min_count are near and face the object, or they hold not in all directions.
-@param options {hand: robot, object: body, contacts?: string, reach?: number, min_count?: integer, torques?: boolean}  reach: 0.05 [m], beyond which a contact does not count; min_count 3
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option contacts? "preset"|"live" = "preset"  preset: virtual contacts of the hand; live: the nearest point of each link
+@option reach? number [m, > 0] = 0.05  contacts farther away do not count
+@option min_count? integer [>= 1] = 3  smallest number of contacts that are near
+@option torques? boolean = false  true: of wrenches, not of forces
 @return energy
 > clench.energy.potential_quality {hand = hand, object = flask}() <= 1  --> true)"},
     {"guided_potential_quality", guarded<guided_potential_quality>, R"(
 potential_quality where that is at most 0, else contact, which leads there.
-@param options {hand: robot, object: body, contacts?: string, normal_weight?: number, facing?: string, reach?: number, min_count?: integer, torques?: boolean}
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option contacts? "preset"|"live" = "preset"  preset: virtual contacts of the hand; live: the nearest point of each link
+@option normal_weight? number [mm, >= 0] = 50  weight of the angle
+@option facing? "nearest"|"surface"|"away" = "nearest"  what the normal is compared with: the direction to the nearest point, the surface there, or the direction away from it
+@option reach? number [m, > 0] = 0.05  contacts farther away do not count
+@option min_count? integer [>= 1] = 3  smallest number of contacts that are near
+@option torques? boolean = false  true: of wrenches, not of forces
 @return energy
 > clench.energy.guided_potential_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"autograsp_quality", guarded<autograsp_quality>, R"(
 Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with
 `tasks`, also minus task_weight times the largest multiple of all these wrenches on the object that it resists.
-@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string}  weights 30, 100 and, with tasks, 1; tasks: {fx, fy, fz, tx, ty, tz} each, object axes, about its centre of mass [N, N m]
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option volume_weight? number [>= 0] = 30  weight of the volume
+@option epsilon_weight? number [>= 0] = 100  weight of epsilon
+@option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its centre of mass
+@option task_weight? number [>= 0]  weight of the tasks, 1 by default
+@option edges? integer|string  of the friction pyramids, as of clench.grasp
 @return energy
 > e = clench.energy.autograsp_quality {hand = hand, object = flask, volume_weight = 0, epsilon_weight = 1}
 > math.abs(e() + grasp:quality "epsilon") < 1e-6  --> true)"},
@@ -305,20 +331,38 @@ Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_wei
 contact, and, where two virtual contacts are near the object and face it, less volume_weight times the volume of the
 closed grasp. GraspIt! has the sign of the angle wrong here, and its numbers are the default; `facing = "nearest"` is the
 right one.
-@param options {hand: robot, object: body, contacts?: string, facing?: string, volume_weight?: number, near?: number, min_contacts?: integer}  facing: "away" (default), "nearest", "surface"; volume_weight 1000; near 0.02 [m]; min_contacts 4, that the closed grasp needs
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option contacts? "preset"|"live" = "preset"  preset: virtual contacts of the hand; live: the nearest point of each link
+@option facing? "nearest"|"surface"|"away" = "away"  what the normal is compared with: the direction to the nearest point, the surface there, or the direction away from it
+@option volume_weight? number [>= 0] = 1000  weight of the volume
+@option near? number [m, > 0] = 0.02  such contacts are near
+@option min_contacts? integer = 4  smallest number of contacts of a closed grasp that counts
 @return energy
 > clench.energy.guided_autograsp_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"strict_autograsp", guarded<strict_autograsp>, R"(
 autograsp_quality after an approach of 30 mm that ends at a touch; where the base touches nothing then, the hand stays
 where it was. 1e8 where the grasp is worth nothing.
-@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|string}
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option volume_weight? number [>= 0] = 30  weight of the volume
+@option epsilon_weight? number [>= 0] = 100  weight of epsilon
+@option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its centre of mass
+@option task_weight? number [>= 0]  weight of the tasks, 1 by default
+@option edges? integer|string  of the friction pyramids, as of clench.grasp
 @return energy
 > clench.energy.strict_autograsp {hand = hand, object = flask}() < 0  --> true)"},
     {"compliant", guarded<compliant>, R"(
 For hands with springs: comes to the first touch along the approach direction, closes, and asks for the balance of
 contacts and joints at full effort: -200 + the unbalanced force [N]; 1 where a finger moves on, fewer than two touch, or epsilon is below
 min_epsilon.
-@param options {hand: robot, object: body, approach?: number, min_epsilon?: number}  0.2 [m], 0.05
+@param options table  the hand, the object and how they are rated
+@option hand robot  hand that grasps
+@option object body  object that is grasped
+@option approach? number [m, > 0] = 0.2  longest travel to the first touch
+@option min_epsilon? number = 0.05  smallest epsilon
 @return energy
 > clench.energy.compliant {hand = hand, object = flask}() <= 1  --> true)"},
     {"dynamic", guarded<dynamic>, R"(
@@ -336,14 +380,21 @@ one thread, and takes some tenths of a second where the hand holds something.
 > clench.energy.dynamic {hand = hand, object = flask, shake = {secs = 1}}()  --> error: unknown key 'secs')"},
     {"approach_cone", guarded<approach_cone>, R"(
 How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
-@param options {hand: robot, axis: vec3, angle?: number}  axis: in the world; angle: 0 [rad]
+@param options table  the hand and the cone
+@option hand robot  hand that approaches
+@option axis vec3  axis of the cone, in the world
+@option angle? number [rad] = 0  half of the angle of the cone
 @return energy
 > d = hand.approach.direction
 > clench.energy.approach_cone {hand = hand, axis = d}() < 1e-9  --> true
 > clench.energy.approach_cone {hand = hand, axis = -d, angle = 1}() - (math.pi - 1) < 1e-9  --> true)"},
     {"keep_out", guarded<keep_out>, R"(
 How deep the hand reaches into a box of space, by the boxes around its bodies [mm].
-@param options {hand: robot, low: vec3, high: vec3, pose?: pose}  corners along the axes of the pose [m]
+@param options table  the hand and the box
+@option hand robot  hand that stays out
+@option low vec3 [m]  lowest corner, along the axes of the pose
+@option high vec3 [m]  highest corner
+@option pose? pose  of the box, that of the world by default
 @return energy
 > clench.energy.keep_out {hand = hand, low = {9, 9, 9}, high = {10, 10, 10}}()  --> 0.0)"},
     {"clearance", guarded<clearance>, R"(

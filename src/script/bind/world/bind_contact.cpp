@@ -173,7 +173,10 @@ whose neighbourhoods overlap have one patch. A corner or an edge is logged as a 
 static const Entry contact_methods[] = {
     {"fit_patch", guarded<fit_patch>, R"(
 The patch of a soft contact by options of one's own; nil of others.
-@param options? {radius?: number, max_radius?: number, fit?: string}  radius: how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit [m]; max_radius: stands for a relative radius that is none, 0.02 [m]; fit: "quadric", our own, or "jet", CGAL's
+@param options? table  where and how the surface is fitted
+@option radius? number [m, > 0]  how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit
+@option max_radius? number [m, > 0] = 0.02  stands for a relative radius that is none
+@option fit? "quadric"|"jet" = "quadric"  quadric: our own; jet: CGAL's
 @return patch?
 > flask.elastic_modulus = 1.5e6
 > world:contacts(hand, flask)[1]:fit_patch{radius = 0.002}.radius  --> 0.002

@@ -285,7 +285,8 @@ their DOFs.
     {"move_dofs", guarded<move_dofs>, R"(
 Drives all DOFs in proportion towards values, until contact stops them.
 @param values number[]|table<string, number>  as of set_dofs
-@param options? {stop_at_contact?: boolean}  true: end at the first new contact of any link
+@param options? table  how it moves
+@option stop_at_contact? boolean = false  true: end at the first new contact of any link
 @return table result  as of autograsp
 > hand:move_dofs(hand.dofs).moved  --> false)"},
     {"autograsp", guarded<autograsp>, R"(
@@ -293,7 +294,12 @@ Closes the hand: each DOF goes to its limit in the sense of its default velocity
 fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts
 and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
 opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
-@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (integer|string)[], stages?: (integer|string)[][], dynamic?: boolean}  dofs: only these, by number or name; stages: lists of them, one after the other
+@param options? table  how it closes
+@option speed? number [> 0] = 1  of all closing speeds, 1: those of the hand
+@option stop_at_contact? boolean = false  true: end at the first new contact of any link
+@option dofs? (integer|string)[]  only these, by number or name
+@option stages? (integer|string)[][]  lists of DOFs that close one after the other
+@option dynamic? boolean = false  true: by the motors, in simulated time
 @return table result  `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 > hand:autograsp().moved  --> false
 > hand:open()

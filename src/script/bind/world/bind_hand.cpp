@@ -410,7 +410,10 @@ Takes one out of its list.
     {"find_virtual_contacts", guarded<find_sites>, R"(
 Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and
 speed along its normal, and one on the palm. Sets nothing.
-@param options? {count_per_link?: integer, palm?: boolean, object_material?: string}  object_material: material to be grasped, "wood" by default
+@param options? table  where they are, and of what is grasped
+@option count_per_link? integer [1 to 100] = 1  number of contacts per link, along its length
+@option palm? boolean = true  true: one on the palm, too
+@option object_material? string = "wood"  material to be grasped
 @return virtual_contact[]
 > #hand:find_virtual_contacts()  --> 13
 > #hand:find_virtual_contacts{count_per_link = 2, palm = false}  --> 24)"},

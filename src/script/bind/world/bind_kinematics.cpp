@@ -72,7 +72,15 @@ Inverse kinematics: values of its DOFs within their limits that bring a link to 
 found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param pose pose  where it is to be, in the world
-@param options? {frame?: pose, orientation?: string, dofs?: (integer|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean}  frame: what of the link is to be there, in its own frame; orientation: "full" (default), "axis" (only where +z points), "none"; dofs: that may move; starts: 20 at most, the first from where it is, the others at random; tolerance 1e-6 [m], angle_tolerance 1e-6 [rad]; collision_free: nothing that it moves may collide
+@param options? table  what is reached, and how it is searched for
+@option frame? pose  what of the link is to be there, in its own frame
+@option orientation? "full"|"axis"|"none" = "full"  axis: only the direction of +z is matched
+@option dofs? (integer|string)[]  that may move, all by default
+@option starts? integer [1 to 1000000] = 20  largest number of starts, the first from where it is, the others at random
+@option seed? integer = 0  seed of the random numbers
+@option tolerance? number [m, > 0] = 1e-6  of the position
+@option angle_tolerance? number [rad, > 0] = 1e-6  of the orientation
+@option collision_free? boolean = false  true: nothing that it moves may collide
 @return table result  `reached`, `dofs`, `distance` [m] and `angle` [rad] from the pose, `starts`, `iterations`, `in_collision` (starts that reached it, but collided)
 > target = hand:link("chain0_link2").pose.position + clench.vec3(0, 0, 0.01)
 > result = hand:ik("chain0_link2", {xyz = target}, {orientation = "none"})

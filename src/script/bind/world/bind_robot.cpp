@@ -259,7 +259,8 @@ Moves the whole robot until it first touches something, as a body's move_to.
 > hand:move_to(hand.pose).fraction  --> 1.0)"},
     {"approach_object", guarded<approach_object>, R"(
 Moves the hand along its approach direction until it touches something.
-@param options? {reach?: number}  at most this far, 1 by default [m]
+@param options? table  how far
+@option reach? number [m, > 0] = 1  longest travel
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"place_approach", guarded<place_approach>, R"(
