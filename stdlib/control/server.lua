@@ -75,13 +75,18 @@ local function serve_one(self, client)
   return line ~= nil
 end
 
+local max_turn = 0.002  -- for which clients are served before others run, jobs and timers for instance [s]
+
 -- Serves clients in the order in which they connected, a line of each in turn, until no lines are left.
 local function serve(self)
-  local some
+  local began, some = loop.time(), nil
   repeat
     some = false
     for _, client in ipairs {table.unpack(self.clients)} do some = serve_one(self, client) or some end
-    if some then coroutine.yield() end
+    if some and loop.time() - began > max_turn then
+      coroutine.yield()
+      began = loop.time()
+    end
   until not some
   self.is_serving = false
 end

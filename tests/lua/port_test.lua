@@ -214,3 +214,25 @@ test("arguments of ports are checked", function(t)
   b:close()
   loop.run()
 end)
+
+test("methods of ports and listeners answer junk with sentences", function(t)
+  local a = port.pair()
+  local listener = port.listen {}
+  a:close()
+  listener:close()
+  local junk = {{}, {5}, {-1}, {0 / 0}, {"x"}, {""}, {true}, {{}}, {print}, {a}, {nil, 5}, {5, -1}, {"x", "y"}, {5, math.huge}}
+  local faults = {}
+  for _, value in ipairs {a, listener} do
+    for name, method in pairs(debug.getmetatable(value).__index) do
+      if type(method) == "function" and name ~= "record" then
+        for _, arguments in ipairs(junk) do
+          local ok, problem = pcall(method, value, table.unpack(arguments, 1, 2))
+          local text = tostring(problem)
+          if not ok and (text:find "attempt to" or text:find "bad argument") then faults[#faults + 1] = name .. ": " .. text end
+        end
+      end
+    end
+  end
+  t.equal(table.concat(faults, "\n"), "")
+  t.fails(function() a:record(5) end, "port:record: path: expected a string, got 5")
+end)
