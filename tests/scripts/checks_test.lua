@@ -49,5 +49,12 @@ fails_with("lua5.4 scripts/check_packages.lua tests/data/packages/bad", {
   "packages: 6 faults",
 })
 
+fails_with("lua5.4 scripts/check_words.lua tests/data/words/bad", {
+  "tests/data/words/bad/a.lua:1: 'centre': write 'center'",
+  "tests/data/words/bad/a.lua:1: 'neighbour': write 'neighbor'",
+  "tests/data/words/bad/a.lua:3: 'Wanted 3 numbers, got': write 'expected ..., got'",
+  "words: 3 faults",
+})
+
 local text, code = run "lua5.4 scripts/check_layers.lua tests/data/layers/none 2>&1"
 assert(code == 1 and text:find("no such file: tests/data/layers/none/docs/architecture.md", 1, true), text)
