@@ -12,7 +12,7 @@ print(("%s has %d DOFs; %s weighs %.3f kg"):format(hand.name, #hand.dofs, flask.
 hand:autograsp()
 assert(#world:colliding() == 0, "closing stops at the surface, never inside")
 
--- where the hand touches: the normal points into the flask, in metres and unit length
+-- where the hand touches: the normal points into the flask, in meters and unit length
 local contacts = world:contacts(hand, flask)
 print(("%d contacts"):format(#contacts))
 for _, c in ipairs(contacts) do

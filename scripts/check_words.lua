@@ -12,7 +12,7 @@ local words = {
   {"millimetre", "millimeter"}, {"micrometre", "micrometer"}, {"centimetre", "centimeter"}, {"kilometre", "kilometer"},
   {"behaviour", "behavior"}, {"normalis", "normaliz"}, {"optimis", "optimiz"}, {"minimis", "minimiz"}, {"maximis", "maximiz"},
   {"recognis", "recogniz"}, {"initialis", "initializ"}, {"%f[%a]grey", "gray"}, {"modelled", "modeled"}, {"modelling", "modeling"},
-  {"as long as that does it good", "while that reduces ..."}, {"gets on", "advances"}, {"a range that is none", "an empty range"},
+  {"as long as that does it good", "while that reduces ..."}, {"%f[%a]gets on%f[%A]", "advances"}, {"a range that is none", "an empty range"},
   {"is no time beside", "is below the resolution of"}, {"what a search makes small", "objective function"}, {"one a dof", "one per DOF"},
   {"%f[%a]wanted [%w ]+, got", "expected ..., got"},
 }

@@ -70,7 +70,7 @@ local function of_dofs(robot)
   return dofs
 end
 
--- a DOF moves in metres when its joints slide
+-- a DOF moves in meters when its joints slide
 local function units_of(robot)
   local units = {}
   for _, chain in ipairs(robot.chains) do
@@ -296,7 +296,7 @@ local readers = {
 }
 
 --- One file, parsed: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
---- `parsed` is a table of what its kind holds, all in metres, kilograms and radians; without it `error` says why.
+--- `parsed` is a table of what its kind holds, all in meters, kilograms and radians; without it `error` says why.
 --- With `strict` so does the first sentence of what was repaired, not used or suspicious.
 ---@param path string  file to check
 ---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used

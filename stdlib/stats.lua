@@ -27,7 +27,7 @@ local function sorted_copy(values)
   return sorted
 end
 
--- of a sorted list, linear between neighbours
+-- of a sorted list, linear between neighbors
 local function quantile_of(sorted, part)
   local at = 1 + part * (#sorted - 1)
   local low = math.floor(at)
@@ -69,7 +69,7 @@ function stats.std(values)
   return std_of(values)
 end
 
---- The number below which a part of all lie, linear between neighbours.
+--- The number below which a part of all lie, linear between neighbors.
 ---@param values number[]  at least one
 ---@param part number  0 the least, 0.5 the median, 1 the largest
 ---@return number
@@ -158,9 +158,9 @@ function stats.interval(successes, trials)
   end
   local z = 1.959963984540054
   local p, n = successes / trials, trials
-  local centre = (p + z * z / (2 * n)) / (1 + z * z / n)
+  local center = (p + z * z / (2 * n)) / (1 + z * z / n)
   local half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-  return {low = math.max(0, centre - half), high = math.min(1, centre + half)}
+  return {low = math.max(0, center - half), high = math.min(1, center + half)}
 end
 
 return require "clench.sealed"("clench.stats", stats)

@@ -1,4 +1,4 @@
---- Warns, once each, of numbers that are more likely degrees or millimetres, as the engine does of poses.
+--- Warns, once each, of numbers that are more likely degrees or millimeters, as the engine does of poses.
 local script_line = require "clench.script_line"
 local suspect = {}
 
@@ -18,10 +18,10 @@ function suspect.degrees(subject, name, angle)
 end
 
 -- length [m]; size: of the object that it belongs to, 10 m by default [m]
-function suspect.millimetres(subject, name, length, size)
+function suspect.millimeters(subject, name, length, size)
   if length <= math.min(size or max_distance, max_distance) then return end
   local why = size and size <= max_distance and (", more than the object's size of %.3g m"):format(size) or ""
-  warn_once("millimetres", "%s: %s is %.6g m%s: metres? clench.mm(%.6g) is %.4g", subject, name, length, why, length, length / 1000)
+  warn_once("millimeters", "%s: %s is %.6g m%s: meters? clench.mm(%.6g) is %.4g", subject, name, length, why, length, length / 1000)
 end
 
 return suspect

@@ -103,7 +103,7 @@ function world:body(name) end
 ---@return robot
 function world:robot(name) end
 
----Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options give overrides the file.
+---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. What the options give overrides the file.
 ---@param body string|mesh|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
 ---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, free_damping?: number, free_friction?: number, free_armature?: number, gravity_compensation?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number} # density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
 ---@return body
@@ -161,12 +161,12 @@ local snapshot = {}
 ---@field material_from "assumed"|"file"|"script" # Where the material comes from: its file, a script or option, or nowhere: then it is assumed.
 ---@field mass_from "assumed"|"file"|"script" # Where the mass comes from, likewise.
 ---@field mass number # Its mass. [kg]
----@field com vec3 # Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was given stays. [m]
----@field inertia number[][] # Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
+---@field com vec3 # Center of mass in the body frame. Setting it takes an inertia that comes from its shape to the new center; one that was given stays. [m]
+---@field inertia number[][] # Inertia about the center of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
 ---@field fingerprint string # Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses. 16 hexadecimal digits
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field visual_mesh mesh? # The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
----@field triangle_colors number[][]? # Colours of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil where the body has one colour.
+---@field triangle_colors number[][]? # Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil where the body has one color.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
 ---@field free_damping number # Viscous resistance of an object that moves freely, or of the base of a robot that floats: a force on the origin of its frame against that point's velocity, and a torque against its turning. [N s/m and N m s/rad]
@@ -177,7 +177,7 @@ local snapshot = {}
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
 ---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
 ---@field contacts contact[] # Contacts of other bodies with it now.
----@field color number[] # Colour in pictures: red, green and blue in 0..1.
+---@field color number[] # Color in pictures: red, green and blue in 0..1.
 ---@field transparency number # From 0, opaque, to 1, invisible.
 local entity = {}
 
@@ -208,7 +208,7 @@ function body:move_to(pose) end
 ---@field vertex_count integer # How many vertices it has.
 ---@field bounds {low: vec3, high: vec3} # Axis-aligned bounds in the body frame. [m]
 ---@field volume number # Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight. [m^3]
----@field centroid vec3 # Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight. [m]
+---@field centroid vec3 # Center of that volume: the center of mass of a uniform solid. Meaningful when it is watertight. [m]
 ---@field area number # Area of all its triangles. [m^2]
 ---@field faults string # Counts of its faults.
 ---@field fingerprint string # Equal for surfaces of the same triangles, whatever their order and the numbering of vertices. 16 hexadecimal digits
@@ -236,7 +236,7 @@ function mesh:contains(point) end
 ---@return {point: vec3, normal: vec3, triangle: integer}[] # [m]
 function mesh:sample(random, count) end
 
----Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
+---Writes the triangles, in meters. Numbers keep every digit, in .stl seven.
 ---@param path string # .obj .off .ply .stl
 function mesh:save(path) end
 
@@ -276,7 +276,7 @@ function hand:add_virtual_contact(contact) end
 ---@param number integer # number of the contact, from 1
 function hand:remove_virtual_contact(number) end
 
----Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
+---Places on its surface where it moves forward when the hand closes: the center of what each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
 ---@param options? {count_per_link?: integer, palm?: boolean, object_material?: string} # where they are, and of what is grasped
 ---@return virtual_contact[]
 function hand:find_virtual_contacts(options) end
@@ -311,7 +311,7 @@ function kinematics:random_posture(random) end
 ---@class dofs: kinematics
 ---@field dofs number[] # Values of its degrees of freedom; a list of its own, set as by set_dofs. [rad or m]
 ---@field named_dofs table<string, number> # The same values by the names of dof_names; a table of its own, set as by set_dofs. [rad or m]
----@field dof_limits number[][] # Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a metre on either side of where it is, only says how far it closes, and what searches try. [rad or m]
+---@field dof_limits number[][] # Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a meter on either side of where it is, only says how far it closes, and what searches try. [rad or m]
 ---@field dof_info table[] # What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, where known, kp, kd, damping_ratio, where there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless: true of one that no limit stops. can_close: its motor can push in the direction of default_velocity. effort_ranges says what the motors can exert.
 ---@field effort_ranges number[][] # Least and largest effort that the motor of each DOF can exert at rest where the DOF stands; math.huge where no limit is given, {0, 0} of a DOF that is not driven. Limits are max_effort of dof_info in both directions and, of MJCF files, gear, gain, bias, control range and force range of the actuators. Contact forces with torque_limits, verified grasps and the motors of world:run stay within them. [N m or N]
 ---@field max_effort number? # Largest effort, in both directions, of motors for which the file gives no limit; nil: unlimited. [N m or N]
@@ -453,7 +453,7 @@ local virtual_contact = {}
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.
 ---@field kind string # "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
----@field patch patch? # The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies whose neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
+---@field patch patch? # The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies whose neighborhoods overlap have one patch. A corner or an edge is logged as a warning.
 local contact = {}
 
 ---The patch of a soft contact by options of one's own; nil of others.
@@ -465,7 +465,7 @@ function contact:fit_patch(options) end
 ---@class forces
 local forces = {}
 
----Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force as all can be; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
+---Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's center of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force as all can be; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever gives way. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
 ---@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string} # max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: true, what each motor can exert, as in hand.effort_ranges; or a list of one per DOF, for both directions; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, under the world's gravity; balance "nearest": the least unbalanced wrench instead
 ---@return table result # `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:contact_forces(options) end
@@ -480,7 +480,7 @@ function forces:max_load(options) end
 ---@return table result # `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:equilibrium(options) end
 
----From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled. Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.
+---From contact forces to the wrench on the object: six rows, in the object's frame about its center of mass, unscaled. Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.
 ---@return number[][]
 function forces:grasp_map() end
 
@@ -501,7 +501,7 @@ function measures:quality(measure) end
 ---@return table<string, number>
 function measures:quality_all() end
 
----The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to at most one newton (norm "L1") or each at most one ("Linf"); of several wrenches the least multiple; of an ellipsoid the largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the centre of mass.
+---The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to at most one newton (norm "L1") or each at most one ("Linf"); of several wrenches the least multiple; of an ellipsoid the largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the center of mass.
 ---@param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: string} # one of the first three; {fx, fy, fz, tx, ty, tz} [N, N m]; ellipsoid: its half axes
 ---@return number
 function measures:resistance(options) end
@@ -513,14 +513,14 @@ function measures:resistance(options) end
 ---@field curvatures {body: number[], other: number[]} # Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other body, as a ball's, negative where it rises, as a socket's. [1/m]
 ---@field radii {body: number[], other: number[]} # The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat. [m]
 ---@field directions vec3[] # Of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
----@field point vec3 # The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighbourhoods overlap. [m]
+---@field point vec3 # The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighborhoods overlap. [m]
 ---@field points {body: vec3[], other: vec3[]} # What was fitted: points of both surfaces, in the world frame. [m]
 ---@field radius number # How far around the contact the surfaces were looked at. [m]
 ---@field residual number # How far the points lie from the fit, root of the mean square; of the worse surface. [m]
 ---@field at_edge boolean # Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that certainly touches.
 local patch = {}
 
----Where the bodies press on each other, after the bed-of-springs model (Winkler foundation): its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what certainly touches, where the gap is no wider than the indentation of flat surfaces; the indentation is the depth at which the springs under the actual gap add up to the force, within the neighbourhood. `exceeds_layer` says that it exceeds the thickness of the soft layers, where the model no longer holds.
+---Where the bodies press on each other, after the bed-of-springs model (Winkler foundation): its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what certainly touches, where the gap is no wider than the indentation of flat surfaces; the indentation is the depth at which the springs under the actual gap add up to the force, within the neighborhood. `exceeds_layer` says that it exceeds the thickness of the soft layers, where the model no longer holds.
 ---@param options? {force?: number, modulus?: string} # normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 ---@return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean} # [m], [m], [Pa], [m]
 function patch:ellipse(options) end
@@ -555,7 +555,7 @@ function patch:torsion_limit(options) end
 ---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
 ---@field links string[] # Names of what touches at each of the points.
 ---@field rho number # Length that torques are divided by. [m]
----@field com vec3 # The object's centre of mass when the grasp was measured, in the object: torques are about it. [m]
+---@field com vec3 # The object's center of mass when the grasp was measured, in the object: torques are about it. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
@@ -581,7 +581,7 @@ function grasp:save(path, options) end
 ---@return boolean
 function grasp:is_force_closure() end
 
----Its wrench space about the object's centre of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others; in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
+---Its wrench space about the object's center of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others; in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
 ---@param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
 ---@return wrench_space
 function grasp:wrench_space(options) end
@@ -779,12 +779,12 @@ function this_job:show(value) end
 ---@field values table # Values of its variables by name.
 ---@field energy number # Of the state that the chain is at; infinite where it begins in collision.
 ---@field first_energy number # Of the state that it began with.
----@field counts table # What became of its steps: `steps`, `accepted`, `improved`; and of neighbours that were none: `in_collision`, `avoided`, `outside` their ranges; `stuck`: how often all tries of a step failed.
+---@field counts table # What became of its steps: `steps`, `accepted`, `improved`; and of neighbors that were none: `in_collision`, `avoided`, `outside` their ranges; `stuck`: how often all tries of a step failed.
 local annealing = {}
 
----Takes steps, each to a legal neighbour that is accepted or not.
+---Takes steps, each to a legal neighbor that is accepted or not.
 ---@param steps integer # steps to take at most
----@return integer taken # fewer where 10,000 tries in a row found no legal neighbour
+---@return integer taken # fewer where 10,000 tries in a row found no legal neighbor
 function annealing:run(steps) end
 
 ---Goes around a state from now on: its like are illegal.
@@ -927,7 +927,7 @@ function world_dynamics:momentum() end
 ---@return {kinetic: number, potential: number} # [J]
 function world_dynamics:energy() end
 
----What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing presses are left out.
+---What presses on each of some bodies, after the last step: the sum of the forces and their center. Bodies on which nothing presses are left out.
 ---@param links body|body[] # link or links whose contacts are averaged
 ---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
 function world_dynamics:average_contacts(links) end
@@ -973,14 +973,14 @@ function world_control:pop() end
 
 ---How bodies and robots move: velocity, and what pushes them.
 ---@class motion: entity
----@field velocity {linear: vec3, angular: vec3} # Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest. [m/s], [rad/s]
+---@field velocity {linear: vec3, angular: vec3} # Of its center of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest. [m/s], [rad/s]
 ---@field surface_velocity vec3 # Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. Only the part along the surface counts. [m/s]
 ---@field welded_to body? # The body that it is welded to, or nil.
 local motion = {}
 
 ---Pushes it in the next step, and in that one alone; pushes add up. Neither an obstacle nor the base of a robot that does not float can be pushed.
 ---@param force vec3 # in world axes [N]
----@param point? vec3 # where, in the world; its centre of mass by default [m]
+---@param point? vec3 # where, in the world; its center of mass by default [m]
 function motion:apply_force(force, point) end
 
 ---Turns it in the next step, and in that one alone.
@@ -1039,7 +1039,7 @@ function robot_dynamics:set_target_velocities(velocities) end
 ---@return boolean
 function robot_dynamics:has_closed() end
 
----Closes robot hands on objects and judges the grasps. Lengths are metres, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
+---Closes robot hands on objects and judges the grasps. Lengths are meters, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
 ---@class clench
 ---@field version string # Version of the engine, major.minor.patch.
 ---@field this_job this_job? # The job whose function this is; nil outside of jobs.
@@ -1060,10 +1060,10 @@ function clench.rad(degrees) end
 ---@return number # [deg]
 function clench.deg(radians) end
 
----Millimetres to metres.
----@param millimetres number # length
+---Millimeters to meters.
+---@param millimeters number # length
 ---@return number # [m]
-function clench.mm(millimetres) end
+function clench.mm(millimeters) end
 
 ---Seconds of a clock that runs evenly from some moment: how long something took.
 ---@return number # [s]
@@ -1129,7 +1129,7 @@ function clench.load(path, options) end
 ---The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
 ---@param hand robot # hand that holds the object
 ---@param object body # object that is held
----@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
+---@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string} # edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its center of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 ---@return grasp
 function clench.grasp(hand, object, options) end
 
@@ -1164,7 +1164,7 @@ function clench.camera(worlds, options) end
 ---@return plot # to be saved as PNG or SVG
 function clench.chart(options) end
 
----Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colours can be told apart by colour-blind people. It needs no graphics hardware.
+---Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colors can be told apart by color-blind people. It needs no graphics hardware.
 ---@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer} # kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 ---@return plot
 function clench.plot(options) end
@@ -1195,7 +1195,7 @@ function clench.annealing(options) end
 ---@param searches annealing[] # searches to advance
 ---@param steps integer[] # one per chain
 ---@param threads? integer # 1 by default
----@return integer[] taken # fewer than asked where no legal neighbour was found
+---@return integer[] taken # fewer than asked where no legal neighbor was found
 function clench.run_annealings(searches, steps, threads) end
 
 ---Runs a function beside the script: in a thread, in a state of Lua of its own, on copies of what it is given. As many jobs run at once as there are cores, at least two; others are queued. A job whose handle is not kept runs on; the end of the program stops it.
@@ -1356,13 +1356,13 @@ function clench.files.save_arrays(path, arrays) end
 ---@return table<string, number[]|number[][]|string[]>
 function clench.files.arrays(path, options) end
 
----Writes pictures of one size as an animated GIF of up to 256 colours that plays again and again.
+---Writes pictures of one size as an animated GIF of up to 256 colors that plays again and again.
 ---@param path string # file to write
 ---@param pictures picture[] # frames in order, all of one size
 ---@param options? {rate?: number, delays?: number[]} # rate: pictures a second, 10 by default [Hz]; delays: of each picture [0.01 s]
 function clench.files.save_gif(path, pictures, options) end
 
----What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among them. Distances count in millimetres, so that the numbers are those of GraspIt!.
+---What searches make small. Each function makes an energy of a hand and an object: called, `e()`, it gives its number for how they stand now. Energies are added and weighted, `a + 0.3 * b`, functions of a script among them. Distances count in millimeters, so that the numbers are those of GraspIt!.
 ---@class clench.energy
 clench.energy = {}
 

@@ -4,7 +4,7 @@ local shapes = require "clench.shapes"
 local build = require "models.build"
 local robot = require "models.robot"
 
-local white, grey, dark, steel = {0.86, 0.86, 0.84}, {0.50, 0.52, 0.54}, {0.18, 0.19, 0.20}, {0.68, 0.70, 0.72}
+local white, gray, dark, steel = {0.86, 0.86, 0.84}, {0.50, 0.52, 0.54}, {0.18, 0.19, 0.20}, {0.68, 0.70, 0.72}
 local blue = {0.36, 0.58, 0.76}
 
 local function bar(radius, from, to, chamfer, segments)
@@ -31,7 +31,7 @@ local function arm(r)
   return out
 end
 
--- published centres of gravity, moments [kg m^2] and masses [kg] of links, in the frames of the table
+-- published centers of gravity, moments [kg m^2] and masses [kg] of links, in the frames of the table
 local function rigid(mass, cog, moments, parts)
   local inertia = {}
   for k = 1, 3 do inertia[k] = moments[k] / mass * 1e6 end
@@ -98,7 +98,7 @@ local function puma()
   }
 end
 
---- a round housing from a to b with a coloured cap beyond b
+--- a round housing from a to b with a colored cap beyond b
 local function housing(list, radius, from, to, cap)
   local d = {}
   for k = 1, 3 do d[k] = to[k] > from[k] and 1 or to[k] < from[k] and -1 or 0 end
@@ -109,7 +109,7 @@ end
 
 local function collaborative()
   local base, shoulder, upper, forearm, wrist1, wrist2, flange = {}, {}, {}, {}, {}, {}, {}
-  base[1] = {bar(74.5, {0, 0, 0}, {0, 0, 16}, 3), color = grey}
+  base[1] = {bar(74.5, {0, 0, 0}, {0, 0, 16}, 3), color = gray}
   base[2] = {bar(62, {0, 0, 16}, {0, 0, 38}, 4), color = steel}
   -- y is up, z along the shoulder's axis
   housing(shoulder, 60, {0, -50, 0}, {0, 52, 0}, true)
@@ -127,7 +127,7 @@ local function collaborative()
   housing(wrist2, 37, {0, 47, 0}, {0, -38, 0}, true)
   housing(wrist2, 36, {0, 0, 15}, {0, 0, 41}, false)
   flange[1] = {bar(36, {0, 0, -40}, {0, 0, -8}, 2, 28), color = steel}
-  flange[2] = {bar(31.5, {0, 0, -9}, {0, 0, 0}, 1, 28), color = grey}
+  flange[2] = {bar(31.5, {0, 0, -9}, {0, 0, 0}, 1, 28), color = gray}
   return arm {
     name = "ur5", class = "Robot", about = "a collaborative arm after the UR5", base = "t 0 0 0",
     efforts = {150, 150, 150, 28, 28, 28},

@@ -5,7 +5,7 @@ local build = require "models.build"
 local eigengrasps = require "models.eigengrasps"
 local sites = require "models.sites"
 
-local black, grey, metal, rubber = {0.13, 0.14, 0.15}, {0.34, 0.36, 0.38}, {0.74, 0.76, 0.78}, {0.2, 0.2, 0.21}
+local black, gray, metal, rubber = {0.13, 0.14, 0.15}, {0.34, 0.36, 0.38}, {0.74, 0.76, 0.78}, {0.2, 0.2, 0.21}
 
 --- between the knuckle of a finger (x = -70) and its distal joint (x = 0)
 local function inner_link()
@@ -21,8 +21,8 @@ local function inner_link()
                             {x = -16, y = -9.6, h = 3.4, w = 9, r = 1.2}}
   local cheeks = build.fork(build.belt({-12, -0.8}, 7.4, {0, 0}, 8.6), 6.4, 9)
   return {
-    {build.drum(-70, 0, 10.6, -7.4, 7.4), color = grey}, {neck, color = metal}, {body, color = metal},
-    {gear, color = black}, {cheeks, color = metal}, {build.drum(0, 0, 4.2, -9.8, 9.8, 20), color = grey},
+    {build.drum(-70, 0, 10.6, -7.4, 7.4), color = gray}, {neck, color = metal}, {body, color = metal},
+    {gear, color = black}, {cheeks, color = metal}, {build.drum(0, 0, 4.2, -9.8, 9.8, 20), color = gray},
   }
 end
 
@@ -40,7 +40,7 @@ local function outer_link()
     {x = -6, y = 4.3, h = 3.8, w = 9, r = 1.5, lean = -9}, {x = -1.6, y = 3.9, h = 2.4, w = 6.6, r = 1, lean = -14},
   }
   return {
-    {build.drum(-55, 0, 8, -6, 6), color = grey},
+    {build.drum(-55, 0, 8, -6, 6), color = gray},
     {build.plate({{-56, -6}, {-44, -7}, {-44, 6}, {-56, 6}}, -5.6, 5.6), color = metal},
     {claw, color = metal}, {pad, color = rubber},
   }
@@ -53,7 +53,7 @@ local function spread_link()
   return {
     {shapes.move(shapes.turn(carrier, {1, 0, 0}, -math.pi / 2), {0, -42, 0}), color = metal},
     {build.fork(build.belt({0, 0}, 11.4, {0, -26}, 11.4), 7.8, 11.8, 1.2), color = metal},
-    {build.drum(0, 0, 5.4, -12.6, 12.6, 20), color = grey},
+    {build.drum(0, 0, 5.4, -12.6, 12.6, 20), color = gray},
   }
 end
 
@@ -71,8 +71,8 @@ local function palm()
   local column = shapes.cylinder {17, from = {0, -26, -46}, to = {0, -26, -6}, segments = 32}
   return {
     {shapes.move(plate, {0, 0, -13.2}), color = metal}, {shapes.move(pad, {0, 0, -6}), color = black},
-    {cheeks, color = metal}, {web, color = grey}, {axle, color = grey}, {housing, color = black},
-    {band, color = grey}, {column, color = grey},
+    {cheeks, color = metal}, {web, color = gray}, {axle, color = gray}, {housing, color = black},
+    {band, color = gray}, {column, color = gray},
   }
 end
 

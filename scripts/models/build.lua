@@ -3,7 +3,7 @@
 local shapes = require "clench.shapes"
 local build = {}
 
---- A slender body along x through rounded rectangles {x, y = centre, h = height in y, w = width in z,
+--- A slender body along x through rounded rectangles {x, y = center, h = height in y, w = width in z,
 --- r = rounding, lean = turn of the section about z [degrees]}; `nose` is an apex {x, y} that closes the far end.
 function build.spine(sections, nose)
   local rings = {}
@@ -21,7 +21,7 @@ function build.spine(sections, nose)
   return shapes.loft(rings)
 end
 
---- A number between control sections: a cubic through their values with slopes from their neighbours.
+--- A number between control sections: a cubic through their values with slopes from their neighbors.
 --- source  Catmull & Rom (1974), over uneven steps
 local function between(sections, name, default, i, t)
   local function value(k) return sections[k][name] or default end
@@ -48,7 +48,7 @@ local function superellipse(s, sides, scale, ahead)
   return ring
 end
 
---- A smooth body along x through superellipses {x, y, z = centre, h = height in y, w = width in z, n = power,
+--- A smooth body along x through superellipses {x, y, z = center, h = height in y, w = width in z, n = power,
 --- lean = turn about z [degrees], slope = dx/dz of the section}, with ends rounded off over the lengths `first`
 --- and `last`, or flat.
 ---@param sections table[]
@@ -106,7 +106,7 @@ end
 ---@param o {length: number, drum: number, grip: number, wide: number[], high: number[], axle?: number, inner?: number,
 ---  pad?: number[], shell: number[], steel: number[], rubber: number[]}
 ---  drum: radius at its joint; grip: half its length; wide, high: sizes of the body at both ends; axle: radius of the
----  next joint's cheeks, none at a fingertip; inner: half their gap; pad: from, to, thickness; then three colours
+---  next joint's cheeks, none at a fingertip; inner: half their gap; pad: from, to, thickness; then three colors
 ---@return table[] parts
 function build.segment(o)
   local l, w, h = o.length, o.wide, o.high
@@ -138,17 +138,17 @@ function build.segment(o)
   return parts
 end
 
---- The outline of a belt around two circles in the plane: centres {x, y}, radii r.
+--- The outline of a belt around two circles in the plane: centers {x, y}, radii r.
 function build.belt(a, ra, b, rb, steps)
   local dx, dy = b[1] - a[1], b[2] - a[2]
   local length = math.sqrt(dx * dx + dy * dy)
   local heading, tilt = math.atan(dy, dx), math.asin((ra - rb) / length)
   steps = steps or 8
   local points = {}
-  local function arc(centre, radius, first, last)
+  local function arc(center, radius, first, last)
     for k = 0, steps do
       local angle = first + (last - first) * k / steps
-      points[#points + 1] = {centre[1] + radius * math.cos(angle), centre[2] + radius * math.sin(angle)}
+      points[#points + 1] = {center[1] + radius * math.cos(angle), center[2] + radius * math.sin(angle)}
     end
   end
   local quarter = math.pi / 2

@@ -45,7 +45,7 @@ local function middle()
   }
 end
 
---- from the distal joint (x = -31) to the centre of the fingertip (x = 0)
+--- from the distal joint (x = -31) to the center of the fingertip (x = 0)
 local function distal()
   local neck = build.plate({{-32, -5.6}, {-20, -6.2}, {-20, 5.6}, {-32, 5.6}}, -5.4, 5.4)
   local sleeve = build.spine {

@@ -29,7 +29,7 @@ end
 
 --- @param e {origin: number[], [integer]: {value: number, [integer]: number}}  origin in degrees or mm, of each DOF;
 ---   directions of any length; value: share of the variance, or 1
---- @param slides? boolean[]  DOFs that slide: they count in metres in the file
+--- @param slides? boolean[]  DOFs that slide: they count in meters in the file
 return function(e, slides)
   local origin = {}
   for i, x in ipairs(e.origin) do origin[i] = slides and slides[i] and x * 1e-3 or math.rad(x) end

@@ -8,7 +8,7 @@ local eigengrasps = require "models.eigengrasps"
 local sites = require "models.sites"
 
 local white, black, steel = {0.86, 0.87, 0.88}, {0.15, 0.155, 0.16}, {0.64, 0.66, 0.68}
-local grey, rubber, orange = {0.36, 0.37, 0.39}, {0.22, 0.22, 0.23}, {0.80, 0.42, 0.12}
+local gray, rubber, orange = {0.36, 0.37, 0.39}, {0.22, 0.22, 0.23}, {0.80, 0.42, 0.12}
 
 local function body(folder, name, about, mass, material, parts, youngs)
   return {"models/hands/" .. folder .. "/iv/" .. name .. ".iv", about = about, material = material, mass = mass,
@@ -38,10 +38,10 @@ local function parallel_jaw()
   local palm = body("parallel_jaw", "housing", "housing of a parallel jaw", 600, "plastic", {
     flange(31.5, -8, 5, steel), {housing, color = white},
     {slab(shapes.outline {{-88, 60, 2}, {88, 60, 2}, {88, 66.6, 1}, {-88, 66.6, 1}, segments = 1}, -11, 11, 0.6),
-     color = grey},
+     color = gray},
     {slab({{-34, 20}, {34, 20}, {34, 40}, {-34, 40}}, -31.6, 31.6, 0.4), color = orange},
   })
-  -- a jaw: x along the finger, y towards the other jaw; closed, the pads are a tenth of a millimetre apart
+  -- a jaw: x along the finger, y towards the other jaw; closed, the pads are a tenth of a millimeter apart
   local jaw = body("parallel_jaw", "jaw", "jaw with a pad", 65, "rubber", {
     {build.plate({{-56.6, -24}, {-42, -24}, {-42, -2}, {-56.6, -2}}, -10, 10, 1), color = steel},
     {build.spine {{x = -43, y = -12, h = 19, w = 19, r = 2}, {x = -30, y = -10, h = 14, w = 19, r = 2},
@@ -84,7 +84,7 @@ local function adaptive()
   local crank, open, height, reach = 57.1, 48.8, 54.9, 51.2  -- [mm], [degrees]
   local across = 30.6
   local block = slab(shapes.outline {{-38, 10, 6}, {38, 10, 6}, {38, 58}, {24, 75}, {-24, 75}, {-38, 58}, segments = 3}, -14, 14, 2)
-  local parts = {flange(37.5, 0, 12, grey), {block, color = black},
+  local parts = {flange(37.5, 0, 12, gray), {block, color = black},
                  {slab({{-18, 70}, {18, 70}, {18, 76}, {-18, 76}}, -11, 11, 1), color = rubber}}
   for _, side in ipairs {1, -1} do
     parts[#parts + 1] = {shapes.cylinder {5, from = {side * across, -17, height}, to = {side * across, 17, height}, chamfer = 0.8, segments = 16},
@@ -93,10 +93,10 @@ local function adaptive()
   local palm = body("adaptive_gripper", "palm", "housing of a gripper with two fingers", 700, "plastic", parts)
   -- from its joint at x = -crank to the fingertip's at x = 0
   local swing = body("adaptive_gripper", "crank", "crank of a finger", 40, "metal", {
-    {build.fork(build.belt({-crank, 0}, 8, {0, 0}, 7, 5), 14.6, 18, 0.6), color = grey},
+    {build.fork(build.belt({-crank, 0}, 8, {0, 0}, 7, 5), 14.6, 18, 0.6), color = gray},
     {build.drum(0, 0, 4, -18.5, 18.5, 16), color = steel}, {build.drum(-crank, 0, 4, -18.5, 18.5, 16), color = steel},
   })
-  -- x along the finger, y towards the other one; closed, the pads are a quarter of a millimetre apart
+  -- x along the finger, y towards the other one; closed, the pads are a quarter of a millimeter apart
   local tip = body("adaptive_gripper", "fingertip", "fingertip with a pad", 45, "rubber", {
     {build.drum(-reach, 0, 7, -13.5, 13.5, 24), color = steel},
     {build.plate(shapes.outline {{-58, -6, 2}, {-46, -7.5, 2}, {-3, 8, 2}, {0, 12, 2}, {0, 19.6, 1}, {-37.5, 19.6, 1}, {-58, 6, 2}, segments = 2},
@@ -198,7 +198,7 @@ local function three_finger_palm()
     {build.plate(shapes.outline {{-46, -40, 12}, {46, -40, 12}, {46, 30, 12}, {-46, 30, 12}, segments = 2}, -14, -6,
                  2), color = rubber},
     {build.plate(shapes.outline {{-63, -20, 3}, {63, -20, 3}, {63, 30, 3}, {-63, 30, 3}, segments = 1}, -56, -40, 2),
-     color = grey},
+     color = gray},
   }
   for _, x in ipairs {-base_x, base_x} do
     parts[#parts + 1] = {shapes.cylinder {15, from = {x, base_y, -16}, to = {x, base_y, -11}, chamfer = 0.8,
@@ -217,7 +217,7 @@ local function three_finger()
 
   -- turns about y at x = 0 and carries the knuckle in the frame's origin
   local turntable = body("three_finger", "turntable", "turning base of a finger", 50, "metal", {
-    {shapes.cylinder {13.4, from = {0, -11.5, 0}, to = {0, -7, 0}, chamfer = 0.8, segments = 24}, color = grey},
+    {shapes.cylinder {13.4, from = {0, -11.5, 0}, to = {0, -7, 0}, chamfer = 0.8, segments = 24}, color = gray},
     {build.fork(build.belt({0, -5}, 10, {0, 0}, 9, 5), 9, 13, 0.8), color = black},
     {build.drum(0, 0, 4.5, -14, 14, 16), color = steel},
   })

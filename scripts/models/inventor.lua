@@ -1,5 +1,5 @@
 -- scripts/models/inventor.lua
---- A body as Inventor text: coloured parts [mm], material, mass [g], centre of gravity [mm] and inertia [mm^2].
+--- A body as Inventor text: colored parts [mm], material, mass [g], center of gravity [mm] and inertia [mm^2].
 local shapes = require "clench.shapes"
 local inventor = {}
 
@@ -38,7 +38,7 @@ local function row(numbers)
   return table.concat(words, " ")
 end
 
---- one part: its colour and its surface
+--- one part: its color and its surface
 local function part_text(mesh, part)
   local out = {"  Separator {", ("    Material { diffuseColor %s%s }"):format(row(part.color),
                part.transparency and " transparency " .. number(part.transparency) or "")}
@@ -56,7 +56,7 @@ end
 
 ---@param body {about: string, material: string, youngs?: number, mass?: number, density?: number, cog?: number[], inertia?: number[],
 ---  parts: table[]}
----  parts: {mesh, color = {r, g, b}, transparency?}; youngs: of an elastic body [Pa]; mass [g] or density [g/mm^3]; published centre of gravity [mm] and
+---  parts: {mesh, color = {r, g, b}, transparency?}; youngs: of an elastic body [Pa]; mass [g] or density [g/mm^3]; published center of gravity [mm] and
 ---  principal moments about it, divided by the mass [mm^2], instead of those of the solid
 ---@param subject string  for messages
 ---@return string text, integer triangles

@@ -24,10 +24,10 @@ local function mug()
     {0, 3}, {27, 3, 1}, {29, 0, 0.8}, {33.5, 0, 1}, {41, 6, 4}, {41, 95, 2}, {36.4, 95, 2}, {36.4, 8, 7}, {0, 8},
   }, 56)
   -- the handle: a flattened loop that starts and ends inside the wall
-  local path, centre = {{38.6, 0, 76}, {44, 0, 76.4}}, {47, 50}
+  local path, center = {{38.6, 0, 76}, {44, 0, 76.4}}, {47, 50}
   for k = 0, 12 do
     local angle = math.rad(82 - 164 * k / 12)
-    path[#path + 1] = {centre[1] + 24 * math.cos(angle), 0, centre[2] + 26.6 * math.sin(angle)}
+    path[#path + 1] = {center[1] + 24 * math.cos(angle), 0, center[2] + 26.6 * math.sin(angle)}
   end
   path[#path + 1] = {44, 0, 23.6}
   path[#path + 1] = {38.6, 0, 24}

@@ -5,8 +5,8 @@ local shapes = require "clench.shapes"
 -- densities [g/mm^3]
 local board, particle_board, concrete = 0.28e-3, 0.65e-3, 2.4e-3
 
-local function block(x, y, z, centre, rounding)
-  return shapes.move(shapes.box {x, y, z, rounding = rounding or 2, segments = 2}, centre)
+local function block(x, y, z, center, rounding)
+  return shapes.move(shapes.box {x, y, z, rounding = rounding or 2, segments = 2}, center)
 end
 
 local function low_table()

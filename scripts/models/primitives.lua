@@ -14,7 +14,7 @@ local kinds = {
 }
 
 --- @param about string
---- @param list table[]  {kind, sizes..., at = centre, turn? = axis and angle}; cylinders and cones stand along z unless
+--- @param list table[]  {kind, sizes..., at = center, turn? = axis and angle}; cylinders and cones stand along z unless
 ---   turned, cubes have x, y, z
 local function file(about, list)
   local out = {"#Inventor V2.1 ascii", "# " .. about .. "; made by scripts/make_models.lua [mm]", "Separator {"}

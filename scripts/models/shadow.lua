@@ -7,7 +7,7 @@ local robot = require "models.robot"
 local eigengrasps = require "models.eigengrasps"
 local sites = require "models.sites"
 
-local black, steel, grey = {0.13, 0.135, 0.14}, {0.62, 0.64, 0.66}, {0.30, 0.31, 0.32}
+local black, steel, gray = {0.13, 0.135, 0.14}, {0.62, 0.64, 0.66}, {0.30, 0.31, 0.32}
 local rubber, blue = {0.52, 0.54, 0.56}, {0.16, 0.30, 0.46}
 local folder = "models/hands/shadow/"
 
@@ -56,7 +56,7 @@ local function palm()
     local y = f[2]
     local post = shapes.outline {{f[1] - 8.4, y - 22}, {f[1] + 8.4, y - 22}, {f[1] + 7.4, y - 2, 4},
                                  {f[1] - 7.4, y - 2, 4}, segments = 2}
-    parts[#parts + 1] = {build.plate(post, -9, 8, 0.8), color = grey}
+    parts[#parts + 1] = {build.plate(post, -9, 8, 0.8), color = gray}
     parts[#parts + 1] = {shapes.cylinder {6.4, from = {f[1], y, -10.5}, to = {f[1], y, 9.5}, chamfer = 0.8,
                                           segments = 12},
                          color = steel}
@@ -64,15 +64,15 @@ local function palm()
   -- the thumb's roll axis leans halfway between fingers and side
   local function along(k) return {thumb_base[1] + k * half, thumb_base[2] + k * half, thumb_base[3]} end
   parts[#parts + 1] = {shapes.cylinder {13, from = along(-26), to = along(-11), chamfer = 1.5, segments = 16},
-                       color = grey}
+                       color = gray}
   parts[#parts + 1] = {shapes.cylinder {10, from = along(-12), to = along(-6), chamfer = 1, segments = 16},
                        color = steel}
   -- wrist: a fork about its axis, then the forearm with its motors
   local fork = build.fork(build.belt({-34, 0}, 13, {-6, -1}, 12), 20, 26, 1)
-  parts[#parts + 1] = {build.z_to_x(shapes.move(fork, {0, -1.5, 0})), color = grey}
+  parts[#parts + 1] = {build.z_to_x(shapes.move(fork, {0, -1.5, 0})), color = gray}
   parts[#parts + 1] = {build.z_to_x(build.drum(-34, -1.5, 9, -30, 30, 20)), color = steel}
   parts[#parts + 1] = {build.z_to_x(build.plate({{-62, -15}, {-28, -12}, {-28, 9}, {-62, 12}}, -18, 18, 2)),
-                       color = grey}
+                       color = gray}
   local forearm = build.limb({
     {x = -247, y = -1.5, h = 112, w = 124, n = 2.6}, {x = -150, y = -1.5, h = 112, w = 124, n = 2.6},
     {x = -92, y = -1.5, h = 92, w = 104, n = 2.6}, {x = -56, y = -1.5, h = 62, w = 70, n = 2.6},

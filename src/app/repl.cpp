@@ -57,7 +57,7 @@ static void add_names(const fs::path& folder, const std::string& typed,
   }
 }
 
-// the beginning of a path's last name, then what it may become: here, else in the catalogue
+// the beginning of a path's last name, then what it may become: here, else in the catalog
 static std::vector<std::string> file_names(const std::string& path) {
   const size_t slash = path.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);

@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Number of single-character edits (insert, drop, exchange, swap of neighbours) from a to b,
+/// Number of single-character edits (insert, drop, exchange, swap of neighbors) from a to b,
 /// upper and lower case alike.
 int edit_distance(std::string_view a, std::string_view b);
 

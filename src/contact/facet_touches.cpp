@@ -65,7 +65,7 @@ std::vector<Touch> facet_contact_set(const Shape& a, const Shape& b, const Pose&
 
   auto points = near_points(a, b, X_AB, pairs, options.threshold);
   const double merge = std::max(merge_radius(a, b, options), rounding);
-  join_neighbours(points, std::min(options.threshold, crack_part * merge));
+  join_neighbors(points, std::min(options.threshold, crack_part * merge));
   std::vector<Touch> touches;
   for (const int i : patch_corners(points, merge, options.max_per_patch, rounding))
     touches.push_back({points[i].p_a, points[i].p_b, points[i].normal, points[i].gap,

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 static constexpr double direction_floor = 1e6;
 
 double coordinate_rounding(const Shape& a, const Shape& b, const Pose& X_AB) {
-  const auto reach = [](const Shape& s) { return s.centre().norm() + s.radius(); };
+  const auto reach = [](const Shape& s) { return s.center().norm() + s.radius(); };
   return std::numeric_limits<double>::epsilon() * (reach(a) + reach(b) + X_AB.position.norm());
 }
 

@@ -14,7 +14,7 @@ namespace clench {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-static const double min_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbours
+static const double min_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbors
 // around a corner: not a spike
 static const double min_round = std::cos(60 * std::numbers::pi / 180);
 // Of two neighbors, one that extends this much farther from their edge is flat beside a rounded
@@ -26,7 +26,7 @@ static constexpr double seed_distance = 1e-3;
 namespace {
 
 // triangles near the sites, and the radius around each within which they are complete
-struct Neighbourhood {
+struct Neighborhood {
   std::vector<int> triangles, seeds;  // ascending
   std::vector<double> reaches;
 };
@@ -53,9 +53,9 @@ std::vector<int> within_reaches(const Shape& shape, const std::vector<Vector3d>&
   return out;
 }
 
-Neighbourhood find_neighbourhood(const Shape& shape, const Pose& X_BP,
-                                 std::span<const Vector3d> sites, double radius) {
-  Neighbourhood out;
+Neighborhood find_neighborhood(const Shape& shape, const Pose& X_BP,
+                               std::span<const Vector3d> sites, double radius) {
+  Neighborhood out;
   std::vector<Vector3d> sites_B;
   int nearest = -1;
   for (const Vector3d& site : sites) {
@@ -84,14 +84,14 @@ PatchSheet::PatchSheet(const Shape& shape, const Pose& X_PB, std::span<const Vec
       radius_(radius),
       highest_(reach * radius),
       near_(shape.mesh(), {}, X_PB) {
-  Neighbourhood all = find_neighbourhood(shape, X_BP_, sites, radius);
+  Neighborhood all = find_neighborhood(shape, X_BP_, sites, radius);
   known_ = std::move(all.triangles), reaches_ = std::move(all.reaches);
   near_ = NearSurface(shape.mesh(), known_, X_PB);
   const int count = static_cast<int>(known_.size());
   for (int t = 0; t < count; ++t) normals_.push_back(face_normal(near_.corners(t)));
   corner_normals_.assign(3 * known_.size(), Vector3d::Zero());
   fans_.resize(near_.corner_count());
-  touching_ = 1e-9 * (shape.radius() + shape.centre().norm());
+  touching_ = 1e-9 * (shape.radius() + shape.center().norm());
 
   // from the seeds across corners
   std::vector<char> inside(count, 0);
@@ -144,7 +144,7 @@ std::vector<PatchSheet::Blade> PatchSheet::blades_at(int triangle, int k) const 
 // the same, found by a query of the mesh
 std::vector<PatchSheet::Blade> PatchSheet::far_blades_at(int triangle, int k) const {
   check_stop();
-  const Vector3d centre = shape_.mesh().corners(known_[triangle])[k];
+  const Vector3d center = shape_.mesh().corners(known_[triangle])[k];
   std::vector<Blade> out;
   std::vector<Vector3d> ends;
   const auto number = [&](const Vector3d& p) {
@@ -153,10 +153,10 @@ std::vector<PatchSheet::Blade> PatchSheet::far_blades_at(int triangle, int k) co
     ends.push_back(p);
     return static_cast<int>(ends.size()) - 1;
   };
-  for (const int u : region(shape_, centre, touching_)) {
+  for (const int u : region(shape_, center, touching_)) {
     const Corners c = shape_.mesh().corners(u);
     for (int l = 0; l < 3; ++l) {
-      if ((c[l] - centre).norm() > touching_) continue;
+      if ((c[l] - center).norm() > touching_) continue;
       const Vector3d one = c[(l + 1) % 3] - c[l], two = c[(l + 2) % 3] - c[l];
       const double twice_area = one.cross(two).norm();
       out.push_back({.triangle = u,

@@ -19,7 +19,7 @@ using Indices = std::vector<int>;
 // a corner this near, in merge radii, to the line between its neighbors is omitted
 static constexpr double flat_corner = 0.01;
 
-void join_neighbours(std::vector<NearPoint>& points, double reach) {
+void join_neighbors(std::vector<NearPoint>& points, double reach) {
   const bool one = std::all_of(points.begin(), points.end(),
                                [&](const NearPoint& p) { return p.region == points[0].region; });
   if (one || !(reach > 0)) return;

@@ -11,7 +11,7 @@ inline constexpr double same_normal = 1 - 1e-3;
 
 /// Merges regions with the same normal that come within `reach` [m] of each other: meshes have
 /// cracks.
-void join_neighbours(std::vector<NearPoint>& points, double reach);
+void join_neighbors(std::vector<NearPoint>& points, double reach);
 
 /// Indices of the points that are kept, ascending. A patch is formed by the points of a region that
 /// share a normal: it keeps its closest point and the corners of its outline.

@@ -53,7 +53,7 @@ class MeshPoints {
     const Corners& c = surface_.corners(i);
     Vector3d normal = facing_ * face_normal(c);
     if (normal.isZero()) return;
-    if (!closed_ && normal.dot(round_.centre() - c[0]) < 0) normal = -normal;
+    if (!closed_ && normal.dot(round_.center() - c[0]) < 0) normal = -normal;
     const Vector3d farthest = round_.farthest(-normal);
     const double least = normal.dot(farthest - c[0]);
     if (!is_near(least)) return;

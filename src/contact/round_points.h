@@ -6,7 +6,7 @@
 namespace clench {
 
 /// Points where a mesh comes nearer to a round solid than the threshold [m]: on its faces, edges
-/// and corners, each only where it is the nearest to the solid within its neighbourhood. p_a and
+/// and corners, each only where it is the nearest to the solid within its neighborhood. p_a and
 /// feature_a belong to the mesh; all points are in its frame, and feature_b is not set. Gaps are
 /// negative where the solid lies in the mesh, down to the negative of its inner radius.
 ///

@@ -26,7 +26,7 @@ static constexpr double min_relief = 1e-4;
 // fraction of the disc: with less of a surface there is no fit
 static constexpr double min_share = 0.07;
 
-double neighbourhood_radius(double modulus) {
+double neighborhood_radius(double modulus) {
   const double radius = 0.4 / std::cbrt(modulus);
   return radius > 0.003 && radius < 0.01 ? radius : 0.005;
 }
@@ -40,7 +40,7 @@ static double larger_modulus(const Elasticity& a, const Elasticity& b) {
 std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const Pose& X_AB,
                                     const Elasticity& elastic_a, const Elasticity& elastic_b,
                                     const std::vector<Touch>& touches) {
-  const double radius = neighbourhood_radius(larger_modulus(elastic_a, elastic_b));
+  const double radius = neighborhood_radius(larger_modulus(elastic_a, elastic_b));
   const int count = static_cast<int>(touches.size());
   std::vector<Vector3d> points;
   for (const Touch& touch : touches) points.push_back(0.5 * (touch.p_a + touch.p_b));
@@ -67,10 +67,10 @@ std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const 
       const Vector3d &p = points[i], &q = points[j];
       return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
     });
-    site->centre_A = site->normal_A = Vector3d::Zero();
+    site->center_A = site->normal_A = Vector3d::Zero();
     for (const int i : members) {
       site->points_A.push_back(points[i]);
-      site->centre_A += points[i] / static_cast<double>(members.size());
+      site->center_A += points[i] / static_cast<double>(members.size());
       site->normal_A += touches[i].normal_b;
     }
     site->normal_A.normalize();
@@ -102,9 +102,9 @@ struct PatchFrames {
     // matter
     Matrix3d axes_a = axes;
     axes_a.rightCols<2>() *= -1;
-    X_AP = {Pose{Eigen::Quaterniond(axes_a), site.centre_A},
-            Pose{Eigen::Quaterniond(axes), site.centre_A}};
-    for (const Vector3d& p : site.points_A) spread = std::max(spread, (p - site.centre_A).norm());
+    X_AP = {Pose{Eigen::Quaterniond(axes_a), site.center_A},
+            Pose{Eigen::Quaterniond(axes), site.center_A}};
+    for (const Vector3d& p : site.points_A) spread = std::max(spread, (p - site.center_A).norm());
   }
   Eigen::Matrix<double, 3, 2> plane() const { return axes.leftCols<2>(); }
 
@@ -236,7 +236,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   const PatchFrames frames(site);
   SoftPatch patch;
   patch.site = site;
-  patch.centre_A = site.centre_A;
+  patch.center_A = site.center_A;
   patch.normal_A = site.normal_A;
   patch.radius = options.radius.value_or(site.radius);
   patch.elastic_a = site.elastic_a;

@@ -23,7 +23,7 @@ struct Elasticity {
 
 /// Radius of the surface considered around a contact: 0.4 m / cbrt(modulus of the stiffer elastic
 /// body in Pa), and 5 mm if that is not between 3 and 10 mm.
-double neighbourhood_radius(double modulus);
+double neighborhood_radius(double modulus);
 
 /// One region where two bodies touch softly; immutable. Contacts whose neighborhoods overlap share
 /// it.
@@ -31,9 +31,9 @@ struct SoftSite {
   ShapePtr a, b;
   Pose X_AB;
   Elasticity elastic_a, elastic_b;
-  double radius = 0;                      ///< of the neighbourhood of each point [m]
+  double radius = 0;                      ///< of the neighborhood of each point [m]
   std::vector<Eigen::Vector3d> points_A;  ///< of the contacts, half way between the surfaces [m]
-  Eigen::Vector3d centre_A;               ///< their mean
+  Eigen::Vector3d center_A;               ///< their mean
   Eigen::Vector3d normal_A;               ///< unit, into b: along the mean of their normals
 };
 
@@ -58,8 +58,8 @@ inline constexpr double flattest_radius = 1;
 
 /// The surfaces of both bodies around a soft contact; all in the frame of a.
 struct SoftPatch {
-  Eigen::Vector3d centre_A, normal_A;  ///< unit, into b
-  double radius = 0;                   ///< of the neighbourhood [m]
+  Eigen::Vector3d center_A, normal_A;  ///< unit, into b
+  double radius = 0;                   ///< of the neighborhood [m]
   /// of a and of b; their normals point into them
   std::array<SurfaceFit, 2> surfaces;
   std::array<std::vector<Eigen::Vector3d>, 2> points;  ///< points that were fitted

@@ -128,7 +128,8 @@ bool Stepper::step(double end) {
   const double now = world_.time(), next = (std::floor(now / step + rounding) + 1) * step;
   double left = std::min(next, end) - now;
   if (!(now + left > now))
-    fail(ErrorKind::limit, "world: a step of {} s is no time beside the {} s that it has run", step,
+    fail(ErrorKind::limit,
+         "world: a time step of {} s is below the resolution of the simulation time {} s", step,
          now);
   if (std::abs(left - step) < rounding * step) left = step;
   change_or_restore(world_, [&] {

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-/// A body from .xml, .iv .wrl .vrml (millimetres), .off .ply .obj .stl .gltf .glb .dae, in any
+/// A body from .xml, .iv .wrl .vrml (millimeters), .off .ply .obj .stl .gltf .glb .dae, in any
 /// case.
 /// throws Error  "flask.iv:31: ..." one sentence: place, subject, expected, got
 BodySpec read_body(const std::filesystem::path& path, const ReadOptions& options = {});

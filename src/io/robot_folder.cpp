@@ -58,7 +58,7 @@ std::string RobotFolder::add(const std::string& folder, const std::string& part,
 
 // --- surfaces ---
 
-/// Materials of a surface of several colours, by their numbers.
+/// Materials of a surface of several colors, by their numbers.
 struct ObjMaterials {
   std::vector<Eigen::Vector3f> colors;
   int number(const Eigen::Vector3f& color) {
@@ -72,7 +72,7 @@ std::string RobotFolder::mesh(const Mesh& mesh, const Appearance& looks, const s
   const std::string folder = stem_ + "_files/";
   const bool colored = looks.given && looks.triangle_colors.size() == mesh.triangles.size();
   ObjMaterials materials;
-  std::string text = "# metres\n", faces;
+  std::string text = "# meters\n", faces;
   for (const auto& p : mesh.vertices)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p.x(), p.y(), p.z());
   int before = -1;

@@ -24,7 +24,7 @@ class RobotFolder {
   /// "hand.urdf does not hold ..."
   void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
 
-  /// Triangles as HAND_files/PART.obj, in metres, with their colours when these differ. Equal ones
+  /// Triangles as HAND_files/PART.obj, in meters, with their colors when these differ. Equal ones
   /// share a file.
   /// returns  the name from the robot's folder on
   std::string mesh(const Mesh& mesh, const Appearance& looks, const std::string& part);
@@ -55,7 +55,7 @@ class RobotFolder {
   FileSet written_;
 };
 
-/// A colour's share brought within 0..1, as files hold it; 0 for what is no number.
+/// A color's share brought within 0..1, as files hold it; 0 for what is no number.
 inline float within_one(float share) { return share > 0 ? std::min(share, 1.0f) : 0.0f; }
 
 /// What a part is called: the stem of its file, or its name without that of the robot.

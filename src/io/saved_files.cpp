@@ -177,23 +177,23 @@ std::string body_elements(const BodySpec& body, const std::string& surface,
   if (body.elastic_modulus) add("youngs", fmt::format("{}", *body.elastic_modulus));
   if (body.tracker) add("useFlockOfBirds", fmt::format("{}", *body.tracker));
   add("mass", number_in(body.mass, units::gram));
-  // what a reader repairs has another centre and inertia
+  // what a reader repairs has another center and inertia
   const bool repaired = body.shape && !body.shape->closed() &&
                         (body.shape->faults().duplicate_triangles > 0 ||
                          body.shape->faults().degenerate_triangles > 0);
-  if (body.com || repaired) add("cog", millimetres(com_of(body)));
+  if (body.com || repaired) add("cog", millimeters(com_of(body)));
   if (body.inertia_per_mass || repaired) {
     const Eigen::Matrix3d inertia = inertia_of(body);
     const Eigen::Matrix3d even = 0.5 * (inertia + inertia.transpose());
     std::vector<std::string> rows;
     for (int i = 0; i < 9; ++i)
-      rows.push_back(number_in(even(i / 3, i % 3), units::square_millimetre));
+      rows.push_back(number_in(even(i / 3, i % 3), units::square_millimeter));
     add("inertia_matrix", fmt::format("{}", fmt::join(rows, " ")));
   }
   if (surface.empty()) return out;
   out +=
       fmt::format("{}<geometryFile type=\"off\">{}</geometryFile>\n", indent, xml_escaped(surface));
-  // the surface is in metres, of which millimetres would lose digits
+  // the surface is in meters, of which millimeters would lose digits
   add("geometryScaling", "1000");
   return out;
 }

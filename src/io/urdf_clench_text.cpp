@@ -139,7 +139,7 @@ void ClenchText::add_collision() {
   for (const auto& [a, b] : rules.pairs_on)
     inside += "      <pair" + attribute("link1", link_name(a)) + attribute("link2", link_name(b)) +
               "/>\n";
-  // in the file a link that two joints move is no neighbour of the base
+  // in the file a link that two joints move is no neighbor of the base
   for (size_t l = 0; l < robot_.links.size(); ++l)
     if (!robot_.chain_links_collide && robot_.links[l].parent < 0 &&
         robot_.links[l].joints.size() > 1)

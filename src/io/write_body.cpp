@@ -31,7 +31,7 @@ std::vector<std::string> matter_of(const BodySpec& body) {
   std::vector<std::string> out;
   if (body.material != plain.material) out.push_back(fmt::format("material {}", body.material));
   if (body.mass != plain.mass) out.push_back(fmt::format("mass {} kg", body.mass));
-  if (body.com) out.push_back("centre of mass");
+  if (body.com) out.push_back("center of mass");
   if (body.inertia_per_mass) out.push_back("inertia");
   if (body.elastic_modulus)
     out.push_back(fmt::format("elastic modulus {} Pa", *body.elastic_modulus));
@@ -66,13 +66,13 @@ std::string parameter_lines(const BodySpec& body) {
   if (body.elastic_modulus) fmt::format_to(to, "#youngs {}\n", *body.elastic_modulus);
   if (body.tracker) fmt::format_to(to, "#useFlockOfBirds {}\n", *body.tracker);
   fmt::format_to(to, "#mass {}\n", number_in(body.mass, units::gram));
-  if (body.com) fmt::format_to(to, "#cog {}\n", millimetres(*body.com));
+  if (body.com) fmt::format_to(to, "#cog {}\n", millimeters(*body.com));
   if (!body.inertia_per_mass) return out;
   out += "#inertia_matrix\n";
   for (int i = 0; i < 3; ++i) {
     std::vector<std::string> row;
     for (int j = 0; j < 3; ++j)
-      row.push_back(number_in((*body.inertia_per_mass)(i, j), units::square_millimetre));
+      row.push_back(number_in((*body.inertia_per_mass)(i, j), units::square_millimeter));
     fmt::format_to(to, "#{}\n", fmt::join(row, " "));
   }
   return out;
@@ -93,7 +93,7 @@ std::string inventor_text(const BodySpec& body) {
     StopCheck check(1 << 12);
     for (const auto& p : mesh.vertices) {
       check();
-      fmt::format_to(to, "    {},\n", millimetres(p));
+      fmt::format_to(to, "    {},\n", millimeters(p));
     }
     out += "  ] }\n  IndexedFaceSet { coordIndex [\n";
     for (const auto& t : mesh.triangles) {
@@ -115,8 +115,8 @@ std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
     out.push_back(fmt::format("material {}", body.material));
   add_softness(body, out);
   const Appearance& look = body.appearance;
-  if (ending != ".iv" && look.given) out.push_back("colour");
-  if (ending == ".iv" && !look.triangle_colors.empty()) out.push_back("colours of triangles");
+  if (ending != ".iv" && look.given) out.push_back("color");
+  if (ending == ".iv" && !look.triangle_colors.empty()) out.push_back("colors of triangles");
   if (look.visual) out.push_back("surface to be drawn");
   return out;
 }
@@ -126,7 +126,7 @@ int too_small(const Mesh& mesh) {
   int count = 0;
   for (const Triangle& t : mesh.triangles) {
     Eigen::Vector3f p[3];
-    for (int i = 0; i < 3; ++i) p[i] = (mesh.vertices[t[i]] / units::millimetre).cast<float>();
+    for (int i = 0; i < 3; ++i) p[i] = (mesh.vertices[t[i]] / units::millimeter).cast<float>();
     count += p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
   }
   return count;
@@ -152,7 +152,7 @@ void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
   if (is_mesh_ending(ending) && guess_mesh_unit(largest) != 1)
     options.warn(
         fmt::format("{}: it is {:.4g} m large, and {} names no unit: read it with the option unit "
-                    "= \"m\", or it is taken for millimetres",
+                    "= \"m\", or it is taken for millimeters",
                     file, largest, ending));
 }
 

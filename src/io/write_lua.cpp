@@ -78,7 +78,7 @@ bool same_bits(const Pose& a, const Pose& b) {
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 /// Properties of a body that its file, or its bare surface, does not give it: key and value in Lua.
-/// `together`: they are options of one call, which computes an inertia about the centre given.
+/// `together`: they are options of one call, which computes an inertia about the center given.
 Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   Pairs out;
   if (now.material != was.material) out.emplace_back("material", as_lua(now.material));
@@ -169,7 +169,7 @@ std::string LuaWriter::file(const std::string& path) {
 
 void LuaWriter::begin() {
   line(
-      "-- A world saved by Clench, made again by clench.load(this file). Metres, radians, "
+      "-- A world saved by Clench, made again by clench.load(this file). Meters, radians, "
       "kilograms.");
   line("local clench = require \"clench\"");
   if (!files_.root().empty()) {
@@ -212,7 +212,7 @@ void LuaWriter::add_body(const PlacedBody& placed) {
         fmt::format("the surface that pictures show of '{}' is not saved", excerpt(body.name)));
   if (!read && !body.appearance.triangle_colors.empty())
     files_.warn(
-        fmt::format("the colours of the triangles of '{}' are not saved", excerpt(body.name)));
+        fmt::format("the colors of the triangles of '{}' are not saved", excerpt(body.name)));
   std::string options =
       fmt::format("name = {}, pose = {}{}", as_lua(body.name), pose(placed.X_WB), root_option());
   std::string after;
@@ -393,7 +393,7 @@ void LuaWriter::switch_collision() {
   const CollisionSpec& spec = *world_.collision;
   line("");
   if (!world_.robots.empty()) {
-    line("-- all that may not collide, neighbours too");
+    line("-- all that may not collide, neighbors too");
     line("for _, a in ipairs(robots) do");
     line("  for _, b in ipairs(robots) do world:set_collision(true, a, b) end");
     line("end");

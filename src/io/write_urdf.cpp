@@ -88,7 +88,7 @@ std::string UrdfText::material(const Appearance& looks) {
   const std::string color =
       fmt::format("{} {} {} {}", within_one(c.x()), within_one(c.y()), within_one(c.z()),
                   1 - double{within_one(looks.transparency)});
-  // one name a colour: readers share materials by their names
+  // one name a color: readers share materials by their names
   const size_t number = std::ranges::find(colors_, color) - colors_.begin();
   if (number == colors_.size()) colors_.push_back(color);
   return fmt::format("<material name=\"color{}\"><color rgba=\"{}\"/></material>", number, color);

@@ -49,9 +49,9 @@ std::string wld_text(const WorldSpec& world, SavedFiles& files) {
     out += fmt::format("Connection\n{} {} {}\n{}T {}\n\n", c.parent, chain_of(world, c), c.child,
                        c.mount ? body_file(*c.mount, files) : "\n", full_transform(c.X_LB));
   if (world.camera)
-    out += fmt::format("CameraFull\n{} {} {}\n", millimetres(world.camera->X_WC.position),
+    out += fmt::format("CameraFull\n{} {} {}\n", millimeters(world.camera->X_WC.position),
                        orientation(world.camera->X_WC.rotation),
-                       number_in(world.camera->focal_distance, units::millimetre));
+                       number_in(world.camera->focal_distance, units::millimeter));
   return out;
 }
 

@@ -43,9 +43,9 @@ static std::string connection_element(const WorldSpec& world, const Connection& 
 }
 
 static std::string camera_element(const Camera& camera) {
-  return "  <camera>\n" + element("position", millimetres(camera.X_WC.position)) +
+  return "  <camera>\n" + element("position", millimeters(camera.X_WC.position)) +
          element("orientation", orientation(camera.X_WC.rotation)) +
-         element("focalDistance", number_in(camera.focal_distance, units::millimetre)) +
+         element("focalDistance", number_in(camera.focal_distance, units::millimeter)) +
          "  </camera>\n";
 }
 

@@ -17,13 +17,13 @@ void BlockLu::analyze(const std::vector<int>& sizes,
   lay_out();
 }
 
-// Minimum degree ordering: eliminates the group with the fewest neighbours, the first of several,
-// until no group is left; its neighbours become neighbours of each other.
+// Minimum degree ordering: eliminates the group with the fewest neighbors, the first of several,
+// until no group is left; its neighbors become neighbors of each other.
 void BlockLu::find_order(const std::vector<std::pair<int, int>>& pairs) {
   const size_t count = sizes_.size();
-  neighbours_.assign(count, {});
-  for (const auto& [i, j] : pairs) neighbours_[i].push_back(j), neighbours_[j].push_back(i);
-  for (auto& list : neighbours_) {
+  neighbors_.assign(count, {});
+  for (const auto& [i, j] : pairs) neighbors_[i].push_back(j), neighbors_[j].push_back(i);
+  for (auto& list : neighbors_) {
     std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
@@ -35,15 +35,15 @@ void BlockLu::find_order(const std::vector<std::pair<int, int>>& pairs) {
     check();
     int next = -1;
     for (int i = 0; i < static_cast<int>(count); ++i)
-      if (position_[i] < 0 && (next < 0 || neighbours_[i].size() < neighbours_[next].size()))
+      if (position_[i] < 0 && (next < 0 || neighbors_[i].size() < neighbors_[next].size()))
         next = i;
     position_[next] = static_cast<int>(order_.size());
     order_.push_back(next);
-    for (const int i : neighbours_[next]) {
+    for (const int i : neighbors_[next]) {
       merged.clear();
-      std::ranges::set_union(neighbours_[i], neighbours_[next], std::back_inserter(merged));
+      std::ranges::set_union(neighbors_[i], neighbors_[next], std::back_inserter(merged));
       std::erase_if(merged, [&](int k) { return k == i || k == next; });
-      neighbours_[i].swap(merged);
+      neighbors_[i].swap(merged);
     }
   }
 }
@@ -56,7 +56,7 @@ void BlockLu::lay_out() {
     diagonal_[k] = size;
     size += sizes_[k] * sizes_[k];
     later_[k].clear();
-    for (const int i : neighbours_[k]) {
+    for (const int i : neighbors_[k]) {
       later_[k].push_back({.group = i, .upper = size, .lower = size + sizes_[k] * sizes_[i]});
       size += 2 * sizes_[k] * sizes_[i];
     }

@@ -43,10 +43,10 @@ class BlockLu {
   std::vector<int> sizes_, first_;  // first_: first unknown of each group
   // elimination order; position_: by group, its index in order_
   std::vector<int> order_, position_;
-  std::vector<std::vector<int>> neighbours_;  // of each group, among those eliminated later
-  std::vector<std::vector<Later>> later_;     // by group, in elimination order
-  std::vector<int> diagonal_;                 // by group: position of its block
-  std::vector<int> targets_, first_target_;   // by group: blocks that its elimination changes
+  std::vector<std::vector<int>> neighbors_;  // of each group, among those eliminated later
+  std::vector<std::vector<Later>> later_;    // by group, in elimination order
+  std::vector<int> diagonal_;                // by group: position of its block
+  std::vector<int> targets_, first_target_;  // by group: blocks that its elimination changes
   std::vector<double> values_;
   std::vector<int> exchanged_;  // rows of one diagonal block
   bool all_six_ = false;

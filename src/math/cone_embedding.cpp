@@ -172,12 +172,12 @@ bool advance_point(const ConeRows& rows, ConeKkt& kkt, ConePoint& p) {
   const double reach = std::min(1.0, step_length(rows, p, straight));
 
   // then towards the central path by as much as that fell short, with the second-order correction
-  const double centring = std::pow(1 - reach, 3);
+  const double centering = std::pow(1 - reach, 3);
   const VectorXd second = cone_product(rows.cones, scaling.apply_inverse(straight.s),
                                        scaling.apply(cones_of(rows, straight.z)));
-  const VectorXd products = square + second - centring * mu * cone_unit(rows.cones);
-  const double product = p.tau * p.kappa + straight.tau * straight.kappa - centring * mu;
-  const ConePoint d = newton.step(1 - centring, products, product);
+  const VectorXd products = square + second - centering * mu * cone_unit(rows.cones);
+  const double product = p.tau * p.kappa + straight.tau * straight.kappa - centering * mu;
+  const ConePoint d = newton.step(1 - centering, products, product);
   const double step = std::min(1.0, step_back * step_length(rows, p, d));
   ConePoint next = p;
   move(next, d, step);

@@ -173,8 +173,8 @@ Id<Body> Builder::named(const std::string& name) const {
 }
 
 void Builder::switch_collision() {
-  const auto neighbours = world_.pairs_off();
-  for (const auto& [a, b] : neighbours) world_.set_collision(true, a, b);
+  const auto neighbors = world_.pairs_off();
+  for (const auto& [a, b] : neighbors) world_.set_collision(true, a, b);
   for (const auto& [a, b] : spec_.collision->pairs_off)
     world_.set_collision(false, named(a), named(b));
   for (const auto& [name, bits] : spec_.collision->bits)

@@ -87,7 +87,7 @@ void Comparer::bodies(Id<Body> a_id, Id<Body> b_id) {
   if (a_.materials().name(a.material) != b_.materials().name(b.material))
     add("the material of '{}'", a.name);
   if (!same(a.mass, b.mass)) add("the mass of '{}'", a.name);
-  if (!same_matrix(a.com, b.com)) add("the centre of mass of '{}'", a.name);
+  if (!same_matrix(a.com, b.com)) add("the center of mass of '{}'", a.name);
   if (!same_matrix(a.inertia_per_mass, b.inertia_per_mass)) add("the inertia of '{}'", a.name);
   if (a.elastic_modulus.has_value() != b.elastic_modulus.has_value() ||
       !same(a.elastic_modulus.value_or(0), b.elastic_modulus.value_or(0)))
@@ -101,7 +101,7 @@ void Comparer::bodies(Id<Body> a_id, Id<Body> b_id) {
   if (!same(a.gravity_compensation, b.gravity_compensation))
     add("the gravity compensation of '{}'", a.name);
   if (a.tracker != b.tracker) add("the position sensor of '{}'", a.name);
-  if (!same_look(a.appearance, b.appearance)) add("the colour of '{}'", a.name);
+  if (!same_look(a.appearance, b.appearance)) add("the color of '{}'", a.name);
   if (!same_shape(a.shape, b.shape)) add("the surface of '{}'", a.name);
   if (!same(a_.pose(a_id), b_.pose(b_id))) add("the pose of '{}'", a.name);
 }

@@ -40,7 +40,7 @@ static std::string other_unit(const std::array<double, 2>& range, double value, 
   if (std::abs(value) < (slides ? 1 : 4) || meant < range[0] - limit_rounding ||
       meant > range[1] + limit_rounding)
     return "";
-  const char *unit = slides ? "millimetres" : "degrees", *function = slides ? "mm" : "rad";
+  const char *unit = slides ? "millimeters" : "degrees", *function = slides ? "mm" : "rad";
   return fmt::format("; {}? clench.{}({:.6g}) is {:.4g}", unit, function, value, meant);
 }
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 double sphere_gap(const World& world, Id<Body> a, Id<Body> b) {
   const Shape &one = *world.body(a).shape, &two = *world.body(b).shape;
-  const Vector3d between = world.pose(a) * one.centre() - world.pose(b) * two.centre();
+  const Vector3d between = world.pose(a) * one.center() - world.pose(b) * two.center();
   return between.norm() - one.radius() - two.radius();
 }
 
@@ -27,8 +27,8 @@ void find_box(const World& world, QueryContext& context, SweepItem& item) {
 // the axis along which the separation of the boxes is largest
 int widest_axis(const std::vector<SweepItem>& items) {
   Vector3d mean = Vector3d::Zero(), spread = Vector3d::Zero();
-  for (const SweepItem& item : items) mean += item.box->centre / static_cast<double>(items.size());
-  for (const SweepItem& item : items) spread += (item.box->centre - mean).cwiseAbs();
+  for (const SweepItem& item : items) mean += item.box->center / static_cast<double>(items.size());
+  for (const SweepItem& item : items) spread += (item.box->center - mean).cwiseAbs();
   int axis;
   spread.maxCoeff(&axis);
   return axis;

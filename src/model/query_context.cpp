@@ -18,7 +18,7 @@ bool within_reach(const BodyBox& a, const BodyBox& b, double reach) {
   // all axes at once: which one separates them is hard to predict
   if ((a.low - b.high).cwiseMax(b.low - a.high).maxCoeff() > reach) return false;
   const double far = reach + a.radius + b.radius;
-  return far >= 0 && (a.centre - b.centre).squaredNorm() <= far * far * (1 + 1e-12) &&
+  return far >= 0 && (a.center - b.center).squaredNorm() <= far * far * (1 + 1e-12) &&
          !apart_along_axes(a, b, reach);
 }
 
@@ -26,16 +26,16 @@ static BodyBox box_of(const Shape& shape, const Pose& X_WB) {
   const Bounds& bounds = shape.bounds();
   const Eigen::Matrix3d R = X_WB.rotation.normalized().toRotationMatrix();
   const double rounding =
-      1e-12 * (X_WB.position.cwiseAbs().maxCoeff() + shape.centre().norm() + shape.radius());
-  const Vector3d middle = R * bounds.centre() + X_WB.position, half = 0.5 * bounds.size(),
-                 centre = R * shape.centre() + X_WB.position, slack = Vector3d::Constant(rounding),
+      1e-12 * (X_WB.position.cwiseAbs().maxCoeff() + shape.center().norm() + shape.radius());
+  const Vector3d middle = R * bounds.center() + X_WB.position, half = 0.5 * bounds.size(),
+                 center = R * shape.center() + X_WB.position, slack = Vector3d::Constant(rounding),
                  extent = R.cwiseAbs() * half + slack;
   return {middle - extent,
           middle + extent,
           R,
           middle,
           half + slack,
-          centre,
+          center,
           shape.radius() + 2 * rounding};
 }
 

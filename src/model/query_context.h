@@ -16,7 +16,7 @@ struct BodyBox {
   Eigen::Vector3d low, high;
   Eigen::Matrix3d axes;  ///< of its own box, one per column
   Eigen::Vector3d middle, half;
-  Eigen::Vector3d centre;  ///< of the sphere
+  Eigen::Vector3d center;  ///< of the sphere
   double radius = 0;
 };
 

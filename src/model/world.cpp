@@ -233,7 +233,7 @@ void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
     edit(id).links[l].body = body;
   }
   const Robot& made = robot(id);
-  switch_off_neighbours(made, spec.chain_links_collide);
+  switch_off_neighbors(made, spec.chain_links_collide);
   for (const auto& [a, b] : spec.collision_rules.pairs_on)
     set_collision(true, made.body_of(a), made.body_of(b));
   for (const int off : spec.collision_rules.parts_off) set_collision(false, made.body_of(off));
@@ -244,7 +244,7 @@ void World::add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB) {
 // Neighbors never collide: a link and the nearest body with a shape on the way to the base. In
 // GraspIt! robots no two links of a chain do, and the base never collides with a chain's first
 // link.
-void World::switch_off_neighbours(const Robot& robot, bool chain_links_collide) {
+void World::switch_off_neighbors(const Robot& robot, bool chain_links_collide) {
   std::vector<Id<Body>> shaped;  // by link: itself or its carrier
   for (const Link& link : robot.links) {
     const Id<Body> before = link.parent < 0 ? robot.base : shaped[link.parent];

@@ -199,7 +199,7 @@ class World {
   uint32_t next_serial() { return ++lineage_->serials; }
   Id<Body> insert(Body body, Pose X_WB, const std::string& name);
   std::string unique_name(const std::string& expected);
-  void switch_off_neighbours(const Robot& robot, bool chain_links_collide);
+  void switch_off_neighbors(const Robot& robot, bool chain_links_collide);
   void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);
   void erase(Id<Body> id);
   /// throws Error if another robot carries it

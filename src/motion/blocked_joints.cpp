@@ -5,7 +5,7 @@
 
 namespace clench {
 
-// a contact blocks a joint that has a lever longer than a nanometre
+// a contact blocks a joint that has a lever longer than a nanometer
 static constexpr double no_lever = 1e-9;
 
 Eigen::Vector3d contact_velocity(const Robot& robot, const CarriedBodies& bodies,

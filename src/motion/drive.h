@@ -1,5 +1,5 @@
 // Driving the DOFs of a robot until contact stops them: rigid, breakaway and compliant couplings.
-// Continuous, never tunnelling.
+// Continuous, never tunneling.
 #pragma once
 #include "clench/motion/drive_result.h"
 

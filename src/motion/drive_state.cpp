@@ -36,8 +36,8 @@ double lever(const DrivenRobot& driven, int joint, Id<Body> id) {
   int link = driven.bodies.link(id);
   // a carried robot is rigid on its link
   const Pose X_WL = driven.world.pose(robot.links[link].body);
-  const Eigen::Vector3d centre = X_WL.inverse() * (driven.world.pose(id) * body.shape->centre());
-  double length = centre.norm() + body.shape->radius();
+  const Eigen::Vector3d center = X_WL.inverse() * (driven.world.pose(id) * body.shape->center());
+  double length = center.norm() + body.shape->radius();
   while (true) {
     const Link& l = robot.links[link];
     const bool here = link == robot.joints[joint].link;

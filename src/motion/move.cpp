@@ -30,7 +30,7 @@ struct Way {
 // bound of the distance of the body's points from the origin that the motion turns about
 double reach_from(const World& world, Id<Body> id, const Eigen::Vector3d& origin) {
   const Shape& shape = *world.body(id).shape;
-  return (world.pose(id) * shape.centre() - origin).norm() + shape.radius();
+  return (world.pose(id) * shape.center() - origin).norm() + shape.radius();
 }
 
 std::vector<PairBound> watch_pairs(const World& world, const Way& way, double length,

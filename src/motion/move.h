@@ -1,5 +1,5 @@
 // Moving rigid things until they touch: a body, or a robot by its base. Continuous, never
-// tunnelling.
+// tunneling.
 #pragma once
 #include <vector>
 
@@ -11,7 +11,7 @@ struct MoveResult {
   double fraction = 0;               ///< of the way gone, in [0, 1]
   bool touched = false;              ///< did a contact end it?
   std::vector<BodyPair> stopped_by;  ///< moved body first
-  /// did it end for its number of steps, sliding for metres within micrometres?
+  /// did it end for its number of steps, sliding for meters within micrometers?
   bool iteration_limit = false;
   int queries = 0;  ///< distance queries it took
 };

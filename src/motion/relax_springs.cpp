@@ -8,7 +8,7 @@
 
 namespace clench {
 
-// springs are at rest when no joint has farther to go: a micrometre at the tip of a finger [rad or
+// springs are at rest when no joint has farther to go: a micrometer at the tip of a finger [rad or
 // m]
 static constexpr double at_rest = 1e-5;
 // contacts that a finger slides along change on the way; so many changes are followed before the

@@ -26,7 +26,7 @@ struct Motion {
 
 /// A small piece of surface that moves forward.
 struct Piece {
-  Vector3d centre, normal;  // centre of what it sweeps
+  Vector3d center, normal;  // center of what it sweeps
   double swept;             // volume in unit time
 };
 
@@ -77,15 +77,15 @@ void cut(const std::array<Vector3d, 3>& corners, const Vector3d& normal, const M
       cut(part, normal, motion, longest, depth + 1, pieces);
     return;
   }
-  // what is swept grows linearly over a triangle: its sum and its centre are exact, unless part of
+  // what is swept grows linearly over a triangle: its sum and its center are exact, unless part of
   // the triangle moves backward
   Vector3d speeds;
   for (int i = 0; i < 3; ++i) speeds[i] = std::max(0.0, normal.dot(motion.at(corners[i])));
   const double all = speeds.sum(), swept = 0.5 * (b - a).cross(c - a).norm() * all / 3;
   if (!(swept > 0)) return;
-  const Vector3d centre =
+  const Vector3d center =
       0.25 * (a + b + c + (speeds[0] * a + speeds[1] * b + speeds[2] * c) / all);
-  pieces.push_back({centre, normal, swept});
+  pieces.push_back({center, normal, swept});
 }
 
 std::vector<Piece> forward_pieces(const Shape& shape, const Motion& motion) {
@@ -106,14 +106,14 @@ std::vector<std::vector<Piece>> shares(std::vector<Piece> pieces, int count) {
   if (count == 1 || pieces.empty()) return {std::move(pieces)};
   Vector3d mean = Vector3d::Zero();
   double all = 0;
-  for (const Piece& p : pieces) mean += p.swept * p.centre, all += p.swept;
+  for (const Piece& p : pieces) mean += p.swept * p.center, all += p.swept;
   mean /= all;
   Matrix3d spread = Matrix3d::Zero();
   for (const Piece& p : pieces)
-    spread += p.swept / all * (p.centre - mean) * (p.centre - mean).transpose();
+    spread += p.swept / all * (p.center - mean) * (p.center - mean).transpose();
   const Vector3d along = eigensystem(spread).vectors.col(2);
   std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
-    return along.dot(a.centre) < along.dot(b.centre);
+    return along.dot(a.center) < along.dot(b.center);
   });
   std::vector<std::vector<Piece>> out(count);
   double before = 0;
@@ -139,8 +139,8 @@ Pose site(const Shape& shape, const std::vector<Piece>& pieces, const Vector3d& 
   const double size = shape.bounds().size().norm();
   const Piece* nearest = &pieces.front();
   for (const Piece& piece : pieces)
-    if ((piece.centre - p).squaredNorm() < (nearest->centre - p).squaredNorm()) nearest = &piece;
-  Vector3d point = nearest->centre, normal = nearest->normal;
+    if ((piece.center - p).squaredNorm() < (nearest->center - p).squaredNorm()) nearest = &piece;
+  Vector3d point = nearest->center, normal = nearest->normal;
   if (const auto hit = cast_ray(shape, p + 2 * size * direction, -direction, 4 * size)) {
     const auto corners = shape.mesh().corners(hit->triangle);
     const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -149,14 +149,14 @@ Pose site(const Shape& shape, const std::vector<Piece>& pieces, const Vector3d& 
 
   // the surface around says where it faces, not the one triangle
   Vector3d mean = Vector3d::Zero();
-  Vector3d low = pieces.front().centre, high = low;
+  Vector3d low = pieces.front().center, high = low;
   for (const Piece& piece : pieces)
-    low = low.cwiseMin(piece.centre), high = high.cwiseMax(piece.centre);
+    low = low.cwiseMin(piece.center), high = high.cwiseMax(piece.center);
   Vector3d sides = high - low;
   std::sort(sides.data(), sides.data() + 3);
   const double radius = std::max(around * sides[1], fineness * size);
   for (const Piece& piece : pieces)
-    if ((piece.centre - point).norm() < radius && piece.normal.dot(normal) > 0.5)
+    if ((piece.center - point).norm() < radius && piece.normal.dot(normal) > 0.5)
       mean += piece.swept * piece.normal;
   if (mean.norm() > 0) normal = mean.normalized();
   return {Eigen::Quaterniond(contact_frame(normal)).normalized(), point};
@@ -167,10 +167,10 @@ std::vector<Pose> link_sites(const Shape& shape, const Motion& motion, int count
   for (const auto& share : shares(forward_pieces(shape, motion), count)) {
     const Vector3d direction = mean_normal(share);
     if (share.empty() || !(direction.norm() > 0)) continue;
-    Vector3d centre = Vector3d::Zero();
+    Vector3d center = Vector3d::Zero();
     double all = 0;
-    for (const Piece& p : share) centre += p.swept * p.centre, all += p.swept;
-    out.push_back(site(shape, share, centre / all, direction.normalized()));
+    for (const Piece& p : share) center += p.swept * p.center, all += p.swept;
+    out.push_back(site(shape, share, center / all, direction.normalized()));
   }
   return out;
 }

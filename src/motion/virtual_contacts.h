@@ -13,8 +13,8 @@ struct FindSitesOptions {
 
 /// Where surfaces move forward when the hand closes. The hand is open and every DOF moves at its
 /// default velocity; a piece of surface counts as much as the volume that it sweeps, area times
-/// speed along its outward normal. A link's place is the centre of what it sweeps, brought onto the
-/// surface against the mean normal; several are the centres of equal shares along the link's
+/// speed along its outward normal. A link's place is the center of what it sweeps, brought onto the
+/// surface against the mean normal; several are the centers of equal shares along the link's
 /// length. The normal is that of the surface around. The palm, which is the base or the link that
 /// stays where it is and lies nearest to the approach point, counts as moving along the approach
 /// direction, and its place lies at that point, when there is surface. Frames are contact frames;

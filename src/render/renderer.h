@@ -39,7 +39,7 @@ class Renderer {
   Picture draw(const Scene& scene, const RenderOptions& options, const Font& font);
 
   /// Draws a frame, without labels and caption, and does not wait for it: a draft with one sample a
-  /// pixel. Where the backdrop is not a studio, colours are multiplied by alpha. Meshes that were
+  /// pixel. Where the backdrop is not a studio, colors are multiplied by alpha. Meshes that were
   /// drawn before are only moved.
   /// throws  as `draw`; Error on options of other pictures, and on a framebuffer where the context
   ///         is the renderer's own

@@ -35,7 +35,7 @@ struct Shown {
   bool operator==(const Shown&) const = default;
 };
 
-/// Colours are as a screen shows them (sRGB), each part in 0..1.
+/// Colors are as a screen shows them (sRGB), each part in 0..1.
 struct DrawMesh {
   std::shared_ptr<const Shape> shape;  ///< null draws nothing
   Pose X_WM;

@@ -27,24 +27,24 @@ static std::vector<PlacedForce> visible_forces(std::span<const PlacedForce> forc
   return visible;
 }
 
-std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double metres_per_newton) {
+std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double meters_per_newton) {
   const double largest = largest_force(forces);
   std::vector<DrawArrow> arrows;
   for (const PlacedForce& force : visible_forces(forces))
-    arrows.push_back({.tail = force.p_W - metres_per_newton * force.f_W,
+    arrows.push_back({.tail = force.p_W - meters_per_newton * force.f_W,
                       .tip = force.p_W,
-                      .radius = slender * metres_per_newton * largest,
+                      .radius = slender * meters_per_newton * largest,
                       .color = palette::force});
   return arrows;
 }
 
-std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double metres_per_newton) {
+std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double meters_per_newton) {
   std::vector<PlacedForce> visible = visible_forces(forces);
   std::ranges::stable_sort(visible, std::greater(), [](const auto& f) { return f.f_W.norm(); });
   visible.resize(std::min(visible.size(), max_labels));
   std::vector<DrawLabel> labels;
   for (const PlacedForce& force : visible)
-    labels.push_back({.p_W = force.p_W - beyond * metres_per_newton * force.f_W,
+    labels.push_back({.p_W = force.p_W - beyond * meters_per_newton * force.f_W,
                       .text = fmt::format("{:.3g} N", force.f_W.norm()),
                       .color = palette::force});
   return labels;

@@ -12,12 +12,12 @@ struct PlacedForce {
   Eigen::Vector3d f_W = Eigen::Vector3d::Zero();  ///< [N]
 };
 
-/// An arrow a force, which ends where it presses: as long as the force times metres_per_newton, >
+/// An arrow a force, which ends where it presses: as long as the force times meters_per_newton, >
 /// 0. Forces below a thousandth of the largest are left out.
-std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double metres_per_newton);
+std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double meters_per_newton);
 
 /// Forces of the eight longest such arrows in newtons, beyond their tails; the largest first.
-std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double metres_per_newton);
+std::vector<DrawLabel> force_labels(std::span<const PlacedForce> forces, double meters_per_newton);
 
 /// The scale at which the largest force is as long as this [m]; 1 without forces.
 double force_scale(std::span<const PlacedForce> forces, double longest);

@@ -1,4 +1,4 @@
-// Every colour of our pictures of worlds, in one table. Colours are as a screen shows them (sRGB).
+// Every color of our pictures of worlds, in one table. Colors are as a screen shows them (sRGB).
 #pragma once
 #include "clench/model/body.h"
 
@@ -10,7 +10,7 @@ struct Entry {
 };
 
 /// By kind of body: dark palm, light fingers, so that the joints of a hand read; objects in the one
-/// saturated colour; obstacles quiet.
+/// saturated color; obstacles quiet.
 inline Entry of(BodyKind kind) {
   switch (kind) {
     case BodyKind::base:
@@ -27,7 +27,7 @@ inline Entry of(BodyKind kind) {
   return {{0.7f, 0.7f, 0.7f}, 1};
 }
 
-/// Friction cones: the complement of the objects' colour, which surrounds them.
+/// Friction cones: the complement of the objects' color, which surrounds them.
 inline const Eigen::Vector3f cone(1.0f, 0.29f, 0.0f);
 /// Fitted surfaces of soft contacts, and the ellipses that press.
 inline const Eigen::Vector3f patch(0.98f, 0.80f, 0.35f);

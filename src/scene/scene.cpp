@@ -95,7 +95,7 @@ void draw_patch(const World& world, const Contact& contact, int index, std::vect
   const Eigen::Vector3d inward = (on_b ? 1 : -1) * patch.normal_A;
   Eigen::Matrix3d axes;
   axes << patch.directions.col(0), inward.cross(patch.directions.col(0)), inward;
-  const Pose X_WP = contact.X_WA * Pose{Eigen::Quaterniond(axes), patch.centre_A};
+  const Pose X_WP = contact.X_WA * Pose{Eigen::Quaterniond(axes), patch.center_A};
   const Eigen::Matrix<double, 3, 2> across = axes.transpose() * fit.directions;
   const auto surface = [&](double lift) {
     return [&, lift](double x, double y) {

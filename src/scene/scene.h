@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Bodies in creation order with the colours of scene/palette.h, then a cone for each patch where a
+/// Bodies in creation order with the colors of scene/palette.h, then a cone for each patch where a
 /// part of a robot touches an object, opening into the object by its friction angle. With `patches`,
 /// at each soft contact the fitted surface of the object, or of the body that is touched, within the
 /// region of the fit, and on it the rim of the contact ellipse at 5 N.

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// How large friction cones are: apart, each lowered where its neighbours are near; of one size; or
+/// How large friction cones are: apart, each lowered where its neighbors are near; of one size; or
 /// their heights in proportion to the friction coefficient or to the normal force, the largest of
 /// that size.
 enum class ConeSizes { apart, equal, friction, force };
@@ -30,12 +30,12 @@ struct SceneOptions {
   bool approach = false;
   bool ground = true;  ///< a floor under the lowest point, unless an obstacle is the floor
   std::optional<double> ground_height = {};  ///< of that floor [m]; empty: of the lowest point
-  bool transparent_objects = true;  ///< so that contacts show
+  bool transparent_objects = true;           ///< so that contacts show
   ConeSizes cone_sizes = ConeSizes::apart;
   double cone_height = 0;  ///< of the highest cone [m]; 0: 0.15 of the object's largest radius
   std::vector<ContactLoad> loads = {};  ///< for ConeSizes::force; contacts without one have no cone
   Framing framing = Framing::contacts;
-  bool file_colors = true;  ///< colours of the files, where they give any; else by kind of body
+  bool file_colors = true;  ///< colors of the files, where they give any; else by kind of body
   std::vector<Id<Robot>> see_through = {};  ///< what is in and behind their links shows
   std::optional<Eye> eye = {};
 };

@@ -18,7 +18,7 @@ constexpr double beside = 0.5;  // deviation of the bell that weighs lines besid
 constexpr double off_middle = 0.02;  // what a line counts less, a radius off the middle
 
 struct Attempt {
-  Vector3d centre;  // of the ball
+  Vector3d center;  // of the ball
   Vector3d offset;  // from the middle, across the direction
   bool leans;
   double held;
@@ -36,8 +36,8 @@ std::vector<Attempt> try_all(const BallTrial& trial, const Pose& X) {
     for (int i = -n; i <= n; ++i)
       for (int j = -n; j <= n; ++j) {
         const Vector3d offset = spacing * trial.radius() * Vector3d(i, j, 0);
-        if (const auto centre = trial.touch(X * offset, direction))
-          out.push_back({*centre, offset, side > 0, trial.held(*centre)});
+        if (const auto center = trial.touch(X * offset, direction))
+          out.push_back({*center, offset, side > 0, trial.held(*center)});
       }
   }
   return out;
@@ -60,7 +60,7 @@ std::optional<Pose> guess_approach(const RobotSpec& robot) {
   const BallTrial trial(robot);
   const auto direction = trial.closes() ? trial.direction() : std::nullopt;
   if (!direction) return {};
-  const Pose middle = approach_frame(trial.tips_centre(), *direction);
+  const Pose middle = approach_frame(trial.tips_center(), *direction);
   if (!middle.is_finite()) return {};
   if (!trial.possible()) return middle;
   const auto lines = try_all(trial, middle);
@@ -71,7 +71,7 @@ std::optional<Pose> guess_approach(const RobotSpec& robot) {
     const double s = score(line, lines, trial.radius());
     if (s > most) most = s, best = &line;
   }
-  return best ? approach_frame(best->centre, *direction) : middle;
+  return best ? approach_frame(best->center, *direction) : middle;
 }
 
 }  // namespace clench

@@ -112,7 +112,7 @@ void BallTrial::add_part(int link) {
   const ShapePtr& shape = drawn(body_of(hand_.robot, link));
   if (!shape) return;
   part.points = points_on(shape->mesh(), fineness * radius_, static_cast<uint64_t>(link + 2));
-  part.middle = shape->centre();
+  part.middle = shape->center();
   part.radius = shape->radius();
 }
 
@@ -133,7 +133,7 @@ BallTrial::Span BallTrial::span() const {
   return {sum / static_cast<double>(tips.size()), tips.size() > 1 ? least : 0};
 }
 
-Vector3d BallTrial::tips_centre() const {
+Vector3d BallTrial::tips_center() const {
   std::vector<double> q = open_.q;
   for (const Closing& c : closing_) q[c.dof] += 0.5 * closing_steps * c.step;
   Vector3d sum = Vector3d::Zero();
@@ -163,7 +163,7 @@ std::optional<Vector3d> BallTrial::direction() const {
   if (closing.norm() > common) return snapped(X_BP.rotation * closing.normalized());
   if (pointing.norm() > 1e-6) return snapped(X_BP.rotation * pointing.normalized());
   const ShapePtr& palm = drawn(body_of(hand_.robot, hand_.palm));
-  const Vector3d out = tips_centre() - (palm ? X_BP * palm->centre() : X_BP.position);
+  const Vector3d out = tips_center() - (palm ? X_BP * palm->center() : X_BP.position);
   if (out.norm() > 1e-9) return snapped(out.normalized());
   return {};
 }
@@ -186,18 +186,18 @@ std::optional<Vector3d> BallTrial::touch(const Vector3d& from, const Vector3d& d
 }
 
 bool BallTrial::inside(const Posture& at, const std::vector<int>& links,
-                       const Vector3d& centre) const {
+                       const Vector3d& center) const {
   for (const int l : links) {
-    const Vector3d centre_L = at.poses[l].inverse() * centre;
-    if ((part(l).middle - centre_L).norm() > part(l).radius + radius_) continue;
+    const Vector3d center_L = at.poses[l].inverse() * center;
+    if ((part(l).middle - center_L).norm() > part(l).radius + radius_) continue;
     for (const Vector3d& p : part(l).points)
-      if ((p - centre_L).squaredNorm() < radius_ * radius_) return true;
+      if ((p - center_L).squaredNorm() < radius_ * radius_) return true;
   }
   return false;
 }
 
 // DOF by DOF, a step each, until its links would enter the ball
-Posture BallTrial::close_on(const Vector3d& centre) const {
+Posture BallTrial::close_on(const Vector3d& center) const {
   Posture at = open_;
   std::vector<bool> stopped(closing_.size());
   const auto place = [&](const Closing& c) {
@@ -213,7 +213,7 @@ Posture BallTrial::close_on(const Vector3d& centre) const {
       check_stop();
       at.q[c.dof] += c.step;
       place(c);
-      if (!inside(at, c.links, centre)) continue;
+      if (!inside(at, c.links, center)) continue;
       stopped[i] = true;
       at.q[c.dof] -= c.step;
       place(c);
@@ -221,15 +221,15 @@ Posture BallTrial::close_on(const Vector3d& centre) const {
   return at;
 }
 
-double BallTrial::held(const Vector3d& centre) const {
-  const Posture closed = close_on(centre);
+double BallTrial::held(const Vector3d& center) const {
+  const Posture closed = close_on(center);
   const double reach = (1 + touching) * radius_;
-  std::vector<Vector3d> contacts;  // seen from the centre
+  std::vector<Vector3d> contacts;  // seen from the center
   for (int l = -1; l < static_cast<int>(hand_.robot.links.size()); ++l) {
     const Pose X_BL = closed.at(l);
-    if ((X_BL * part(l).middle - centre).norm() > part(l).radius + reach) continue;
+    if ((X_BL * part(l).middle - center).norm() > part(l).radius + reach) continue;
     for (const Vector3d& p_L : part(l).points) {
-      const Vector3d d = X_BL * p_L - centre;
+      const Vector3d d = X_BL * p_L - center;
       if (d.squaredNorm() < reach * reach) contacts.push_back(d.normalized());
     }
   }

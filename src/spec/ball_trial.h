@@ -17,7 +17,7 @@ class BallTrial {
   bool possible() const { return possible_; }
   double radius() const { return radius_; }
   /// Mean position of the tips of the half-closed hand, in the base.
-  Eigen::Vector3d tips_centre() const;
+  Eigen::Vector3d tips_center() const;
   /// Direction in which the hand opens, unit, in the base: the initial direction of the closing
   /// tips, if they agree; otherwise the direction in which the fingers point, or that from the palm
   /// to their tips. Snapped to an axis of the base within 20 degrees of it.
@@ -29,7 +29,7 @@ class BallTrial {
   /// How well the hand surrounds the ball after each DOF has closed until its links touch it: the
   /// minimum, over all directions, of the cosine between the direction and the contact nearest to
   /// it, minus friction. -1 .. 1
-  double held(const Eigen::Vector3d& centre) const;
+  double held(const Eigen::Vector3d& center) const;
 
  private:
   struct Closing {
@@ -51,8 +51,8 @@ class BallTrial {
   std::vector<int> moved_links(int dof) const;
   void add_part(int link);
   bool inside(const Posture& at, const std::vector<int>& links,
-              const Eigen::Vector3d& centre) const;
-  Posture close_on(const Eigen::Vector3d& centre) const;
+              const Eigen::Vector3d& center) const;
+  Posture close_on(const Eigen::Vector3d& center) const;
 
   HandTree hand_;
   Posture open_;

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-// radius of gyration of things without extent, squared: a millimetre
+// radius of gyration of things without extent, squared: a millimeter
 static constexpr double point_inertia = 1e-6;
 
 void check_body(const BodySpec& spec, std::string_view what) {
@@ -44,7 +44,7 @@ Eigen::Vector3d com_of(const BodySpec& spec) {
 // of the solid that the surface bounds; empty when it bounds none
 static std::optional<Eigen::Matrix3d> solid_inertia(const BodySpec& spec) {
   if (!spec.shape->has_volume()) return {};
-  // parallel axes from the centroid to a centre that the file may have put elsewhere
+  // parallel axes from the centroid to a center that the file may have put elsewhere
   const MassProperties& solid = spec.shape->solid();
   const Eigen::Vector3d off = com_of(spec) - solid.centroid;
   const Eigen::Matrix3d inertia =

@@ -13,7 +13,7 @@ namespace clench {
 
 /// Appearance of a body; ignored by physics.
 struct Appearance {
-  /// linear part of the file's diffuse colour, 0..1
+  /// linear part of the file's diffuse color, 0..1
   Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
   float transparency = 0;                        ///< 0 opaque .. 1 invisible
   std::vector<Eigen::Vector3f> triangle_colors;  ///< one per triangle, or empty

@@ -11,12 +11,12 @@ namespace clench {
 
 namespace {
 
-constexpr int samples = 256;       // of all DOFs, for the centre
+constexpr int samples = 256;       // of all DOFs, for the center
 constexpr int steps = 32;          // of a DOF from end to end
 constexpr double along = 0.8;      // axes or ways whose cosine exceeds this are the same way
 constexpr double hardly = 0.02;    // of the way of the tips: nearer by less is not nearer
 constexpr double sideways = 0.15;  // the same for a DOF that swings a finger sideways
-constexpr double rolling = 0.02;   // of the tips' distance to the centre: a shorter way is a roll
+constexpr double rolling = 0.02;   // of the tips' distance to the center: a shorter way is a roll
 constexpr double lopsided = 0.1;   // of the range: a middle farther than this from 0 is no swing
 
 /// The tip of a finger alone, as all its joints are now; the palm stands where it does in
@@ -43,11 +43,11 @@ std::vector<int> moved_fingers(const HandTree& hand, int dof) {
 }
 
 /// Where the tips are on average, in the palm's frame.
-Eigen::Vector3d grasp_centre(const HandTree& hand) {
+Eigen::Vector3d grasp_center(const HandTree& hand) {
   // a single finger closes on what carries it
   if (hand.fingers.size() == 1) {
     const ShapePtr& palm = drawn(body_of(hand.robot, hand.palm));
-    return palm ? palm->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    return palm ? palm->center() : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int s = 0; s < samples; ++s) {
@@ -89,15 +89,15 @@ bool flexes(const HandTree& hand, int dof) {
 /// What the tips do while one DOF goes from where it is to an end.
 struct Way {
   double length = 0;      // that the tips go [m]
-  double nearer = 0;      // most that they come nearer to the centre [m]
+  double nearer = 0;      // most that they come nearer to the center [m]
   double nearest_at = 0;  // the way that they have gone there [m]
   double end = 0;         // nearer at the end [m]
-  double far = 0;         // from the centre at first [m]
+  double far = 0;         // from the center at first [m]
 };
 
 /// `fingers`: those that the DOF moves, whose palm it does not
 Way way_to(const HandTree& hand, const Posture& posture, int dof, const std::vector<int>& fingers,
-           const Eigen::Vector3d& centre, double end) {
+           const Eigen::Vector3d& center, double end) {
   Way way;
   auto q = posture.q;
   const double start = hand.rest.q[dof];
@@ -109,7 +109,7 @@ Way way_to(const HandTree& hand, const Posture& posture, int dof, const std::vec
     double distance = 0;
     for (size_t f = 0; f < fingers.size(); ++f) {
       const Eigen::Vector3d tip = tip_at(hand, posture, q, hand.fingers[fingers[f]]);
-      distance += (tip - centre).norm();
+      distance += (tip - center).norm();
       if (s > 0) way.length += (tip - before[f]).norm();
       before[f] = tip;
     }
@@ -158,16 +158,16 @@ bool beside_another(const HandTree& hand, int dof, const std::vector<Eigen::Vect
   return false;
 }
 
-double sense_of(const HandTree& hand, const Posture& bent, int dof, const Eigen::Vector3d& centre) {
+double sense_of(const HandTree& hand, const Posture& bent, int dof, const Eigen::Vector3d& center) {
   const auto fingers = moved_fingers(hand, dof);
   const auto [low, high] = hand.ranges[dof];
   if (fingers.empty() || hand.turns_without_end(dof)) return 0;
-  Way up = way_to(hand, hand.rest, dof, fingers, centre, high),
-      down = way_to(hand, hand.rest, dof, fingers, centre, low);
+  Way up = way_to(hand, hand.rest, dof, fingers, center, high),
+      down = way_to(hand, hand.rest, dof, fingers, center, low);
   if (up.length + down.length < rolling * up.far) {
     // a straight finger about its own axis: where it goes shows when it is bent
-    up = way_to(hand, bent, dof, fingers, centre, high);
-    down = way_to(hand, bent, dof, fingers, centre, low);
+    up = way_to(hand, bent, dof, fingers, center, high);
+    down = way_to(hand, bent, dof, fingers, center, low);
   }
   const double length = up.length + down.length;
   if (!(length > 0)) return 0;
@@ -189,13 +189,13 @@ std::vector<double> guess_closing(const RobotSpec& robot, const std::vector<bool
   const HandTree hand = hand_tree(robot);
   std::vector<double> senses(robot.dofs.size());
   if (hand.fingers.empty()) return senses;
-  const Eigen::Vector3d centre = grasp_centre(hand);
-  if (!centre.allFinite()) return senses;
+  const Eigen::Vector3d center = grasp_center(hand);
+  if (!center.allFinite()) return senses;
   const Posture bent = half_way(hand);
   std::vector<int> swings;  // DOFs that swing fingers sideways: the others tell how these close
   for (const int dof : hand.dofs) {
     if (passive[dof]) continue;
-    senses[dof] = sense_of(hand, bent, dof, centre);
+    senses[dof] = sense_of(hand, bent, dof, center);
     if (senses[dof] != 0 && !flexes(hand, dof)) swings.push_back(dof);
   }
   auto flexing = senses;

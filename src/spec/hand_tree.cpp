@@ -90,7 +90,7 @@ static void find_fingers(HandTree& hand) {
   for (const int tip : tips) {
     const ShapePtr& shape = drawn(robot.links[tip].body);
     hand.fingers.push_back({tip, links_below(robot, hand.palm, tip),
-                            shape ? shape->centre() : Eigen::Vector3d(Eigen::Vector3d::Zero())});
+                            shape ? shape->center() : Eigen::Vector3d(Eigen::Vector3d::Zero())});
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace clench {
 
-// radii of gyration from a picometre to ten times the bound of coordinates
+// radii of gyration from a picometer to ten times the bound of coordinates
 static constexpr double min_moment = 1e-24, max_moment = 1e20;
 // of the largest moment: rounding
 static constexpr double rounding = 1e-12;

@@ -14,9 +14,9 @@ static std::string counted(int count, const char* one, const char* many) {
 std::string unit_name(double length) {
   static constexpr std::pair<double, const char*> names[] = {
       {1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {0.0254, "inch"}, {0.3048, "foot"}};
-  for (const auto& [metres, name] : names)
+  for (const auto& [meters, name] : names)
     // files write the factor in a few decimals, or in 32 bits
-    if (std::abs(length - metres) <= 1e-6 * metres) return name;
+    if (std::abs(length - meters) <= 1e-6 * meters) return name;
   return fmt::format("{:.6g} m", length);
 }
 
@@ -70,7 +70,7 @@ std::vector<std::string> describe(const MeshReport& report, const Shape& shape) 
   const MassProperties& solid = shape.solid();
   const Eigen::Vector3d c = without_rounding(solid.centroid, size.maxCoeff());
   const Eigen::Matrix3d I = without_rounding(solid.inertia, solid.inertia.cwiseAbs().maxCoeff());
-  out.push_back(fmt::format("volume {:.6g} m^3, centre of mass ({:.6g}, {:.6g}, {:.6g}) m",
+  out.push_back(fmt::format("volume {:.6g} m^3, center of mass ({:.6g}, {:.6g}, {:.6g}) m",
                             solid.volume, c.x(), c.y(), c.z()));
   out.push_back(fmt::format(
       "inertia of each kg: xx {:.4g}, yy {:.4g}, zz {:.4g}, xy {:.4g}, xz {:.4g}, yz {:.4g} m^2",

@@ -38,7 +38,7 @@ static bool within_reach(const BodySpec& body, const Eigen::Vector3d& p) {
   return false;
 }
 
-/// Does a file give a centre of mass far from the surface?
+/// Does a file give a center of mass far from the surface?
 static bool com_is_elsewhere(const BodySpec& body) {
   return body.com && body.shape && !within_reach(body, *body.com);
 }
@@ -97,7 +97,7 @@ void check_plausible_object(const BodySpec& body, const std::string& place,
   else if (const std::string doubt = doubt_given_mass(body); !doubt.empty())
     suspect(listeners, place + ": " + doubt);
   if (com_is_elsewhere(body))
-    suspect(listeners, place + ": its centre of mass is far from its surface: is its unit right?");
+    suspect(listeners, place + ": its center of mass is far from its surface: is its unit right?");
   if (inertia_is_larger(body))
     suspect(listeners,
             place + ": its inertia is that of a much larger body: is it divided by the mass?");
@@ -143,13 +143,13 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
     if (!names.empty())
       suspect(listeners, fmt::format("{}: {}: {}: {}", file, what, some_names(names), question));
   };
-  tell_of(small, "parts smaller than a millimetre", "is the unit of their geometry right?");
+  tell_of(small, "parts smaller than a millimeter", "is the unit of their geometry right?");
   tell_of(large, "parts larger than 3 m",
           "is the unit of their geometry right, or a scale of 0.001 missing?");
   tell_of(heavy, "parts heavier than a tonne", "is the unit of their mass or geometry right?");
   tell_of(dense, "parts ten times denser than any metal, or lighter than air",
           "is the unit of their mass right?");
-  tell_of(off, "parts whose centre of mass is far from their surface", "is its unit right?");
+  tell_of(off, "parts whose center of mass is far from their surface", "is its unit right?");
   tell_of(broad, "parts with the inertia of a much larger body",
           "is its unit right, and its mass?");
   tell_of(outside, "DOFs whose default value lies outside their limits, to which it is moved",

@@ -42,7 +42,7 @@ local function check_sensors(o, count)
   return of_dof, dofs
 end
 
--- Slopes and intercept of one DOF; sensors are centred on their means, so that the intercept is not penalized by the ridge.
+-- Slopes and intercept of one DOF; sensors are centered on their means, so that the intercept is not penalized by the ridge.
 local function fit(samples, used, d, sensors, ridge)
   local mean, mean_value = {}, 0
   for k, s in ipairs(sensors) do

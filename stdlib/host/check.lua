@@ -66,7 +66,7 @@ function print_kind.body(body)
   columns({body_row(body)}, "  ")
   local mesh = body.mesh
   local length = mesh and math.max(table.unpack(mesh.size)) or 0
-  say(("  centre of mass %s m"):format(vector(body.center_of_mass, "%.4g", length)))
+  say(("  center of mass %s m"):format(vector(body.center_of_mass, "%.4g", length)))
   local moment = math.max(body.inertia[1][1], body.inertia[2][2], body.inertia[3][3])
   for i = 1, 3 do
     say((i == 1 and "  inertia        " or "                 ") .. vector(body.inertia[i], "%10.3g", moment) .. " kg m^2")

@@ -20,7 +20,7 @@ local function set_camera(options, text, world)
   end
   local x = scene.numbers_of(text)
   if #x ~= 3 and #x ~= 6 and #x ~= 9 then
-    fail("--camera: expected X,Y,Z in metres, with a point to look at, X,Y,Z,X,Y,Z, and a direction that is up, or 'file', got '%s'", text)
+    fail("--camera: expected X,Y,Z in meters, with a point to look at, X,Y,Z,X,Y,Z, and a direction that is up, or 'file', got '%s'", text)
   end
   for i, key in ipairs {"eye", "target", "up"} do
     if #x >= 3 * i then options[key] = {x[3 * i - 2], x[3 * i - 1], x[3 * i]} end

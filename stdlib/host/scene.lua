@@ -17,7 +17,7 @@ end
 function scene.pose_of(option, text)
   local numbers = scene.numbers_of(text)
   if #numbers ~= 3 and #numbers ~= 6 then
-    fail("%s: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'", option, text)
+    fail("%s: expected X,Y,Z in meters, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '%s'", option, text)
   end
   local pose = {xyz = {numbers[1], numbers[2], numbers[3]}}
   if #numbers == 6 then pose.rpy = {clench.rad(numbers[4]), clench.rad(numbers[5]), clench.rad(numbers[6])} end
@@ -38,7 +38,7 @@ end
 -- "DX,DY,DZ[,X,Y,Z]"
 local function approach_of(text)
   local x = scene.numbers_of(text)
-  if #x ~= 3 and #x ~= 6 then fail("--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in metres, got '%s'", text) end
+  if #x ~= 3 and #x ~= 6 then fail("--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in meters, got '%s'", text) end
   return {direction = {x[1], x[2], x[3]}, point = #x == 6 and {x[4], x[5], x[6]} or nil}
 end
 

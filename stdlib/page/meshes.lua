@@ -17,7 +17,7 @@ function meshes.packed(format, count, number)
   return table.concat(parts)
 end
 
--- one colour per triangle, as bytes; nil where the body has one colour
+-- one color per triangle, as bytes; nil where the body has one color
 local function packed_colors(body)
   local colors = body.triangle_colors
   if not colors or #colors ~= body.visual_mesh.triangle_count then return nil end
@@ -41,7 +41,7 @@ local function packed_mesh(body)
           colors = packed_colors(body)}
 end
 
---- to a micrometre
+--- to a micrometer
 function meshes.rounded(x)
   local value = math.floor(x * 1e6 + 0.5) / 1e6
   return value == 0 and 0 or value

@@ -7,7 +7,7 @@ const view = document.getElementById("view");
 
 const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
 
-// triangles with normals of their own: smooth where neighbours differ by less than 35 degrees, sharp at edges
+// triangles with normals of their own: smooth where neighbors differ by less than 35 degrees, sharp at edges
 function geometryOf(mesh) {
   const p = new Float32Array(bytes(mesh.positions));
   const index = mesh.wide ? new Uint32Array(bytes(mesh.indices)) : new Uint16Array(bytes(mesh.indices));
@@ -87,7 +87,7 @@ const looks = {
   cone: paint(0xf4511e, {side: THREE.DoubleSide}), point: paint(0x8e1b0a),
 };
 const geometries = data.meshes.map(geometryOf);
-// the look of a kind for meshes whose triangles have colours of their own
+// the look of a kind for meshes whose triangles have colors of their own
 const colored = {};
 function lookOf(part) {
   if (!geometries[part.mesh].getAttribute("color")) return looks[part.kind];

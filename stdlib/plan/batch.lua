@@ -3,7 +3,7 @@ local call_script = require "clench.call_script"
 local closing = require "clench.plan.closing"
 local distinct = require "clench.plan.distinct"
 local is_stopped = require "clench.is_stopped"
-local neighbour = require "clench.plan.neighbour"
+local neighbor = require "clench.plan.neighbor"
 local verification = require "clench.plan.verification"
 local batch = {}
 
@@ -26,7 +26,7 @@ local function start_near(job, founders, number)
   local approach = hand.pose:inverse() * hand.approach.point  -- in the frame of its base
   local random = clench.random(job.seed, -number)
   local founder = founders[random:integer(1, #founders)]
-  local state = neighbour(founder.start, founder.grasp.pose * approach, random, random:uniform(0.5, 3), hand, job.object)
+  local state = neighbor(founder.start, founder.grasp.pose * approach, random, random:uniform(0.5, 3), hand, job.object)
   state.is_near = true
   return state
 end

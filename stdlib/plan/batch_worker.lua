@@ -1,14 +1,14 @@
 --- What a thread does with a few starts: from each the hand closes; what is in force closure is made better and verified,
 --- as asked. For clench.parallel.map.
 local closing = require "clench.plan.closing"
-local neighbour = require "clench.plan.neighbour"
+local neighbor = require "clench.plan.neighbor"
 local opposition = require "clench.plan.opposition"
 local quiet = require "clench.plan.quiet"
 local touch = require "clench.plan.touch"
 local verification = require "clench.plan.verification"
 
 -- Refinement increases this measure: epsilon or, of two fingers, the load in the worst direction. The epsilon of two fingers is that about the line
--- between them, which hardly depends on the distance of that line from the centre of mass; the load decreases with it.
+-- between them, which hardly depends on the distance of that line from the center of mass; the load decreases with it.
 local function merit_of(hand, object, shared)
   local verify = shared.verify
   if not (verify and verify.min_load > 0 and #opposition.fingers(hand) == 2) then return function(grasp) return grasp.epsilon end end
@@ -20,12 +20,12 @@ end
 
 -- keeps what is better, from one try to the next nearer to what is kept
 local function improve(hand, object, state, grasp, random, shared)
-  local centre = grasp.pose * (hand.pose:inverse() * hand.approach.point)
+  local center = grasp.pose * (hand.pose:inverse() * hand.approach.point)
   local size, kept, merit = 1, state, merit_of(hand, object, shared)
   local best = merit(grasp)
   local quick = {approach = shared.approach, back = shared.back, grasp = shared.grasp, turn = false}
   for _ = 1, shared.refine do
-    local try = neighbour(kept, centre, random, size, hand, object)
+    local try = neighbor(kept, center, random, size, hand, object)
     local better = closing.close(hand, object, try, quick)
     local value = better and better.collision_free and not touch.fault(shared.touch, better) and merit(better)
     if value and value > best then

@@ -43,7 +43,7 @@ return function(options)
       end
       search:clear()
       search:reset()
-      if done == before then break end  -- no legal neighbour
+      if done == before then break end  -- no legal neighbor
     end
   end)
   told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0}

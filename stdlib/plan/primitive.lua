@@ -36,12 +36,12 @@ local function read_preshapes(read, hand)
   return shapes
 end
 
-local max_size = 10  -- beyond it millimetres are more likely [m]
+local max_size = 10  -- beyond it millimeters are more likely [m]
 
 local function check_size(read, place, size)
   if type(size) ~= "number" or not (size > 0 and size < math.huge) then read:expected(place, "a number > 0", size) end
   if size > max_size then
-    read:fail("%s must be at most %g m, got %.6g: metres? clench.mm(%.6g) is %.4g", place, max_size, size, size, size / 1000)
+    read:fail("%s must be at most %g m, got %.6g: meters? clench.mm(%.6g) is %.4g", place, max_size, size, size, size / 1000)
   end
 end
 

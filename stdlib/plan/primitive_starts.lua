@@ -122,7 +122,7 @@ function kinds.box(p, m, _, add, whole)
     for _, way in ipairs {1, -1} do
       for i = 1, nb do
         for j = 1, nc do
-          -- the original's rule begins a whole edge from the centre, not half of one
+          -- the original's rule begins a whole edge from the center, not half of one
           local point = axes[a] * (way * (size[a] * (whole and 1 or 0.5) + standoff)) +
                         axes[b] * (size[b] * (i / (nb + 1) - 0.5)) + axes[c] * (size[c] * (j / (nc + 1) - 0.5))
           for _, k in ipairs {b, c} do

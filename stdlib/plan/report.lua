@@ -27,7 +27,7 @@ local function tell_steps(lines, r)
   add(lines, "%d steps in %.3g s, %.0f a second; %.0f %% accepted", r.steps, r.seconds, r.steps_per_second,
       share(r.accepted, r.steps))
   if r.first then add(lines, "energy %.4g at first, %.4g at best", r.first, r.best) end
-  add(lines, "neighbours in collision %d, near avoided states %d, steps without a legal neighbour %d", r.in_collision,
+  add(lines, "neighbors in collision %d, near avoided states %d, steps without a legal neighbor %d", r.in_collision,
       r.avoided, r.stuck)
 end
 
@@ -138,9 +138,9 @@ end
 
 local function search_causes(told)
   if not told.steps then return end
-  if told.steps == 0 then return "no legal state was found: all neighbours collide" end
+  if told.steps == 0 then return "no legal state was found: all neighbors collide" end
   if told.in_collision > 4 * told.steps then
-    return ("%d of %d neighbours collided: widen the limits, or move what is in the way"):format(told.in_collision, told.in_collision + told.steps)
+    return ("%d of %d neighbors collided: widen the limits, or move what is in the way"):format(told.in_collision, told.in_collision + told.steps)
   end
   if told.threshold and told.best > told.threshold then
     return ("the energy came down to %.4g and never below %.4g, where grasps are looked for: more steps, wider limits, or another energy"):format(told.best, told.threshold)

@@ -1,5 +1,5 @@
 --- Where a hand may begin: before a point of the object's surface, looking at it, or about two points that face each other;
---- more or less opened. See plan.neighbour for starts near those that succeeded.
+--- more or less opened. See plan.neighbor for starts near those that succeeded.
 local facing = require "clench.plan.facing"
 local opposition = require "clench.plan.opposition"
 local pads = require "clench.plan.pads"
@@ -237,7 +237,7 @@ local max_points = 12  -- from which that of two fingers is chosen
 local function lever_at(at, com) return (com - at.point):cross(at.normal):norm() end
 
 -- A point of the surface. Two fingers hold torques about the line between them by friction alone, so for them the point whose normal passes
--- nearest to the centre of mass is chosen from several.
+-- nearest to the center of mass is chosen from several.
 local function surface_point(hand, object, surface, random)
   local best = any_of(surface, random)
   if not hand.is_two_fingered then return best end

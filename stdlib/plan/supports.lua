@@ -26,7 +26,7 @@ local function are_near(a, b, distance)
 end
 
 -- bodies other than the hand and the object that are near enough to be supports
-local function neighbours(hand, object)
+local function neighbors(hand, object)
   local world, is_hand, list = hand.world, {}, {}
   for _, body in ipairs(hand.bodies) do is_hand[body.name] = true end
   local bounds = object.bounds_in_world
@@ -62,7 +62,7 @@ function supports.of(hand, object)
   local here <close> = world:snapshot()
   local self = setmetatable({touched = {}, overlapped = {}, normals = {}}, Supports)
   local X_WO, up = object.pose, upwards(world)
-  for _, body in ipairs(neighbours(hand, object)) do
+  for _, body in ipairs(neighbors(hand, object)) do
     local normals = normals_of(body, object, X_WO, up)
     if not normals then
       table.insert(self.overlapped, body)

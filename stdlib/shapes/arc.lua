@@ -1,5 +1,5 @@
 -- stdlib/shapes/arc.lua
---- Cosine and sine of step k of n over a quarter turn, exact at both ends so that neighbours weld.
+--- Cosine and sine of step k of n over a quarter turn, exact at both ends so that neighbors weld.
 ---@param k integer  0 to n
 ---@param n integer
 ---@return number cosine, number sine

@@ -1,5 +1,5 @@
 -- stdlib/shapes/axis.lua
---- Where a shape with an axis stands: a length along z, centred on the origin, or the two points of its axis.
+--- Where a shape with an axis stands: a length along z, centered on the origin, or the two points of its axis.
 local vector = require "clench.shapes.vector"
 local mesh = require "clench.shapes.mesh"
 

@@ -4,7 +4,7 @@ local read_options = require "clench.shapes.options"
 local corners = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}
 local faces = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}
 
---- A box centred on the origin, its edges sharp, cut or rounded.
+--- A box centered on the origin, its edges sharp, cut or rounded.
 ---@param options table  {x, y, z, ...} or by name
 ---@option x number [m, > 0]  size along x
 ---@option y number [m, > 0]  size along y

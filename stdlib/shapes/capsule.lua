@@ -3,11 +3,11 @@ local read_options = require "clench.shapes.options"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
---- A rod with round ends along z, centred on the origin, or between the centres of its ends. With two radii it
+--- A rod with round ends along z, centered on the origin, or between the centers of its ends. With two radii it
 --- is the hull of two spheres.
 ---@param options table  {radius, length, ...} or by name
 ---@option radius number [m, > 0]  radius of the ends
----@option length? number [m, > 0]  distance of the centres of the ends
+---@option length? number [m, > 0]  distance of the centers of the ends
 ---@option top? number [m, > 0]  radius of the far end, the same by default
 ---@option from? vec3 [m]  beginning of the axis, in place of the length
 ---@option to? vec3 [m]  end of the axis

@@ -3,7 +3,7 @@ local read_options = require "clench.shapes.options"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
---- A cone or a frustum along z, centred on the origin, or with its axis between two points.
+--- A cone or a frustum along z, centered on the origin, or with its axis between two points.
 ---@param options table  {bottom, top, height, ...} or by name
 ---@option bottom number [m, >= 0]  radius at the bottom
 ---@option top? number [m, >= 0] = 0  radius at the top; at most one of the two is 0

@@ -4,7 +4,7 @@ local arc = require "clench.shapes.arc"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
---- A cylinder along z, centred on the origin, or with its axis between two points.
+--- A cylinder along z, centered on the origin, or with its axis between two points.
 ---@param options table  {radius, height, ...} or by name
 ---@option radius number [m, > 0]  radius of the cylinder
 ---@option height? number [m, > 0]  distance of the ends

@@ -85,17 +85,17 @@ function measure.mass(shape)
   end
   -- of less the quotient overflows
   if math.abs(volume) < 1e-300 then raise("shapes.mass: expected a solid, got a shape without volume") end
-  local centre, spread, inertia = vector.scale(first, 1 / volume), {}, {}
+  local center, spread, inertia = vector.scale(first, 1 / volume), {}, {}
   for i = 1, 3 do
     spread[i] = {}
-    for j = 1, 3 do spread[i][j] = second[i][j] / volume - centre[i] * centre[j] end
+    for j = 1, 3 do spread[i][j] = second[i][j] / volume - center[i] * center[j] end
   end
   local trace = spread[1][1] + spread[2][2] + spread[3][3]
   for i = 1, 3 do
     inertia[i] = {}
     for j = 1, 3 do inertia[i][j] = (i == j and trace or 0) - 0.5 * (spread[i][j] + spread[j][i]) end
   end
-  return {volume = volume, centroid = vector.add(origin, centre), inertia = inertia}
+  return {volume = volume, centroid = vector.add(origin, center), inertia = inertia}
 end
 
 return measure

@@ -1,6 +1,6 @@
 -- stdlib/shapes/mesh.lua
 --- A shape is a plain table {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}: indices from 1,
---- metres, counter-clockwise from outside. `round = true`: its connected parts may be tessellations of balls,
+--- meters, counter-clockwise from outside. `round = true`: its connected parts may be tessellations of balls,
 --- capsules or cylinders, which the engine recognizes; their contacts follow the formulas of these solids. This unit checks, welds and orients such tables.
 local raise = require "clench.raise"
 local described = require "clench.described"

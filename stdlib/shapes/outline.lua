@@ -3,7 +3,7 @@ local within = require "clench.within"
 local read_options = require "clench.shapes.options"
 local polygon = require "clench.shapes.polygon"
 
---- where the arc that rounds the corner p begins and ends, and its centre; nil when the corner is straight
+--- where the arc that rounds the corner p begins and ends, and its center; nil when the corner is straight
 local function corner_arc(p, before, after, radius)
   local ux, uy = before[1] - p[1], before[2] - p[2]
   local vx, vy = after[1] - p[1], after[2] - p[2]
@@ -15,8 +15,8 @@ local function corner_arc(p, before, after, radius)
   local reach, depth = radius / math.tan(half), radius / math.sin(half)
   local bx, by = ux + vx, uy + vy
   local lb = math.sqrt(bx * bx + by * by)
-  local centre = {p[1] + depth * bx / lb, p[2] + depth * by / lb}
-  return centre, {p[1] + reach * ux, p[2] + reach * uy}, math.pi - 2 * half, reach, ux * vy - uy * vx
+  local center = {p[1] + depth * bx / lb, p[2] + depth * by / lb}
+  return center, {p[1] + reach * ux, p[2] + reach * uy}, math.pi - 2 * half, reach, ux * vy - uy * vx
 end
 
 --- A simple polygon with rounded corners, counter-clockwise.
@@ -47,21 +47,21 @@ return function(options)
   local points, n, used = {}, #corners, {}
   for i, p in ipairs(corners) do
     local radius = p[3] or rounding
-    local centre, start, sweep, reach, side
+    local center, start, sweep, reach, side
     if radius > 0 then
-      centre, start, sweep, reach, side = corner_arc(p, corners[(i - 2) % n + 1], corners[i % n + 1], radius)
+      center, start, sweep, reach, side = corner_arc(p, corners[(i - 2) % n + 1], corners[i % n + 1], radius)
     end
-    used[i] = centre and reach or 0
-    if not centre then
+    used[i] = center and reach or 0
+    if not center then
       points[#points + 1] = {p[1], p[2]}
     else
       -- around a convex corner the arc runs counter-clockwise, around a concave one clockwise
       local direction = side < 0 and 1 or -1
-      local x, y = start[1] - centre[1], start[2] - centre[2]
+      local x, y = start[1] - center[1], start[2] - center[2]
       for k = 0, segments do
         local angle = direction * sweep * k / segments
         local c, s = math.cos(angle), math.sin(angle)
-        points[#points + 1] = {centre[1] + c * x - s * y, centre[2] + s * x + c * y}
+        points[#points + 1] = {center[1] + c * x - s * y, center[2] + s * x + c * y}
       end
     end
   end

@@ -42,9 +42,9 @@ function place.turn(shape, axis, angle, about)
   if type(angle) ~= "number" or angle ~= angle or math.abs(angle) == math.huge then
     raise("shapes.turn: the angle must be a finite number, got " .. described(angle))
   end
-  local centre = about and check_vector("shapes.turn", "the point", about) or {0, 0, 0}
+  local center = about and check_vector("shapes.turn", "the point", about) or {0, 0, 0}
   return mesh.map(shape, function(p)
-    return vector.add(centre, vector.turn(vector.sub(p, centre), unit, angle))
+    return vector.add(center, vector.turn(vector.sub(p, center), unit, angle))
   end, "shapes.turn")
 end
 

@@ -31,14 +31,14 @@ local function meet(a, b, c, d)
   return on_segment(a, c, d) or on_segment(b, c, d) or on_segment(c, a, b) or on_segment(d, a, b)
 end
 
---- numbers of the first two edges that meet though they are no neighbours, or of an edge without length
+--- numbers of the first two edges that meet though they are no neighbors, or of an edge without length
 function polygon.crossing(points)
   local n = #points
   local function corner(i) return points[(i - 1) % n + 1] end
   for i = 1, n do
     local a, b = corner(i), corner(i + 1)
     if a[1] == b[1] and a[2] == b[2] then return i, i end
-    -- neighbours meet where they join; they must not fold back onto each other
+    -- neighbors meet where they join; they must not fold back onto each other
     if on_segment(corner(i + 2), a, b) or (n > 3 and on_segment(a, b, corner(i + 2))) then return i, i % n + 1 end
     for j = i + 2, n do
       if not (i == 1 and j == n) and meet(a, b, corner(j), corner(j + 1)) then return i, j end
@@ -119,8 +119,8 @@ function polygon.triangulate(points, subject)
     table.remove(ring, best)
     table.remove(quality, best)
     for i = best - 2, best - 1 do
-      local neighbour = i % (n - 1) + 1
-      quality[neighbour] = ear(points, ring, neighbour) or -1
+      local neighbor = i % (n - 1) + 1
+      quality[neighbor] = ear(points, ring, neighbor) or -1
     end
   end
   triangles[#triangles + 1] = {ring[1], ring[2], ring[3]}

@@ -3,7 +3,7 @@ local read_options = require "clench.shapes.options"
 local arc = require "clench.shapes.arc"
 local skin = require "clench.shapes.skin"
 
---- a rectangle with rounded corners at height z, counter-clockwise; hx, hy reach to the corners' centres
+--- a rectangle with rounded corners at height z, counter-clockwise; hx, hy reach to the corners' centers
 local function rectangle(hx, hy, radius, z, segments)
   local points = {}
   for corner = 0, 3 do
@@ -17,7 +17,7 @@ local function rectangle(hx, hy, radius, z, segments)
   return points
 end
 
---- A box with rounded edges and corners, centred on the origin.
+--- A box with rounded edges and corners, centered on the origin.
 ---@param options table  {x, y, z, ...} or by name
 ---@like clench.shapes.box  x, y, z
 ---@option rounding? number [m, > 0]  radius of the edges, a tenth of the smallest size by default

@@ -1,5 +1,5 @@
 -- stdlib/shapes/skin.lua
---- The closed surface over a stack of rings: bands between neighbours, caps over the ends. A ring is a list of
+--- The closed surface over a stack of rings: bands between neighbors, caps over the ends. A ring is a list of
 --- points; a ring of one point is an apex. All other rings have the same number of points, in step.
 local raise = require "clench.raise"
 local vector = require "clench.shapes.vector"

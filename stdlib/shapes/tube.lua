@@ -55,17 +55,17 @@ local function mitred(o, section, p, i, dir_in, dir_out, x, angle, radius)
 end
 
 --- rings that round an end off to a point: half an ellipsoid over the end ring, rising along `dir`
-local function dome(ring, centre, dir, height, steps)
+local function dome(ring, center, dir, height, steps)
   local rings = {}
   for k = 1, steps - 1 do
     local c, s = arc(k, steps)
     local smaller = {}
     for i, p in ipairs(ring) do
-      smaller[i] = vector.along(vector.along(centre, c, vector.sub(p, centre)), s * height, dir)
+      smaller[i] = vector.along(vector.along(center, c, vector.sub(p, center)), s * height, dir)
     end
     rings[k] = smaller
   end
-  rings[steps] = {vector.along(centre, height, dir)}
+  rings[steps] = {vector.along(center, height, dir)}
   return rings
 end
 

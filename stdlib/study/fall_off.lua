@@ -5,7 +5,7 @@ local push_along_axes = require "clench.study.motion.push_along_axes"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
---- Load and time at which a hand loses an object. The hand presses as in study.shake; then a force at the object's centre of mass grows along each
+--- Load and time at which a hand loses an object. The hand presses as in study.shake; then a force at the object's center of mass grows along each
 --- axis of the world in turn, from zero by `rate`, until the object is displaced by max_distance or max_angle.
 ---@param options table  the grasp, the test and the grip
 ---@like clench.study.shake  hand, object, world

@@ -13,7 +13,7 @@ function put_back.check_stands(subject, grasp)
   raise(subject .. ": the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does")
 end
 
-local same = 1e-6  -- of metres and radians: as the engine compares a grasp with its world
+local same = 1e-6  -- of meters and radians: as the engine compares a grasp with its world
 
 local function stale(subject, what)
   raise(("%s: %s since the grasp was measured; measure it anew"):format(subject, what), "stale")
@@ -42,7 +42,7 @@ local function copy(subject, grasp)
   return {world = world, hand = hand, object = object, pose = object.pose, start = world:snapshot()}
 end
 
---- A copy of the world in which the hand grasps the object as it did, relative to where that is now, with its DOFs, joints and centre of mass.
+--- A copy of the world in which the hand grasps the object as it did, relative to where that is now, with its DOFs, joints and center of mass.
 ---@param subject string  "study.robustness"
 ---@param grasp grasp
 ---@return {world: world, hand: robot, object: body, pose: pose, start: snapshot}  pose: of the object

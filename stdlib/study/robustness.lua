@@ -58,7 +58,7 @@ end
 --- The quality of a grasp under errors of pose, friction and normals. Each sample draws errors of the
 --- normal distribution; where the object is out of place, the hand, put back to how it grasped the object, is opened as far as it takes to be free of it, a
 --- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
---- The centre of mass and rho are those with which the grasp was measured.
+--- The center of mass and rho are those with which the grasp was measured.
 --- The same seed gives the same numbers, and sample i the same in longer runs.
 ---@param grasp grasp  grasp to disturb
 ---@param options? table  the disturbances, as standard deviations
@@ -87,7 +87,7 @@ return function(grasp, options)
 
   local moves = position > 0 or angle > 0
   local placed = moves and put_back.copy(read.subject, grasp)
-  if placed then suspect.millimetres(read.subject, "position", position, size_of(placed.object)) end
+  if placed then suspect.millimeters(read.subject, "position", position, size_of(placed.object)) end
   suspect.degrees(read.subject, "angle", angle)
   suspect.degrees(read.subject, "normal", normal)
   local alike = grasp.options

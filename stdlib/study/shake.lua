@@ -6,7 +6,7 @@ local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
 --- The six-direction force test. In a copy of the world that holds nothing but the hand, what carries it and the object, the
---- hand first presses without gravity, `grip_seconds` long, and all comes to rest, `settle` long. Then a force pushes the object's centre of mass along each axis of the
+--- hand first presses without gravity, `grip_seconds` long, and all comes to rest, `settle` long. Then a force pushes the object's center of mass along each axis of the
 --- world in turn, each time from that state. Motors hold with the gains of their files; those without swing back at 60 rad/s with the object's mass on their lever. The object is held while it is displaced from there, as the hand's base sees it, by
 --- less than max_distance and max_angle.
 --- What holds only if its friction, or the torsion of a patch of contacts, is all that the model says, is called lost: contacts have three quarters of

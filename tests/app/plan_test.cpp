@@ -69,8 +69,8 @@ TEST_CASE("wrong options of plan are reported in one sentence, before the search
        "-o: expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format, got "
        "'a.foo'");
   said("--pose 1,2",
-       "--pose: expected X,Y,Z in metres, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
-  said("--pose 1,2,nan", "--pose: expected X,Y,Z in metres");
+       "--pose: expected X,Y,Z in meters, or X,Y,Z,ROLL,PITCH,YAW with degrees, got '1,2'");
+  said("--pose 1,2,nan", "--pose: expected X,Y,Z in meters");
   said("--obstacle-pose 0,0,0", "--obstacle-pose is given 1 times, and --obstacle 0 times");
   said("--format csv", "--format says how -o FILE is written, and there is no -o");
   said("-o " + (folder / "a.json"), "-o: a.json: .json may be several formats");
@@ -359,6 +359,6 @@ TEST_CASE("plan names what is wrong with --friction, --close, --approach and --d
   said("--distance x", "--distance: expected a number >= 0, got 'x'");
   said("--close 1,,2", "--close: expected DOFs by number or name, as in 1,-2,thumb, got '1,,2'");
   said("--close thmb", "thmb");
-  said("--approach 0,0", "--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in metres");
+  said("--approach 0,0", "--approach: expected DX,DY,DZ, or DX,DY,DZ,X,Y,Z with a point in meters");
   said("--material rbber --friction", "--friction");
 }

@@ -32,7 +32,7 @@ std::vector<Vector3d> edges_of(const Vector3d& n, double mu, int count) {
   return edges;
 }
 
-/// columns (force; torque about the centre of mass / rho)
+/// columns (force; torque about the center of mass / rho)
 Eigen::MatrixXd wrenches_of(const json& grasp) {
   const Vector3d com = vector_of(grasp.at("com"));
   const double rho = grasp.at("rho");

@@ -80,7 +80,7 @@ TEST_CASE("wrong options of render are reported in one sentence") {
   said(world + "--size 10x10",
        "--size: expected WIDTHxHEIGHT, 16x16 to 8192x8192 pixels, got '10x10'");
   said(world + "--quality fine", "--quality: fine not in {");
-  said(world + "--camera 1,2", "--camera: expected X,Y,Z in metres, with a point to look at");
+  said(world + "--camera 1,2", "--camera: expected X,Y,Z in meters, with a point to look at");
   said(world + "--pick 1",
        "--pick is about a list of grasps, and worlds/dlr_flask.wld is a file of kind 'world'");
   said("no.wld -o " + out, "no such file: no.wld", 1);

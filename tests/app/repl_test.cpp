@@ -194,7 +194,7 @@ TEST_CASE("Tab completes files, bodies, measures and options") {
   terminal.enter("#'" + (home / "so") + "\twh\tlo\t'");
   terminal.wait_for(fmt::format("{}\r\n", (home / "some/where/long_name.lua").size()));
   terminal.wait_for("> ");
-  // of the catalogue, from any folder
+  // of the catalog, from any folder
   terminal.enter("#'worlds/dlr_\t'");
   terminal.wait_for(fmt::format("{}\r\n", std::string("worlds/dlr_flask.wld").size()));
 }

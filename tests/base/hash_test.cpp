@@ -24,7 +24,7 @@ TEST_CASE("where a text ends counts") {
   CHECK(hash_of(std::string_view("")) != hash_of());
 }
 
-TEST_CASE("neighbouring words do not collide") {
+TEST_CASE("neighboring words do not collide") {
   std::set<uint64_t> seen;
   for (uint64_t i = 0; i < 10000; ++i) seen.insert(hash_of(i));
   CHECK(seen.size() == 10000);

@@ -2,7 +2,7 @@
 
 using namespace clench;
 
-TEST_CASE("edits count inserts, drops, exchanges and swaps of neighbours") {
+TEST_CASE("edits count inserts, drops, exchanges and swaps of neighbors") {
   CHECK(edit_distance("flask", "flask") == 0);
   CHECK(edit_distance("flsk", "flask") == 1);
   CHECK(edit_distance("flaask", "flask") == 1);

@@ -1,6 +1,6 @@
 -- How many random approaches of a hand end in force closure: clench run tests/bench/approaches.lua HAND TRIALS [OBJECT | DOF=VALUE | search]...
 --
--- An object in a random orientation stands with its centre of mass on the hand's line of approach; the opened hand comes along that line
+-- An object in a random orientation stands with its center of mass on the hand's line of approach; the opened hand comes along that line
 -- until it touches, and closes. Objects are of wood unless their files say otherwise; without any, they are a cube, a ball and a can, 6 cm wide. DOFs
 -- with a value stand there from the first on. With `search` the same trials are made along lines beside the hand's own and leaning from it, too:
 -- on which most succeed, and how many objects at least one of them grasps as they stand. The best of them and the hand's own are then tried on four

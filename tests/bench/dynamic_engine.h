@@ -12,7 +12,7 @@ class DynamicEngine {
  public:
   virtual ~DynamicEngine() = default;
   virtual void step(int count) = 0;
-  virtual Pose pose(int part) const = 0;  ///< of its centre
+  virtual Pose pose(int part) const = 0;  ///< of its center
   virtual Eigen::Vector3d velocity(int part) const = 0;
 };
 

@@ -60,7 +60,7 @@ DynamicScene pinched_capsule(double force, double gap);
 /// The same pads about a cube, whose weight is that which friction `share` of mu would just hold.
 DynamicScene critical_grip(double share, double gap);
 
-/// Closed and centred; round ones have corners at 0, 120 and 180 degrees, where our scenes touch
+/// Closed and centered; round ones have corners at 0, 120 and 180 degrees, where our scenes touch
 /// them.
 Mesh mesh_of(const Part& part);
 

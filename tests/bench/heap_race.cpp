@@ -22,7 +22,7 @@ double max_depth(const DynamicEngine& engine, const DynamicScene& scene) {
       if (scene.parts[i].mass == 0 && scene.parts[j].mass == 0) continue;
       const Pose X_WA = engine.pose(i), X_AB = X_WA.inverse() * engine.pose(j);
       const Shape &a = *shapes[i], &b = *shapes[j];
-      if ((X_AB * b.centre() - a.centre()).norm() > a.radius() + b.radius()) continue;
+      if ((X_AB * b.center() - a.center()).norm() > a.radius() + b.radius()) continue;
       depth = std::max(depth, penetration(a, b, X_AB).depth);
     }
   return depth;

@@ -69,7 +69,7 @@ double lattice_depth(const Shape& a, const Shape& b, const Pose& X, double step)
   return deepest;
 }
 
-// steps of a fraction of a millimetre, and a turn with them
+// steps of a fraction of a millimeter, and a turn with them
 Pose step_from(const Pose& X, int step) {
   const double t = step;
   Pose next = X;

@@ -1,4 +1,4 @@
-// Bullet: GImpact, its trees of quantised boxes for moving meshes, in single precision.
+// Bullet: GImpact, its trees of quantized boxes for moving meshes, in single precision.
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>

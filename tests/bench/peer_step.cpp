@@ -84,7 +84,7 @@ class FclEmbreeStep : public PeerStep {
   }
 
   bool step() {
-    const double warm = schedule_.neighbour_scale * schedule_.neighbour_temperature(double(k_));
+    const double warm = schedule_.neighbor_scale * schedule_.neighbor_temperature(double(k_));
     Values next;
     bool legal = false;
     for (int i = 0; i < 11 && !legal; ++i) {

@@ -11,7 +11,7 @@ namespace clench::bench {
 class PeerStep {
  public:
   virtual ~PeerStep() = default;
-  /// Takes so many steps with a legal neighbour.
+  /// Takes so many steps with a legal neighbor.
   virtual void run(int count) = 0;
   virtual double energy() const = 0;
   virtual const Values& values() const = 0;

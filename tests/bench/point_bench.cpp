@@ -28,10 +28,10 @@ void measure_points(const std::string& name, const Shape& shape, int count, Repo
   for (int begin = 0; begin < count; begin += block) {
     std::vector<Question> questions;
     for (int i = 0; i < block; ++i) {
-      const Eigen::Vector3d p = shape.centre() + shape.radius() * random.uniform(0.5, 1.5) *
+      const Eigen::Vector3d p = shape.center() + shape.radius() * random.uniform(0.5, 1.5) *
                                                      test::random_direction(random);
       const Eigen::Vector3d inside =
-          shape.centre() + 0.5 * shape.radius() * test::random_direction(random);
+          shape.center() + 0.5 * shape.radius() * test::random_direction(random);
       questions.push_back(
           {p, p + 2e-4 * test::random_direction(random), (inside - p).normalized()});
     }
@@ -78,7 +78,8 @@ void measure_building(const std::string& name, const Shape& shape, Report& repor
   Times build, bytes;
   for (int i = 0; i < 5; ++i) {
     std::vector<double> time;
-    const auto again = timed(time, [&] { return std::make_unique<Tree>(shape.mesh(), Progress()); });
+    const auto again =
+        timed(time, [&] { return std::make_unique<Tree>(shape.mesh(), Progress()); });
     build["ours"].push_back(time[0] / count);
     const double mesh = static_cast<double>(shape.mesh().vertices.size() * sizeof(Eigen::Vector3d) +
                                             shape.mesh().triangles.size() * sizeof(Triangle));

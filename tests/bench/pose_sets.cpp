@@ -65,7 +65,7 @@ std::vector<Pose> poses_of(const MeshPair& pair, const Situation& situation, int
     Pose X{test::random_turn(random), Eigen::Vector3d::Zero()};
     const Eigen::Vector3d way = test::random_direction(random);
     const double gap = random.uniform(situation.low, situation.high);
-    X.position = a.centre() + (a.radius() + b.radius() + 0.01) * way - X.rotation * b.centre();
+    X.position = a.center() + (a.radius() + b.radius() + 0.01) * way - X.rotation * b.center();
     const Distance d = distance(a, b, X);
     X.position += (d.distance - gap) * (d.p_a - d.p_b).normalized();
     // a way in of one place may be a way past another

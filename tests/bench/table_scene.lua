@@ -37,7 +37,7 @@ local function is_there(path)
   return file ~= nil
 end
 
--- Drops the object from a millimetre above the table, and waits until it is at rest.
+-- Drops the object from a millimeter above the table, and waits until it is at rest.
 local function rest(world, object)
   object.pose = {xyz = {0, 0, 0.001 - object.mesh.bounds.low.z}}
   world:run(settling)

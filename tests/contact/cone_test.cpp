@@ -93,7 +93,7 @@ TEST_CASE("the wrenches of the original's contacts come out again") {
     const auto vector = [](const nlohmann::json& v) {
       return Eigen::Vector3d(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
     };
-    // millimetres throughout: the ratio to rho has no unit
+    // millimeters throughout: the ratio to rho has no unit
     ConeOptions options{.rho = measured["gws_max_radius"], .p_OM = vector(measured["gws_cog"])};
     for (const auto& c : measured["grasp_contact_list"]) {
       options.edges = c["friction_edges"];

@@ -159,7 +159,7 @@ TEST_CASE(
             CHECK(reach_of(patch, force, x) <= 1.0001 * std::min(half_x, blunt));
             CHECK(reach_of(patch, force, y) <= 1.0001 * std::min(half_y, blunt));
             CHECK(reach_of(patch, force, x) >= 0.98 * std::min(half_x, blunt));
-            // what is beyond the neighbourhood of 3.5 mm is not sure to touch where a pad is narrow
+            // what is beyond the neighborhood of 3.5 mm is not sure to touch where a pad is narrow
             CHECK(reach_of(patch, force, y) >= 0.75 * std::min({half_y, blunt, patch.radius}));
             // even pressure over the pad: mean distance from its middle, by sums
             double sum = 0;

@@ -56,7 +56,7 @@ double socket(double radius, double x, double y) {
 
 TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn") {
   Random random(1);
-  // edges of 11, 5.5, 2.8, 1.4, 0.7 mm beside a neighbourhood of 3.5 mm: the error falls by more
+  // edges of 11, 5.5, 2.8, 1.4, 0.7 mm beside a neighborhood of 3.5 mm: the error falls by more
   // than four with each halving
   const double tolerance[] = {0.2, 0.03, 0.004, 5e-4, 1e-4};
   for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
@@ -70,7 +70,7 @@ TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn"
     check_radii(drop(test::ball(0.02, 20, 40), test::random_turn(random)), 0.02, 0.02, 0.005);
 }
 
-TEST_CASE("a ball's size does not matter, even where it is smaller than the neighbourhood") {
+TEST_CASE("a ball's size does not matter, even where it is smaller than the neighborhood") {
   Random random(2);
   for (const double radius : {0.002, 0.003, 0.005, 0.01, 0.05})
     check_radii(drop(test::icosphere(radius, 4), test::random_turn(random)), radius, radius, 0.002);
@@ -226,7 +226,7 @@ TEST_CASE("the order of contacts does not matter, to the bit") {
   CHECK(torsion_radius(one, 5) == torsion_radius(two, 5));
 }
 
-TEST_CASE("contacts share a patch where their neighbourhoods overlap and look the same way") {
+TEST_CASE("contacts share a patch where their neighborhoods overlap and look the same way") {
   int sites = 0;
   press(test::floor_board(), test::box(0.1, 0.1, 0.1), Pose::translation({0, 0, 0.05 + gap}), {},
         &sites);
@@ -234,7 +234,7 @@ TEST_CASE("contacts share a patch where their neighbourhoods overlap and look th
   const SoftPatch small = press(test::floor_board(), test::box(0.006, 0.006, 0.002),
                                 Pose::translation({0, 0, 0.001 + gap}), {}, &sites);
   CHECK(sites == 1);
-  CHECK(small.centre_A.head<2>().norm() < 1e-9);
+  CHECK(small.center_A.head<2>().norm() < 1e-9);
   // in a right-angled groove a small ball has two
   const double h = std::sqrt(2.0) * (0.003 + gap);
   const auto groove = [](double x, double) { return std::abs(x); };
@@ -274,7 +274,7 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   const ContactEllipse at_corner = contact_ellipse(corner, 5), at_edge = contact_ellipse(edge, 5);
   for (const double a : at_corner.semi_axes)
     CHECK(a == doctest::Approx(flat_indentation).epsilon(0.12));
-  // the strip |y| < d to the end of the neighbourhood is one of 2 d / sqrt(3) by 2 radius /
+  // the strip |y| < d to the end of the neighborhood is one of 2 d / sqrt(3) by 2 radius /
   // sqrt(3), the rhomb in it one of sqrt(2/3) d by sqrt(2/3) radius; the rays see something between
   const std::array<double, 2> size = {flat_indentation, edge.radius};
   for (int i = 0; i < 2; ++i) {
@@ -405,11 +405,11 @@ TEST_CASE("a radius beyond 1 m goes over into that of flat surfaces, without a s
   }
 }
 
-TEST_CASE("the neighbourhood shrinks with the modulus, between 3 and 10 mm") {
-  CHECK(neighbourhood_radius(1.5e6) == doctest::Approx(0.4 / std::cbrt(1.5e6)));
-  CHECK(neighbourhood_radius(1e5) == doctest::Approx(0.4 / std::cbrt(1e5)));
-  CHECK(neighbourhood_radius(1e9) == 0.005);
-  CHECK(neighbourhood_radius(1e4) == 0.005);
+TEST_CASE("the neighborhood shrinks with the modulus, between 3 and 10 mm") {
+  CHECK(neighborhood_radius(1.5e6) == doctest::Approx(0.4 / std::cbrt(1.5e6)));
+  CHECK(neighborhood_radius(1e5) == doctest::Approx(0.4 / std::cbrt(1e5)));
+  CHECK(neighborhood_radius(1e9) == 0.005);
+  CHECK(neighborhood_radius(1e4) == 0.005);
 }
 
 namespace {
@@ -532,7 +532,7 @@ TEST_CASE("numbers that are none are refused") {
                       .elastic_b = {.modulus = rubber},
                       .radius = 0.0035,
                       .points_A = {Vector3d::Zero()},
-                      .centre_A = Vector3d::Zero(),
+                      .center_A = Vector3d::Zero(),
                       .normal_A = Vector3d::UnitZ()};
   CHECK_THROWS_WITH_AS(soft_patch(site, {.radius = -1}),
                        "contact patch: radius must be > 0 [m], got -1", Error);

@@ -27,7 +27,7 @@ Mesh uneven_sphere(Random& random, int subdivisions) {
   return mesh;
 }
 
-/// The same diagonals in no order: of two neighbours every third is cut the other way.
+/// The same diagonals in no order: of two neighbors every third is cut the other way.
 void turn_diagonals(Mesh& mesh, Random& random) {
   for (size_t t = 0; t + 1 < mesh.triangles.size(); t += 2) {
     auto& [a, b, c] = mesh.triangles[t];
@@ -135,7 +135,7 @@ TEST_CASE("ellipsoids of uneven meshes bend as the formula says, wherever they t
       (subdivisions == 3 ? coarse : fine).add(errors_of(land(mesh, turn), form));
     }
   }
-  // a half more than was found: edges of 3 mm and 1.5 mm beside a neighbourhood of 3.5 mm. Radii
+  // a half more than was found: edges of 3 mm and 1.5 mm beside a neighborhood of 3.5 mm. Radii
   // enter the torsion by the power 1/8
   coarse.check(0.1, 0.08, 0.013);
   fine.check(0.045, 0.05, 0.008);
@@ -211,7 +211,7 @@ TEST_CASE("a box rounded by 12 mm touches with balls at its corners and cylinder
     Vector3d n = test::random_direction(random).cwiseAbs();
     if (!corner) n.x() = 0;
     n.normalize();
-    // the neighbourhood reaches 17 degrees around, which is to be on one ball or cylinder
+    // the neighborhood reaches 17 degrees around, which is to be on one ball or cylinder
     if ((corner ? n.minCoeff() : std::min(n.y(), n.z())) < 0.35) continue;
     const Pose turn{shortest_rotation(n, -Vector3d::UnitZ()), Vector3d::Zero()};
     const Matrix3d round_form = (Matrix3d::Identity() - n * n.transpose()) / round;

@@ -59,7 +59,7 @@ TEST_CASE(
       normal.push_back(c.force_W.dot(up));
   REQUIRE(normal.size() == 4);
   std::ranges::sort(normal);
-  // moments about the centre: friction acts half an edge below it. Rounding of the gaps spreads
+  // moments about the center: friction acts half an edge below it. Rounding of the gaps spreads
   // what is redundant a little
   const double each = mass * g * std::cos(angle) / 4;
   for (int i = 0; i < 4; ++i)
@@ -149,7 +149,7 @@ TEST_CASE(
   table.set_friction("wood", "wood", {.statics = 0, .kinetic = 0});
   BodySpec spec = body_spec("ball", ball(radius));
   const auto a = table.add_body(spec, BodyKind::object, {}, "a");
-  // its centre lies half a diameter off the way of the first: the line of centres is at 30 degrees
+  // its center lies half a diameter off the way of the first: the line of centers is at 30 degrees
   const auto b = table.add_body(spec, BodyKind::object, Pose::translation({0.4, radius, 0}), "b");
   table.set_restitution(a, 1);
   table.set_twist(a, {{1, 0, 0}, {0, 0, 0}});
@@ -195,7 +195,7 @@ TEST_CASE("two equal boxes that meet head-on exchange their velocities, or share
   }
 }
 
-TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimetre") {
+TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimeter") {
   World world;
   world.set_gravity({0, 0, 0});
   world.add_body(body_spec("sheet", box(1e-4, 1, 1)), BodyKind::obstacle, {}, "sheet");
@@ -368,7 +368,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a ball whose centre has come into a plate is pushed out of it, and contacts tell its weight "
+    "a ball whose center has come into a plate is pushed out of it, and contacts tell its weight "
     "once") {
   Slope floor(0);
   const double radius = 0.02;

@@ -100,7 +100,7 @@ TEST_CASE("a tendon of a wrong DOF, arm or range is refused by name") {
 
 namespace {
 
-/// A box that moves freely, 2 m x 1 m x 1 m, of 3 kg, whose frame's origin may be off its centre.
+/// A box that moves freely, 2 m x 1 m x 1 m, of 3 kg, whose frame's origin may be off its center.
 struct Free {
   World world;
   Id<Body> id;
@@ -140,7 +140,7 @@ TEST_CASE("free damping stops turning, however strong, and acts on the origin of
   turning.world.set_twist(turning.id, {{0, 0, 0}, {0, 0, 5}});
   run(turning.world, 0.05);
   CHECK(turning.world.twist(turning.id).angular.norm() < 1e-3);
-  // far from the centre of mass a falling body begins to turn
+  // far from the center of mass a falling body begins to turn
   Free off([](BodySpec& b) { b.free_damping = 6; }, {1, 0, 0});
   run(off.world, 0.1);
   CHECK(off.world.twist(off.id).angular.y() > 0.01);

@@ -244,7 +244,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it by its inertia") {
-  // the arm hangs along -z; its base is jerked along x: the rod's centre stays, but for what the
+  // the arm hangs along -z; its base is jerked along x: the rod's center stays, but for what the
   // hinge pulls
   World world;
   const auto id = add_free_robot(world, pendulum(1));
@@ -254,7 +254,7 @@ TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it b
   stepper.solve(1e-6);
   const Body& rod = world.body(world.robot(id).links[0].body);
   const double inertia = rod.inertia_per_mass(1, 1) + 0.25;
-  // momentum about the hinge: I w = m l/2 v, in the sense that lets the centre behind
+  // momentum about the hinge: I w = m l/2 v, in the sense that lets the center behind
   CHECK(std::abs(world.dof_velocities(id)[0]) == doctest::Approx(0.5 / inertia).epsilon(1e-9));
   CHECK(world.twist(world.robot(id).links[0].body).linear.x() ==
         doctest::Approx(1 - 0.25 / inertia).epsilon(1e-9));

@@ -67,7 +67,7 @@ TEST_CASE("corners that slide over a face touch where measuring anew finds them"
       const Manifold fresh = pair.fresh();
       REQUIRE(fresh.points.size() == followed.points.size());
       CHECK(fresh.X_AB == followed.X_AB);
-      // coordinates of some metres round to 1e-15
+      // coordinates of some meters round to 1e-15
       CHECK(std::abs(fresh.clearance - followed.clearance) < 1e-14);
       for (const ManifoldPoint& p : fresh.points) {
         for (const bool of_a : {true, false}) CHECK(apart(p, followed, of_a) < 1e-14);

@@ -63,7 +63,7 @@ TEST_CASE("a contact whose sliding presses it on, or lifts it") {
   }
 }
 
-// a box of 1 kg on its four corners, 0.2 m wide, whose centre is 0.1 m high
+// a box of 1 kg on its four corners, 0.2 m wide, whose center is 0.1 m high
 static FrictionProblem box(const Vector3d& velocity, double mu) {
   MatrixXd J(12, 6);
   FrictionProblem problem;

@@ -9,7 +9,7 @@ using namespace clench::test;
 
 namespace {
 
-// boxes side by side on a table, so near that neighbours touch
+// boxes side by side on a table, so near that neighbors touch
 World crowd(int side, DynamicsEngine engine = DynamicsEngine::clench,
             FrictionCone cone = FrictionCone::round) {
   World world;

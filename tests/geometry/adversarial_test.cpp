@@ -90,7 +90,7 @@ TEST_CASE("slivers, doubled, open and flat meshes: every query equals all pairs 
     }
 }
 
-TEST_CASE("at a micrometre, a kilometre away, and of very different sizes the same holds") {
+TEST_CASE("at a micrometer, a kilometer away, and of very different sizes the same holds") {
   Random random(2);
   const Mesh mesh = potato(random, 1, 5);
   struct Case {
@@ -164,7 +164,7 @@ void fill(Random& random, BoxBundle& boxes, TriangleBundle& triangles) {
     const Eigen::Matrix3d axes = random_turn(random).toRotationMatrix();
     for (int k = 0; k < 3; ++k) {
       for (int m = 0; m < 3; ++m) boxes.axes[3 * k + m][i] = static_cast<float>(axes(m, k));
-      boxes.centre[k][i] = static_cast<float>(random.normal());
+      boxes.center[k][i] = static_cast<float>(random.normal());
       boxes.half[k][i] = static_cast<float>(random.uniform(0, 0.5));
     }
     boxes.size[i] = 1;

@@ -50,7 +50,7 @@ TEST_CASE("real meshes: the closest point is that of all triangles") {
   Random random(2);
   const auto apple = Shape::make(read_obj(shared() / "data" / "ycb" / "013_apple.obj"));
   for (int i = 0; i < 20; ++i)
-    check_against_all_triangles(*apple, apple->centre() + random_point(random, 0.1), i);
+    check_against_all_triangles(*apple, apple->center() + random_point(random, 0.1), i);
 }
 
 TEST_CASE("whatever triangle a search begins at, it finds the same point and triangle") {

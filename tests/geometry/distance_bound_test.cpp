@@ -26,7 +26,7 @@ TEST_CASE(
     // the walk allows 64 roundings of single precision of what it adds up, twice where it stops and
     // twice in its answer
     const double extent = X_AB.position.norm() + 2 * (a->radius() + b->radius()) +
-                          a->centre().norm() + b->centre().norm();
+                          a->center().norm() + b->center().norm();
     const double rounding = 4 * 64 * 0x1p-24 * 2 * extent;
     std::array<int, 2> none = {-1, -1};
     const double bound = distance_bound(*a, *b, X_AB, limit, part, none);

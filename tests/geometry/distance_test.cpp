@@ -140,7 +140,7 @@ TEST_CASE("a warm cache gives the distance of a cold one to the bit, along a ran
   CHECK(hits < 290);
 }
 
-TEST_CASE("distance keeps its digits at a micrometre, and a kilometre from the origin") {
+TEST_CASE("distance keeps its digits at a micrometer, and a kilometer from the origin") {
   Random random(5);
   const Mesh mesh = potato(random, 1, 6);
   const auto a = Shape::make(mesh), b = Shape::make(scaled(mesh, 0.5));
@@ -168,7 +168,7 @@ TEST_CASE("real meshes: shortened by what they are moved, and symmetric") {
   const auto cup = load("065-c_cups.obj"), driver = load("043_phillips_screwdriver.obj");
   CHECK(cup->faults().closed());
   for (int i = 0; i < 20; ++i) {
-    const Pose X{random_turn(random), cup->centre() + 0.3 * random_direction(random)};
+    const Pose X{random_turn(random), cup->center() + 0.3 * random_direction(random)};
     PairCache cache;
     const Distance d = distance(*cup, *driver, X, infinity, &cache);
     if (d.distance == 0) continue;

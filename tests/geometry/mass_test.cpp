@@ -9,7 +9,7 @@ using namespace clench::test;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-TEST_CASE("a box has the volume, centre and inertia of the formulas, wherever it stands") {
+TEST_CASE("a box has the volume, center and inertia of the formulas, wherever it stands") {
   Random random(1);
   const Vector3d size(0.1, 0.25, 0.4);
   const Vector3d squares = size.cwiseAbs2();
@@ -40,18 +40,18 @@ TEST_CASE("a finer and finer ball approaches the formulas with the square of the
   CHECK(last < 2e-3);
 }
 
-TEST_CASE("parts add up: volumes, and centres by volume") {
+TEST_CASE("parts add up: volumes, and centers by volume") {
   Random random(2);
   const Pose A = random_pose(random, 1), B = random_pose(random, 1);
   const Mesh a = moved(box(1, 2, 3), A), b = moved(ball(0.7), B);
   const MassProperties ma = solid_mass(a), mb = solid_mass(b), both = solid_mass(joined(a, b));
   CHECK(both.volume == doctest::Approx(ma.volume + mb.volume).epsilon(1e-13));
-  const Vector3d centre = (ma.volume * ma.centroid + mb.volume * mb.centroid) / both.volume;
-  CHECK((both.centroid - centre).norm() < 1e-14);
+  const Vector3d center = (ma.volume * ma.centroid + mb.volume * mb.centroid) / both.volume;
+  CHECK((both.centroid - center).norm() < 1e-14);
   // parallel axes
   Matrix3d inertia = Matrix3d::Zero();
   for (const MassProperties& m : {ma, mb}) {
-    const Vector3d r = m.centroid - centre;
+    const Vector3d r = m.centroid - center;
     inertia += m.volume / both.volume *
                (m.inertia + r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
   }
@@ -66,7 +66,7 @@ TEST_CASE("inside out changes the sign of the volume and nothing else") {
   CHECK((m.inertia - turned.inertia).norm() < 1e-14);
 }
 
-TEST_CASE("a flat sheet has no volume, and the centre of its surface") {
+TEST_CASE("a flat sheet has no volume, and the center of its surface") {
   Mesh sheet;
   sheet.vertices = {{1, 1, 5}, {3, 1, 5}, {3, 2, 5}, {1, 2, 5}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -76,7 +76,7 @@ TEST_CASE("a flat sheet has no volume, and the centre of its surface") {
   CHECK(m.inertia.isZero(0));
 }
 
-TEST_CASE("the centre of the surface weighs triangles by area") {
+TEST_CASE("the center of the surface weighs triangles by area") {
   // two far squares of areas 1 and 3
   Mesh mesh;
   mesh.vertices = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},

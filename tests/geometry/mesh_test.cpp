@@ -29,7 +29,7 @@ TEST_CASE("bounds and area of a box are those of the formulas") {
   const Mesh mesh = box(1, 2, 3);
   CHECK(mesh.bounds().low == Eigen::Vector3d(-0.5, -1, -1.5));
   CHECK(mesh.bounds().size() == Eigen::Vector3d(1, 2, 3));
-  CHECK(mesh.bounds().centre() == Eigen::Vector3d::Zero());
+  CHECK(mesh.bounds().center() == Eigen::Vector3d::Zero());
   CHECK(mesh.area() == doctest::Approx(22));
   CHECK(mesh.bounds().holds({0.5, 1, 1.5}));
   CHECK_FALSE(mesh.bounds().holds({0.5, 1.01, 1.5}));

@@ -246,7 +246,7 @@ TEST_CASE("open meshes: nothing is inside one, and of one the surface counts") {
   CHECK(found.depth == doctest::Approx(0.003).epsilon(1e-6));
 }
 
-TEST_CASE("meshes of a micrometre and of a kilometre have depths that scale") {
+TEST_CASE("meshes of a micrometer and of a kilometer have depths that scale") {
   Random random(8);
   const Mesh a = potato(random, 1, 5), b = potato(random, 0.5, 5);
   const Pose X{random_turn(random), {0.6, 0.5, 0.3}};

@@ -123,7 +123,7 @@ TEST_CASE("two round solids are as far apart as the nearest of many points, eith
         CAPTURE(i);
         // points of b's surface, ever nearer to a: the best, then others about it
         double least = 1e9;
-        Vector3d best = b.centre();
+        Vector3d best = b.center();
         for (int k = 0; k < 400; ++k) {
           const Vector3d p = b.X * skin_point(second, random);
           if (const double d = a.nearest_to(p).distance; d < least) least = d, best = p;
@@ -188,7 +188,7 @@ TEST_CASE(
                                                                    other->mesh().vertices[t[1]],
                                                                    other->mesh().vertices[t[2]]})
                                           .distance);
-      const bool inside = contains(*other, placed.centre());
+      const bool inside = contains(*other, placed.center());
       const double expected = inside ? 0 : std::max(0.0, std::min(of_flat.distance, of_round));
       CHECK(std::abs(found.distance - expected) < 1e-9);
       CHECK((found.distance == 0) == colliding(*both, *other, X));

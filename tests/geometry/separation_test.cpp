@@ -12,10 +12,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-double highest(const Mesh& mesh, const Vector3d& centre, const Vector3d& n) {
+double highest(const Mesh& mesh, const Vector3d& center, const Vector3d& n) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Triangle& t : mesh.triangles)
-    for (const int v : t) most = std::max(most, n.dot(mesh.vertices[v] - centre));
+    for (const int v : t) most = std::max(most, n.dot(mesh.vertices[v] - center));
   return most;
 }
 
@@ -30,13 +30,13 @@ double highest(const BoundingPolytope& bounding_polytope, const Vector3d& n) {
 // how far the bounding_polytope reaches beyond the mesh, at most, in parts of the radius
 double excess_of(const Mesh& mesh, Random& random) {
   const auto shape = Shape::make(mesh);
-  const Vector3d centre = Vector3d::Map(shape->tree().centre());
+  const Vector3d center = Vector3d::Map(shape->tree().center());
   double most = 0;
   for (int i = 0; i < 300; ++i) {
     Vector3d n = random_direction(random);
     if (i < 3) n = Vector3d::Unit(i);
     const double excess =
-        (highest(shape->tree().bounding_polytope(), n) - highest(mesh, centre, n)) /
+        (highest(shape->tree().bounding_polytope(), n) - highest(mesh, center, n)) /
         std::max(shape->radius(), 1e-300);
     // bounding_polytope.h says by how much rounding may let it fall short
     CHECK(excess > -16 * 0x1p-24);
@@ -85,7 +85,7 @@ TEST_CASE("a separation that is found is one, whatever it was begun with") {
   for (int i = 0; i < 1500; ++i) {
     const Shape &a = *shapes[i % 4], &b = *shapes[i / 4 % 4];
     Pose X{random_turn(random), Vector3d::Zero()};
-    X.position = a.centre() - X.rotation * b.centre() +
+    X.position = a.center() - X.rotation * b.center() +
                  random.uniform(0, a.radius() + b.radius()) * random_direction(random);
     const double reach = i % 3 == 0 ? random.uniform(0, 0.3) : 0;
     Vector3d start = i % 2 ? random_direction(random) : Vector3d::Zero();

@@ -19,7 +19,7 @@ TEST_CASE("a shape knows its mesh, faults, mass and bounds") {
   CHECK(shape->faults().none());
   CHECK(shape->solid().volume == doctest::Approx(4));
   CHECK(shape->bounds().low == Vector3d(4.5, -1, -1));
-  CHECK(shape->centre() == Vector3d(5, 0, 0));
+  CHECK(shape->center() == Vector3d(5, 0, 0));
   CHECK(shape->radius() == 1.5);
   CHECK(shape->has_triangle(11));
   CHECK_FALSE(shape->has_triangle(12));
@@ -34,7 +34,7 @@ TEST_CASE("the sphere holds every corner, the bounds leave out what no triangle 
   const ShapePtr shape = Shape::make(mesh);
   CHECK(shape->bounds().high == used.high);
   for (size_t i = 0; i + 1 < mesh.vertices.size(); ++i)
-    CHECK((mesh.vertices[i] - shape->centre()).norm() <= shape->radius());
+    CHECK((mesh.vertices[i] - shape->center()).norm() <= shape->radius());
 }
 
 TEST_CASE("closed bodies that bulge everywhere are convex") {

@@ -35,15 +35,15 @@ int gather(const Shape& shape, int bundle, int lane, std::vector<int>& triangles
   const double rounding = rounding_of(shape.bounds(), Vector3d::Zero());
   for (size_t i = begin; i < triangles.size(); ++i)
     for (const Vector3d& p : shape.mesh().corners(triangles[i])) {
-      const Vector3d local = p - Vector3d::Map(tree.centre());
+      const Vector3d local = p - Vector3d::Map(tree.center());
       for (int k = 0; k < 3; ++k) {
         const Vector3d stored(boxes.axes[3 * k][lane], boxes.axes[3 * k + 1][lane],
                               boxes.axes[3 * k + 2][lane]),
-            centre(boxes.centre[0][lane], boxes.centre[1][lane], boxes.centre[2][lane]);
-        CHECK(std::abs(stored.dot(local - centre)) - boxes.half[k][lane] <= rounding);
+            center(boxes.center[0][lane], boxes.center[1][lane], boxes.center[2][lane]);
+        CHECK(std::abs(stored.dot(local - center)) - boxes.half[k][lane] <= rounding);
         // the box that double precision makes of it holds the same
         const auto& axis = straight.axis[k];
-        CHECK(std::abs(Vector3d(axis.x, axis.y, axis.z).dot(local - centre)) <=
+        CHECK(std::abs(Vector3d(axis.x, axis.y, axis.z).dot(local - center)) <=
               straight.half[k] + rounding);
       }
     }
@@ -81,7 +81,7 @@ ShapePtr shape_of(const BoxOf<double>& b) {
   Mesh mesh = box(2 * b.half[0], 2 * b.half[1], 2 * b.half[2]);
   Eigen::Matrix3d axes;
   for (int k = 0; k < 3; ++k) axes.col(k) = Vector3d(b.axis[k].x, b.axis[k].y, b.axis[k].z);
-  for (Vector3d& p : mesh.vertices) p = axes * p + Vector3d(b.centre.x, b.centre.y, b.centre.z);
+  for (Vector3d& p : mesh.vertices) p = axes * p + Vector3d(b.center.x, b.center.y, b.center.z);
   return Shape::make(mesh);
 }
 
@@ -92,7 +92,7 @@ BoxBundle random_boxes(Random& random) {
     const Eigen::Matrix3d axes = X.matrix();
     for (int k = 0; k < 3; ++k) {
       for (int m = 0; m < 3; ++m) boxes.axes[3 * k + m][i] = static_cast<float>(axes(m, k));
-      boxes.centre[k][i] = static_cast<float>(X.position[k]);
+      boxes.center[k][i] = static_cast<float>(X.position[k]);
       boxes.half[k][i] = static_cast<float>(std::abs(0.5 * random.normal()));
     }
     boxes.size[i] = 1;

@@ -174,7 +174,7 @@ TEST_CASE("distance does not care about the unit of length nor about a far origi
   }
 }
 
-TEST_CASE("micrometre gaps between metre triangles are exact to rounding") {
+TEST_CASE("micrometer gaps between meter triangles are exact to rounding") {
   Random random(6);
   for (int i = 0; i < 1000; ++i) {
     // b's corner hangs over a's face by the gap, all turned somewhere

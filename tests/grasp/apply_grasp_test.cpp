@@ -50,7 +50,7 @@ TEST_CASE("a grasp applied where its object went is the grasp that was measured"
       other.set_pose(c.object, random_pose(random, 0.4));
       apply_grasp(other, c.grasp);
       const Pose X_OH = other.pose(c.object).inverse() * other.pose(other.robot(c.hand).base);
-      // rounding of two products of poses within a metre
+      // rounding of two products of poses within a meter
       CHECK((X_OH.position - c.grasp.X_OH->position).norm() < 1e-14);
       CHECK((X_OH.inverse() * *c.grasp.X_OH).angle() < 1e-7);
       CHECK(std::ranges::equal(other.dofs(c.hand), c.grasp.dofs));

@@ -63,7 +63,7 @@ TEST_CASE("penetration sees overlaps without a corner inside, and pairs that are
   // a plate right through the hand's base
   const double thickness = box_B.size().minCoeff() / 4;
   const auto plate = p.world.add_body(body_spec("plate", box(10, 10, thickness)), BodyKind::object,
-                                      p.world.pose(base) * Pose::translation(box_B.centre()));
+                                      p.world.pose(base) * Pose::translation(box_B.center()));
   CHECK(penetration(p.world, p.hand, plate) == doctest::Approx(thickness / 2).epsilon(2e-3));
   p.world.set_collision(false, base, plate);
   CHECK(penetration(p.world, p.hand, plate) == doctest::Approx(thickness / 2).epsilon(2e-3));

@@ -345,7 +345,7 @@ TEST_CASE("the largest load in the sum of normal forces is the wrench space's ra
     ForceOptions options{.load = direction, .max_total_force = 1};
     const ForceResult r = max_load(h.world, h.grasp, options);
     REQUIRE(r.status == ForceStatus::optimal);
-    // the same with pyramids, by the simplex method: maximise t with sum of edges = -t direction
+    // the same with pyramids, by the simplex method: maximize t with sum of edges = -t direction
     ClpSimplex clp;
     clp.setLogLevel(0);
     clp.scaling(0);

@@ -42,16 +42,16 @@ double factorial(int n) { return n <= 1 ? 1 : n * factorial(n - 1); }
 // a ball of radius one, shifted
 class RoundSet final : public SupportSet {
  public:
-  explicit RoundSet(const Eigen::VectorXd& centre) : centre_(centre) {}
-  int dimension() const override { return static_cast<int>(centre_.size()); }
+  explicit RoundSet(const Eigen::VectorXd& center) : center_(center) {}
+  int dimension() const override { return static_cast<int>(center_.size()); }
   double support(const double* direction, double* point) const override {
     const Eigen::Map<const Eigen::VectorXd> u(direction, dimension());
-    Eigen::Map<Eigen::VectorXd>(point, dimension()) = centre_ + u.normalized();
-    return u.dot(centre_) + u.norm();
+    Eigen::Map<Eigen::VectorXd>(point, dimension()) = center_ + u.normalized();
+    return u.dot(center_) + u.norm();
   }
 
  private:
-  Eigen::VectorXd centre_;
+  Eigen::VectorXd center_;
 };
 
 }  // namespace

@@ -53,10 +53,10 @@ void check_surface(FacetComplex<D>& complex) {
     }
     CHECK(dot<D>(facet.plane.x, facet.plane.x) == doctest::Approx(1).epsilon(1e-14));
     for (int side = 0; side < D; ++side) {
-      // neighbours know each other and share all corners but one
-      REQUIRE(complex.facet(facet.neighbour[side]).alive());
-      const auto& other = complex.facet(facet.neighbour[side]);
-      CHECK(std::count(other.neighbour, other.neighbour + D, index) == 1);
+      // neighbors know each other and share all corners but one
+      REQUIRE(complex.facet(facet.neighbor[side]).alive());
+      const auto& other = complex.facet(facet.neighbor[side]);
+      CHECK(std::count(other.neighbor, other.neighbor + D, index) == 1);
       for (int k = 0; k < D; ++k)
         CHECK(std::count(other.corner, other.corner + D, facet.corner[k]) == (k != side));
     }
@@ -74,7 +74,7 @@ void check_surface(FacetComplex<D>& complex) {
 }  // namespace
 
 TEST_CASE(
-    "after every growth facets are planes through their corners, and neighbours of neighbours") {
+    "after every growth facets are planes through their corners, and neighbors of neighbors") {
   Random random(1);
   Eigen::MatrixXd points(6, 40);
   for (double& x : points.reshaped()) x = random.normal() / 4;

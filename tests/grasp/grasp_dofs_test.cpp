@@ -88,7 +88,7 @@ TEST_CASE(
       Error);
   CHECK_THROWS_WITH_AS(set(45), doctest::Contains("degrees? clench.rad(45) is 0.7854"), Error);
   CHECK_THROWS_WITH_AS(set(NAN), doctest::Contains("must be finite"), Error);
-  // millimetres count for joints that slide
+  // millimeters count for joints that slide
   Hand sliding(true, "prismatic");
   const auto slide = [&](double a1) { return sliding.apply(sliding.grasp({"a1"}, {a1}))[0]; };
   CHECK(slide(1.5705) == 1.57);

@@ -219,7 +219,7 @@ TEST_CASE("what links weigh in a joint is how their height changes with it") {
         moved.set_dofs_unchecked(ref.robot, moved.dofs(ref.robot), own);
         energy[side] = height_energy(moved);
       }
-      // some 20 kg at a metre: 200 J, rounding of 1e-13 over 1e-6
+      // some 20 kg at a meter: 200 J, rounding of 1e-13 over 1e-6
       const double weight = link_weight(a.world, ref);
       CHECK(std::abs(weight + (energy[1] - energy[0]) / (2 * h)) < 1e-6);
       heaviest = std::max(heaviest, std::abs(weight));

@@ -33,23 +33,23 @@ TEST_CASE("no wrench of length one is resisted less than epsilon, and the weakes
     h.grasp.com = Vector3d(0.003, -0.002, 0.001);
     const WrenchSpace space = wrench_space(h.grasp, {.space = {.norm = norm}});
     REQUIRE(space.epsilon() > 0);
-    const auto in_newton_metres = [&](Vector6d w) {
+    const auto in_newton_meters = [&](Vector6d w) {
       w.tail<3>() *= h.grasp.rho;
       return w;
     };
-    CHECK(resistance(h.world, h.grasp, in_newton_metres(space.weakest().direction), {norm}) ==
+    CHECK(resistance(h.world, h.grasp, in_newton_meters(space.weakest().direction), {norm}) ==
           doctest::Approx(space.epsilon()).epsilon(1e-6));
     Random random(8);
     for (int i = 0; i < 40; ++i) {
       Vector6d w;
       for (double& x : w) x = random.normal();
-      CHECK(resistance(h.world, h.grasp, in_newton_metres(w.normalized()), {norm}) >=
+      CHECK(resistance(h.world, h.grasp, in_newton_meters(w.normalized()), {norm}) >=
             space.epsilon() - 1e-7);
     }
   }
 }
 
-TEST_CASE("an ellipsoid with torques of rho newton metres is the ball of epsilon") {
+TEST_CASE("an ellipsoid with torques of rho newton meters is the ball of epsilon") {
   for (const int edges : {8, round_edges}) {
     Held h = held(around_ball(7, 0.6, 5),
                   {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}});

@@ -52,7 +52,7 @@ class SemidefiniteProgram {
   }
 
   // a bracket of the largest b'y: what it reached, and what its dual proves
-  std::array<double, 2> maximise(const VectorXd& b) {
+  std::array<double, 2> maximize(const VectorXd& b) {
     for (int i = 0; i < unknowns_; ++i) DSDPSetDualObjective(solver_, i + 1, b[i]);
     DSDPSetGapTolerance(solver_, 1e-10);
     DSDPSetMaxIts(solver_, 500);
@@ -98,7 +98,7 @@ std::array<double, 2> min_forces(const Grasp& grasp, const Vector6d& load, doubl
     program.arrow(room, MatrixXd(0, f.cols()));
     sum += f.row(first);
   }
-  const auto [reached, proved] = program.maximise(-sum.head(kernel.cols()).transpose());
+  const auto [reached, proved] = program.maximize(-sum.head(kernel.cols()).transpose());
   const double constant = sum[kernel.cols()];
   return {constant - proved, constant - reached};
 }

@@ -233,7 +233,7 @@ TEST_CASE("real contacts, made soft, as the exact hull says, up to 25 of them") 
   grasps.push_back(many);
   int closed = 0;
   for (std::vector<PointContact>& grasp : grasps) {
-    // patches of some millimetres; rho is 1
+    // patches of some millimeters; rho is 1
     for (size_t i = 0; i < grasp.size(); ++i)
       grasp[i].torsion_radius = 0.01 * static_cast<double>(1 + i % 4);
     const WrenchSpace space(wrenches_of(grasp, grasp.size() > 10 ? 4 : 8));

@@ -59,7 +59,7 @@ TEST_CASE("the geometry's own '#' lines do not count, for the XML is the body") 
   CHECK_FALSE(body.inertia_per_mass);
 }
 
-TEST_CASE("OFF and PLY count as millimetres, whatever their size") {
+TEST_CASE("OFF and PLY count as millimeters, whatever their size") {
   for (const std::string format : {"off", "ply"}) {
     const BodySpec body =
         read_xml_body("<geometryFile type=\"" + format + "\">box." + format + "</geometryFile>\n");
@@ -117,7 +117,7 @@ TEST_CASE("factors along x, y and z apply alone or together") {
   CHECK((size(one) - Eigen::Vector3d(0.002, 0.012, 0.006)).norm() < 1e-15);
 }
 
-TEST_CASE("metres scaled by 1000 keep every digit") {
+TEST_CASE("meters scaled by 1000 keep every digit") {
   const TemporaryFolder folder;
   folder.write(
       "a.off",
@@ -156,11 +156,11 @@ TEST_CASE("what a body's file holds and is not used is warned of") {
   Warnings warnings;
   read_xml_body(
       "<geometryFile type=\"ply\">box.off</geometryFile>\n<normalCompliance>1</"
-      "normalCompliance><shearCompliance>1</shearCompliance>\n<youngs>1.5</youngs>\n<colour/>\n"
+      "normalCompliance><shearCompliance>1</shearCompliance>\n<youngs>1.5</youngs>\n<color/>\n"
       "<inertia_matrix>1 2 0 0 1 0 0 0 1</inertia_matrix>\n",
       warnings.options());
   const std::vector<std::string> expected = {
-      "body.xml:5: unknown element <colour> in <root> is not used",
+      "body.xml:5: unknown element <color> in <root> is not used",
       "body.xml:4: youngs 1.5 Pa is softer than any rubber; is it meant in MPa?",
       "body.xml:3: normalCompliance and shearCompliance are not used",
       "body.xml:6: inertia_matrix is not symmetric; its symmetric part is used",

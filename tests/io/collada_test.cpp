@@ -23,22 +23,22 @@ TEST_CASE("the unit and the upward axis of a COLLADA file are its own") {
   CHECK((cm.mesh.bounds().size() - Eigen::Vector3d(1, 2, 4)).norm() < 1e-12);  // rounding of 0.01
   CHECK(cm.report.unit_source == UnitSource::file);
   CHECK(cm.appearance.color == Eigen::Vector3f(1, 0.5f, 0));
-  // metres and y up are what the format takes for granted
+  // meters and y up are what the format takes for granted
   const Geometry silent = read_with("");
   CHECK(silent.mesh.bounds().size() == Eigen::Vector3d(100, 400, 200));
   CHECK(silent.report.unit_source == UnitSource::format);
 }
 
 TEST_CASE("the transformations of a COLLADA node multiply in their order") {
-  const auto centre = [](const std::string& node) {
-    return Eigen::Vector3d(read_collada(collada_text(box(1, 1, 1), node)).mesh.bounds().centre());
+  const auto center = [](const std::string& node) {
+    return Eigen::Vector3d(read_collada(collada_text(box(1, 1, 1), node)).mesh.bounds().center());
   };
-  CHECK(centre("<translate>1 2 3</translate>") == Eigen::Vector3d(1, 2, 3));
-  CHECK(centre("<scale>2 2 2</scale><translate>1 0 0</translate>") == Eigen::Vector3d(2, 0, 0));
-  CHECK(centre("<translate>1 0 0</translate><scale>2 2 2</scale>") == Eigen::Vector3d(1, 0, 0));
-  CHECK((centre("<rotate>0 0 1 90</rotate><translate>1 0 0</translate>") - Eigen::Vector3d(0, 1, 0))
+  CHECK(center("<translate>1 2 3</translate>") == Eigen::Vector3d(1, 2, 3));
+  CHECK(center("<scale>2 2 2</scale><translate>1 0 0</translate>") == Eigen::Vector3d(2, 0, 0));
+  CHECK(center("<translate>1 0 0</translate><scale>2 2 2</scale>") == Eigen::Vector3d(1, 0, 0));
+  CHECK((center("<rotate>0 0 1 90</rotate><translate>1 0 0</translate>") - Eigen::Vector3d(0, 1, 0))
             .norm() < 1e-15);  // cosine of a right angle
-  CHECK(centre("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>") == Eigen::Vector3d(5, 6, 7));
+  CHECK(center("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>") == Eigen::Vector3d(5, 6, 7));
   Warnings warnings;
   CHECK_FALSE(read_collada(collada_text(box(1, 1, 1), "<scale>1 -1 1</scale>"), warnings.options())
                   .report.flipped);
@@ -107,7 +107,7 @@ TEST_CASE("nodes and skins are found by their names, and circles are refused") {
       "1</bind_shape_matrix></skin></controller></library_controllers><library_visual_scenes>");
   skin = replaced(skin, "<instance_geometry url=\"#g\">", "<instance_controller url=\"#c\">");
   skin = replaced(skin, "</instance_geometry>", "</instance_controller>");
-  CHECK(read_collada(skin, warnings.options()).mesh.bounds().centre() == Eigen::Vector3d(0, 0, 9));
+  CHECK(read_collada(skin, warnings.options()).mesh.bounds().center() == Eigen::Vector3d(0, 0, 9));
   CHECK(warnings.list == std::vector<std::string>{
                              "q.dae: skins and morphs are not used: their meshes keep the shape "
                              "they were drawn in"});

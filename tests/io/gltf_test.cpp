@@ -19,7 +19,7 @@ static std::string whole_gltf(const Mesh& mesh, const std::string& node = "") {
   return gltf_text(mesh, "data:application/octet-stream;base64," + base64(gltf_buffer(mesh)), node);
 }
 
-TEST_CASE("a glTF file is in metres with y up, and has the colours of its materials") {
+TEST_CASE("a glTF file is in meters with y up, and has the colors of its materials") {
   const Geometry geometry = read_gltf(whole_gltf(box(1, 2, 4)));
   CHECK(geometry.mesh.bounds().size() == Eigen::Vector3d(1, 2, 4));
   CHECK(geometry.report.format == "glTF");
@@ -40,7 +40,7 @@ TEST_CASE("the buffer of a glTF file may be a file of its own, its name written 
 TEST_CASE("nodes of a glTF file move, turn and scale their meshes") {
   const Mesh mesh = box(1, 1, 1);
   // by 3 along the file's y, which is z
-  CHECK(read_gltf(whole_gltf(mesh, R"(, "translation": [0, 3, 0])")).mesh.bounds().centre() ==
+  CHECK(read_gltf(whole_gltf(mesh, R"(, "translation": [0, 3, 0])")).mesh.bounds().center() ==
         Eigen::Vector3d(0, 0, 3));
   CHECK(read_gltf(whole_gltf(mesh, R"(, "scale": [1, 2, 3])")).mesh.bounds().size() ==
         Eigen::Vector3d(1, 3, 2));

@@ -8,10 +8,10 @@
 using namespace clench;
 using namespace clench::test;
 
-// degrees and millimetres cost a rounding or two
+// degrees and millimeters cost a rounding or two
 static constexpr double unit_rounding = 1e-15;
 
-TEST_CASE("pre-grasps are read in metres and radians, their directions made unit") {
+TEST_CASE("pre-grasps are read in meters and radians, their directions made unit") {
   TemporaryFolder folder;
   const auto list = read_pregrasps(folder.write(
       "a.txt", "# from a planner\n[0 80 0][0 -2 0][1 0 0]60\n\n[1,2,3][0 0 1] [0,1,0] +90 # t\n"));

@@ -148,7 +148,7 @@ TEST_CASE("what shapes list has an end, shared or not, with triangles or without
   };
   const std::string nothing = repeated(200'000, "-1,");
   CHECK(refusal(copies("IndexedFaceSet { coordIndex [ " + nothing + " ] }")) == limit);
-  // colours are copied for each shape
+  // colors are copied for each shape
   CHECK(refusal(copies("IndexedFaceSet { vertexProperty VertexProperty { orderedRGBA [ " +
                        repeated(200'000, "0,") + " ] } }")) == limit);
   CHECK(refusal(wrl + "DEF s Shape { geometry Extrusion { crossSection [ ] spine [ " +

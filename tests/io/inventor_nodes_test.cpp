@@ -118,7 +118,7 @@ TEST_CASE("complexity says how finely round shapes are cut") {
         std::vector<std::string>{"a.iv:3: Complexity: SCREEN_SPACE is read as OBJECT_SPACE"});
 }
 
-TEST_CASE("each side of a cube and each part of a round shape has its colour where parts have") {
+TEST_CASE("each side of a cube and each part of a round shape has its color where parts have") {
   const std::string colors =
       "Material { diffuseColor [ 1 0 0, 0 1 0, 0 0 1 ] } MaterialBinding { value ";
   const auto seen = [&](const std::string& nodes) {
@@ -134,7 +134,7 @@ TEST_CASE("each side of a cube and each part of a round shape has its colour whe
   CHECK(seen("OVERALL } Cylinder { }") == std::array<long, 3>{0, 0, 0});
 }
 
-TEST_CASE("packed colours carry their transparency, a base colour keeps the one before") {
+TEST_CASE("packed colors carry their transparency, a base color keeps the one before") {
   const Appearance packed =
       read_nodes("PackedColor { orderedRGBA 0xff000080 } Cube { }").appearance;
   CHECK(packed.color == Eigen::Vector3f(1, 0, 0));

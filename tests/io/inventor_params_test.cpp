@@ -12,7 +12,7 @@ static BodySpec body_with(const std::string& comments, const ReadOptions& option
                    options);
 }
 
-TEST_CASE("grams, millimetres and their squares become kilograms, metres and theirs") {
+TEST_CASE("grams, millimeters and their squares become kilograms, meters and theirs") {
   const BodySpec b = body_with(
       "#material plastic\n#mass 178.5\n#cog 0 40.1 -1\n#inertia_matrix\n#1043 1 0\n# 1 611 0\n#0 0 "
       "1043\n#youngs 1.5e6\n#useFlockOfBirds 2");

@@ -20,7 +20,7 @@ static std::vector<Primitive> read_inventor(const std::string& body,
   return read_primitives(folder.write("a.iv", "#Inventor V2.1 ascii\n" + body), options);
 }
 
-TEST_CASE("each kind of primitive comes with its sizes in metres and its pose") {
+TEST_CASE("each kind of primitive comes with its sizes in meters and its pose") {
   const auto list = read_inventor(R"(
 Separator { Translation { translation 10 20 30 } Cube { width 20 height 30 depth 40 } }
 Separator { RotationXYZ { axis X angle 1.5707963 } Cylinder { radius 5 height 50 } }

@@ -25,7 +25,7 @@ static void check_box(const BodySpec& b, const Eigen::Vector3d& low, const Eigen
 
 static const std::string square = "Coordinate3 { point [ 0 0 0, 10 0 0, 10 10 0, 0 10 0 ] }\n";
 
-TEST_CASE("a cube is a closed box of 12 triangles, in millimetres, facing outward") {
+TEST_CASE("a cube is a closed box of 12 triangles, in millimeters, facing outward") {
   const BodySpec b = body("Cube { width 10 height 20 depth 30 }");
   CHECK(b.name == "body");
   CHECK(b.shape->mesh().triangles.size() == 12);
@@ -326,7 +326,7 @@ TEST_CASE("nodes shared a hundred thousand fold have a limit") {
                        Error);
 }
 
-TEST_CASE("one colour is the body's, several are one per triangle") {
+TEST_CASE("one color is the body's, several are one per triangle") {
   const Appearance one =
       body("Separator { Material { diffuseColor 1 0.5 0 transparency 0.25 } Cube { } }").appearance;
   CHECK(one.given);
@@ -361,7 +361,7 @@ TEST_CASE("nodes that stand inside a shape, as in old files, are its own") {
         "IndexedFaceSet { Normal { vector [0 0 1] } " + red + " coordIndex [ 0, 1, 2 ] }",
         "DEF face FaceSet { " + red + " numVertices 3 }"}) {
     INFO(shape);
-    // for it alone: the next face has the colour from before
+    // for it alone: the next face has the color from before
     const auto found = colors(green + shape + " FaceSet { numVertices 3 }", old);
     REQUIRE(found.size() == 2);
     CHECK(found[0].x() == 1);
@@ -395,7 +395,7 @@ TEST_CASE("what is lifted out of a shape leaves lines as they are, and a file th
   CHECK(warnings.list == std::vector<std::string>{"b.iv:4: File inside FaceSet is skipped"});
 }
 
-TEST_CASE("faces have the colours that their binding gives them") {
+TEST_CASE("faces have the colors that their binding gives them") {
   const std::string head =
       "Separator { " + square +
       "Material { diffuseColor [ 1 0 0, 0 1 0, 0 0 1 ] } MaterialBinding { value ";

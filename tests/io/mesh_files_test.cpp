@@ -115,7 +115,7 @@ TEST_CASE("what a file connects into closed surfaces stays as it is, though plac
   CHECK(find_faults(geometry.mesh).none());
   CHECK(geometry.report.welded_vertices == 0);
 
-  // a sliver whose ends lie at one place holds its neighbours together
+  // a sliver whose ends lie at one place holds its neighbors together
   Mesh pinched = ball(0.5);
   const Triangle cut = pinched.triangles[40];
   pinched.vertices[cut[1]] = pinched.vertices[cut[0]];
@@ -180,7 +180,7 @@ TEST_CASE("a mesh of nothing but lines in disguise is kept rather than emptied")
                        "a.obj: expected triangles, got none", Error);
 }
 
-TEST_CASE("colours follow their triangles when others are dropped") {
+TEST_CASE("colors follow their triangles when others are dropped") {
   const TemporaryFolder folder;
   folder.write("p.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\n";
@@ -216,9 +216,9 @@ TEST_CASE("the unit is the option's, else the file's, else the caller's, else gu
     const Geometry g = read_file_of(folder, file, options);
     return g.mesh.bounds().size().x();
   };
-  const MeshFile metres{"a.obj", obj_text(box(10, 1, 1))},
+  const MeshFile meters{"a.obj", obj_text(box(10, 1, 1))},
       mug{"mug.stl", ascii_stl(box(150, 80, 80))};
-  CHECK(size(metres) == 10);
+  CHECK(size(meters) == 10);
   CHECK(size(mug) == 0.15);
   REQUIRE(notes.size() == 2);
   CHECK(notes[0] ==
@@ -239,7 +239,7 @@ TEST_CASE("the unit is the option's, else the file's, else the caller's, else gu
   CHECK(notes.empty());
 }
 
-TEST_CASE("the guess turns from metres to millimetres beyond ten units") {
+TEST_CASE("the guess turns from meters to millimeters beyond ten units") {
   CHECK(guess_mesh_unit(0.1) == 1);
   CHECK(guess_mesh_unit(10) == 1);
   CHECK(guess_mesh_unit(10.1) == 1e-3);
@@ -285,7 +285,7 @@ TEST_CASE("a body keeps the report, which describes itself") {
         std::vector<std::string>{
             "ascii STL: 12 triangles of 36 vertices", "unit mm, inferred from the size",
             "28 vertices welded", "watertight, 0.2 x 0.1 x 0.1 m, no faults",
-            "volume 0.002 m^3, centre of mass (0, 0, 0) m",
+            "volume 0.002 m^3, center of mass (0, 0, 0) m",
             "inertia of each kg: xx 0.001667, yy 0.004167, zz 0.004167, xy 0, xz 0, yz 0 m^2"});
 }
 

@@ -160,7 +160,7 @@ inline std::string glb(const Mesh& mesh) {
   return out + std::string("BIN\0", 4) + buffer;
 }
 
-/// Metres, z up. `node`: its transformations
+/// Meters, z up. `node`: its transformations
 inline std::string collada_text(
     const Mesh& mesh, const std::string& node = "",
     const std::string& asset = "<unit meter=\"1\"/><up_axis>Z_UP</up_axis>") {

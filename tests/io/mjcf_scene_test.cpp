@@ -106,7 +106,7 @@ TEST_CASE("what is fixed to a free body is part of it") {
   CHECK(body.mass == 4);
   CHECK(body.com->x() == doctest::Approx(1));
   CHECK(body.shape->bounds().high.x() == doctest::Approx(5));
-  // 2/3 of each about its own centre, and 3 * 1 + 1 * 9 from there
+  // 2/3 of each about its own center, and 3 * 1 + 1 * 9 from there
   CHECK((*body.inertia_per_mass)(1, 1) == doctest::Approx(2.0 / 3 + 12.0 / 4));
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("a model of many elements is read whole") {
   CHECK(hand.joint("index_mcp").viscous == 0.05);
   CHECK(hand.joint("thumb_swing").coulomb == 0);
   CHECK(hand.joint("thumb_flex").max == 1.2);
-  // the mesh is in millimetres by the scale of its class
+  // the mesh is in millimeters by the scale of its class
   CHECK(hand.body("thumb").shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
   CHECK(hand.noted("body 'palm' is the base; its place in the file is not used"));
   CHECK(
@@ -179,7 +179,7 @@ TEST_CASE("a robot without masses weighs what its geoms do") {
   const BodySpec& body = told.body("b");
   CHECK(body.mass == doctest::Approx(8));
   CHECK(body.com->z() == doctest::Approx(0.5));
-  // two cubes of 4 kg, half a metre from the centre: m a^2/6 each about their own, and m d^2
+  // two cubes of 4 kg, half a meter from the center: m a^2/6 each about their own, and m d^2
   CHECK((*body.inertia_per_mass)(0, 0) == doctest::Approx(0.04 / 6 + 0.25));
   CHECK((*body.inertia_per_mass)(2, 2) == doctest::Approx(0.04 / 6));
 }
@@ -358,7 +358,7 @@ TEST_CASE("bodies and geoms that are lost are reported, once per kind") {
             .warned("m.xml:1: 2 geoms of the world itself, on no body, are no part of the robot"));
 }
 
-TEST_CASE("a mesh of many metres is told") {
+TEST_CASE("a mesh of many meters is told") {
   const std::string corners = "vertex='0 0 0 20 0 0 0 20 0 0 0 20'";
   const std::string geom = "<geom type='mesh' mesh='c'/>";
   CHECK(

@@ -17,7 +17,7 @@ static Mesh read_obj_text(const std::string& text, const ReadOptions& options = 
   return read_body(folder.write("q.obj", text), options).shape->mesh();
 }
 
-TEST_CASE("an OBJ cube is closed, in metres as written, or in the unit that is given") {
+TEST_CASE("an OBJ cube is closed, in meters as written, or in the unit that is given") {
   const TemporaryFolder folder;
   const auto file = folder.write("Cube.OBJ", cube_points + cube_faces);
   const BodySpec b = read_body(file);
@@ -60,7 +60,7 @@ TEST_CASE("files of materials without end are not looked for without end") {
   CHECK(warnings.list[0].find("expected at most 1000 files of materials") != std::string::npos);
 }
 
-TEST_CASE("the colours of an OBJ come from its material file and it loads without that too") {
+TEST_CASE("the colors of an OBJ come from its material file and it loads without that too") {
   const TemporaryFolder folder;
   const std::string text = "mtllib my cube.mtl\n" + cube_points + "usemtl red\n" + cube_faces;
   const auto file = folder.write("cube.obj", text);
@@ -70,7 +70,7 @@ TEST_CASE("the colours of an OBJ come from its material file and it loads withou
   options.mesh_scale = 1;
   CHECK_FALSE(read_body(file, options).appearance.given);
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == "cube.obj:1: no such file: my cube.mtl; the body has no colours of its own");
+  CHECK(notes[0] == "cube.obj:1: no such file: my cube.mtl; the body has no colors of its own");
   folder.write("my cube.mtl", "newmtl red\nKd 1 0 0\nd 0.5\nKs 1 1 1\n");
   const Appearance look = read_body(file).appearance;
   CHECK(look.given);
@@ -96,7 +96,7 @@ TEST_CASE("a material that no file of an OBJ defines is told once") {
         std::vector<std::string>{"cube.obj:10: usemtl: no material 'rde' is defined"});
 }
 
-TEST_CASE("colours of the points of an OBJ are those of its triangles") {
+TEST_CASE("colors of the points of an OBJ are those of its triangles") {
   const TemporaryFolder folder;
   const Appearance look =
       read_body(folder.write("q.obj",
@@ -132,7 +132,7 @@ TEST_CASE("of too many numbers after v the first three count, with a warning") {
   CHECK(mesh.triangles.size() == 12);
   REQUIRE(!warnings.list.empty());
   CHECK(warnings.list[0] ==
-        "q.obj:9: expected at most a point, a weight and a colour after v; only the point is used");
+        "q.obj:9: expected at most a point, a weight and a color after v; only the point is used");
 }
 
 TEST_CASE("what an OBJ holds and is not used is told by line, each kind once") {

@@ -26,7 +26,7 @@ TEST_CASE("the header of an OFF file may stand in one line, in two, or be the co
   }
 }
 
-TEST_CASE("normals, colours and texture coordinates of OFF vertices are stepped over") {
+TEST_CASE("normals, colors and texture coordinates of OFF vertices are stepped over") {
   const auto with = [](const std::string& kind, const std::string& more) {
     std::string text = kind + "\n4 1 0\n";
     for (const std::string p : {"0 0 0", "1 0 0", "0 1 0", "0 0 1"}) text += p + more + "\n";
@@ -38,7 +38,7 @@ TEST_CASE("normals, colours and texture coordinates of OFF vertices are stepped 
   CHECK_FALSE(with("STOFF", " 0.5 0.5").appearance.given);
 }
 
-TEST_CASE("colours of OFF faces are shares or bytes") {
+TEST_CASE("colors of OFF faces are shares or bytes") {
   const Appearance look =
       read_off_text(
           "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 255 0 0\n3 0 2 3 0.0 0.0 1.0 1.0\n")
@@ -68,7 +68,7 @@ TEST_CASE("what is wrong in an OFF file is told by line") {
   refused(points + "3 0 1 4\n", "7: expected 3 vertices from 0 to 3, got '4'");
   refused(points + "4 0 1 2\n", "7: expected 4 vertices from 0 to 3, got nothing");
   refused(points + "x 0 1 2\n", "7: corners of a face: expected a whole number, got 'x'");
-  refused(points + "3 0 1 2 1 x 0\n", "7: colour: expected a number, got 'x'");
+  refused(points + "3 0 1 2 1 x 0\n", "7: color: expected a number, got 'x'");
   refused("NOFF\n1 0 0\n0 0 0 1 0\n", "3: normal: expected a number, got nothing");
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("what an OFF file holds and is not used is told by line, each kind onc
   CHECK(warnings.list == std::vector<std::string>{
                              "q.off:1: what follows the counts is not used",
                              "q.off:2: what follows a vertex's numbers is not used",
-                             "q.off:6: what follows a face's vertices is no colour, and not used",
+                             "q.off:6: what follows a face's vertices is no color, and not used",
                              "q.off:7: a face of fewer than three vertices is not used",
                              "q.off:8: what follows the last face is not used"});
 }

@@ -41,7 +41,7 @@ static RobotSpec robot_of(const LinkSpec& link, const JointSpec& joint) {
   return robot;
 }
 
-TEST_CASE("an object of less than a millimetre or more than 3 m is suspicious") {
+TEST_CASE("an object of less than a millimeter or more than 3 m is suspicious") {
   for (const double size : {0.00101, 0.1, 2.99}) CHECK(suspicions_of(box_of(size)).empty());
   CHECK(suspicions_of(box_of(7.5)) == Sentences{"a.obj: it is 7.5 m large: is its unit right?"});
   CHECK(suspicions_of(box_of(9e-4)) ==
@@ -87,7 +87,7 @@ TEST_CASE("a robot's parts of odd size or mass are named once for all") {
   link.body = box_of(5e-4);
   robot.links.push_back(link);
   CHECK(suspicions_of(robot) ==
-        Sentences{"a.cfg: parts smaller than a millimetre: 'box': is the unit of their geometry "
+        Sentences{"a.cfg: parts smaller than a millimeter: 'box': is the unit of their geometry "
                   "right?",
                   "a.cfg: parts larger than 3 m: 'box': is the unit of their geometry right, or a "
                   "scale of 0.001 missing?",
@@ -140,7 +140,7 @@ TEST_CASE("limits in degrees where radians are meant are suspicious") {
                   "limits right?"));
 }
 
-TEST_CASE("a centre of mass or an inertia that contradicts the surface is suspicious") {
+TEST_CASE("a center of mass or an inertia that contradicts the surface is suspicious") {
   const TemporaryFolder folder;
   const auto robot = [&](const std::string& inertial) {
     return ToldRobot(folder.write(
@@ -152,7 +152,7 @@ TEST_CASE("a centre of mass or an inertia that contradicts the surface is suspic
   CHECK(robot(fits).warnings.empty());
   CHECK(robot("<origin xyz='0 0 20'/>" + fits)
             .warned(
-                "a.urdf: parts whose centre of mass is far from their surface: 'a_b': is its unit "
+                "a.urdf: parts whose center of mass is far from their surface: 'a_b': is its unit "
                 "right?"));
   CHECK(
       robot("<mass value='1'/><inertia ixx='2000' iyy='2000' izz='2000'/>")
@@ -168,7 +168,7 @@ TEST_CASE("a centre of mass or an inertia that contradicts the surface is suspic
   body.inertia_per_mass = Eigen::Matrix3d::Identity();
   check_plausible_object(body, "mug.iv", listeners);
   CHECK(told ==
-        Sentences{"mug.iv: its centre of mass is far from its surface: is its unit right?",
+        Sentences{"mug.iv: its center of mass is far from its surface: is its unit right?",
                   "mug.iv: its inertia is that of a much larger body: is it divided by the mass?"});
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("faces, strips and polygons of a PLY file are cut alike") {
             .triangles.size() == 3);
 }
 
-TEST_CASE("colours of a PLY file stand at its vertices or its faces") {
+TEST_CASE("colors of a PLY file stand at its vertices or its faces") {
   const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   const std::string head = "ply\nformat ascii 1.0\n" + vertex_lines;
   const Appearance by_face = read_ply_text(head + faces + color + "end_header\n" + point_rows +

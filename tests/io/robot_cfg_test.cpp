@@ -67,7 +67,7 @@ TEST_CASE("a geometry file that several links name is read once and shared") {
   CHECK(link_of(r, 0, 0).body.shape != link_of(r, 0, 1).body.shape);
 }
 
-TEST_CASE("numbers of a turning joint come in radians, newton metres and metres") {
+TEST_CASE("numbers of a turning joint come in radians, newton meters and meters") {
   Cfg cfg;
   cfg.dofs = "1\nb 1.5 5e9 1e9 1e7 20 0.5\n";
   cfg.joint_lines = "d0*-0.5+90 7 10 -90 -10 90 5e7 2e6 1600 0.25\n";
@@ -96,7 +96,7 @@ TEST_CASE("numbers of a turning joint come in radians, newton metres and metres"
   CHECK(d.breakaway_torque == 0.5);
 }
 
-TEST_CASE("a sliding joint stands in the d column, its numbers in millimetres") {
+TEST_CASE("a sliding joint stands in the d column, its numbers in millimeters") {
   Cfg cfg;
   cfg.joint_lines = "30 d0*2+-5 10 0 -10 90 5e7 2e6 3 0.5\n";
   const RobotSpec r = cfg.read();
@@ -120,7 +120,7 @@ TEST_CASE("a DOF that turns and slides joints counts in the unit of its first") 
   cfg.joint_lines = "d0 0 10 0 -10 90\n0 d0*5 0 0 -100 100\n";
   CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(0.005));  // 5 mm a radian
   cfg.joint_lines = "0 d0 10 0 -10 90\nd0*0.1 0 0 0 -1000 1000\n";
-  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(100));  // 0.1 rad a millimetre
+  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(100));  // 0.1 rad a millimeter
 }
 
 TEST_CASE("a DOF that is told to close slides at 5 cm/s, whatever the ratio of its joints") {

@@ -46,7 +46,7 @@ inline std::string bare_name(const BodySpec& body, const RobotSpec& robot) {
                                                  : body.name;
 }
 
-/// Points of every link's surface and its centre of mass, in the base, by the link's name.
+/// Points of every link's surface and its center of mass, in the base, by the link's name.
 inline std::map<std::string, std::vector<Eigen::Vector3d>> placed_points(
     const RobotSpec& robot, const std::vector<double>& dofs) {
   std::map<std::string, std::vector<Eigen::Vector3d>> out;

@@ -40,7 +40,7 @@ TEST_CASE("an STL file in capitals, in one line, or of several solids is read") 
   CHECK(read_stl_text(returns).shape->faults().none());
 }
 
-TEST_CASE("an STL file has no colours") {
+TEST_CASE("an STL file has no colors") {
   CHECK_FALSE(read_stl_text(ascii_stl(box(1, 1, 1))).appearance.given);
 }
 

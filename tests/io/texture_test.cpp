@@ -1,4 +1,4 @@
-// Textures: images, and the colours that they give to the faces of OBJ and glTF files.
+// Textures: images, and the colors that they give to the faces of OBJ and glTF files.
 #include <optional>
 
 #include "clench/base/error.h"
@@ -85,7 +85,7 @@ TEST_CASE("images of one file are refused when they have too many pixels in all"
                        "c.png: expected images of at most 134217728 pixels in all", Error);
 }
 
-TEST_CASE("the mean colour of a patch is that of its pixels, also beyond the image's edges") {
+TEST_CASE("the mean color of a patch is that of its pixels, also beyond the image's edges") {
   const Image image = decode_image(bytes_of_base64(png_base64), "a.png");
   const auto mean = [&](double u, double v) {
     const Eigen::Vector2d corners[] = {{u, v}, {u + 0.1, v}, {u, v + 0.1}};
@@ -99,7 +99,7 @@ TEST_CASE("the mean colour of a patch is that of its pixels, also beyond the ima
   CHECK(is_near(mean_color(image, all), {0.5f, 0.5f, 0.5f}, 0.06f));
 }
 
-TEST_CASE("faces of an OBJ file have the colours of its texture, times that of the material") {
+TEST_CASE("faces of an OBJ file have the colors of its texture, times that of the material") {
   const TemporaryFolder folder;
   folder.write("a.png", bytes_of_base64(png_base64));
   folder.write("a.mtl", "newmtl wood\nmap_Kd a.png\n");
@@ -116,7 +116,7 @@ TEST_CASE("faces of an OBJ file have the colours of its texture, times that of t
   CHECK(dim.triangle_colors[1] == Eigen::Vector3f(0, 0.25f, 0));
 }
 
-TEST_CASE("a texture that cannot be read leaves the colour of the material, with a warning") {
+TEST_CASE("a texture that cannot be read leaves the color of the material, with a warning") {
   const TemporaryFolder folder;
   const auto file = folder.write("a.obj", textured_obj);
   for (const std::optional<std::string>& image :
@@ -127,11 +127,11 @@ TEST_CASE("a texture that cannot be read leaves the colour of the material, with
     const BodySpec body = read_body(file, warnings.options());
     CHECK(body.appearance.color == Eigen::Vector3f(0.5f, 0.25f, 1));
     REQUIRE(warnings.list.size() == 1);
-    CHECK(warnings.list[0].find("the colour of the material is used") != std::string::npos);
+    CHECK(warnings.list[0].find("the color of the material is used") != std::string::npos);
   }
 }
 
-TEST_CASE("triangles of a glTF file have the colours of their base colour texture") {
+TEST_CASE("triangles of a glTF file have the colors of their base color texture") {
   const TemporaryFolder folder;
   // positions of three corners and their texture coordinates, as 32-bit numbers
   const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.6f, 0.1f, 0.9f, 0.1f, 0.6f, 0.4f};

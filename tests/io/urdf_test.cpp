@@ -182,7 +182,7 @@ TEST_CASE("a follower that does not follow stays at its offset") {
   CHECK(told.warned("joint 'stays': its multiplier is 0; it stays at 0.5"));
 }
 
-TEST_CASE("planners try joints without limits a full turn or a metre either way, which is told") {
+TEST_CASE("planners try joints without limits a full turn or a meter either way, which is told") {
   TemporaryFolder folder;
   const ToldRobot turns(folder.write("a.urdf", two_links("", "type='continuous'")));
   CHECK(turns.joint("j").max == doctest::Approx(2 * pi));
@@ -313,7 +313,7 @@ TEST_CASE("limits of zero width make a DOF that stays") {
   CHECK(told.robot.dofs[0].default_velocity == 0);
 }
 
-TEST_CASE("a mesh of many metres is told") {
+TEST_CASE("a mesh of many meters is told") {
   TemporaryFolder folder;
   folder.write("a.obj",
                "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");

@@ -39,7 +39,7 @@ VirtualContactSet random_contacts(uint64_t seed) {
   return set;
 }
 
-// A rounding in the last place is all that millimetres cost.
+// A rounding in the last place is all that millimeters cost.
 constexpr double last_place = 4e-16;
 
 void check_near(const VirtualContactSet& a, const VirtualContactSet& b) {
@@ -59,7 +59,7 @@ void check_near(const VirtualContactSet& a, const VirtualContactSet& b) {
 
 }  // namespace
 
-TEST_CASE("a text file gives place, frame, edges and coefficient, in metres") {
+TEST_CASE("a text file gives place, frame, edges and coefficient, in meters") {
   const auto set =
       read_contacts("My Hand\n2\n-1 0\n" + edges8 +
                     "10 20 30\n1 0 0 0\n10 20 30\n0 0 1\n0.5\n2 1\n1\n0 0 0 0 0 1.64\n-5 0 0\n0.5 "

@@ -118,7 +118,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a camera's quaternion is x y z w, its place and focal distance millimetres") {
+TEST_CASE("a camera's quaternion is x y z w, its place and focal distance millimeters") {
   const WorldSpec full = wld_world_of(head + "CameraFull\n+500 0 -1 0 0 1 0 +501\n");
   REQUIRE(full.camera);
   CHECK(full.camera->X_WC.rotation.z() == 1);

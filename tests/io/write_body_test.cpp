@@ -82,7 +82,7 @@ TEST_CASE("meshes come back from .obj, .off and .ply to the bit, from .stl to 32
   }
 }
 
-TEST_CASE("a body as .xml comes back to the bit, but for its colour, of which it is told") {
+TEST_CASE("a body as .xml comes back to the bit, but for its color, of which it is told") {
   const TemporaryFolder folder;
   const BodySpec body = some_body();
   Told told;
@@ -90,7 +90,7 @@ TEST_CASE("a body as .xml comes back to the bit, but for its colour, of which it
   const BodySpec again = read_body(folder.path() / "a.xml");
   check_same_mesh(body.shape->mesh(), again.shape->mesh());
   check_same_matter(body, again);
-  CHECK(told.list == std::vector<std::string>{"a.xml does not hold colour"});
+  CHECK(told.list == std::vector<std::string>{"a.xml does not hold color"});
 }
 
 TEST_CASE("triangles that vanish in 32 bits are counted") {
@@ -112,7 +112,7 @@ TEST_CASE("triangles that vanish in 32 bits are counted") {
         "vanishes");
 }
 
-TEST_CASE("a body as .iv keeps its matter to the bit, its colour, and 32 bits of coordinates") {
+TEST_CASE("a body as .iv keeps its matter to the bit, its color, and 32 bits of coordinates") {
   const TemporaryFolder folder;
   const BodySpec body = some_body();
   Told told;
@@ -146,8 +146,8 @@ TEST_CASE("what a bare mesh does not hold is told") {
   Told told;
   write_body(some_body(), folder.path() / "a.obj", told.options());
   CHECK(told.list ==
-        std::vector<std::string>{"a.obj does not hold material rubber, mass 0.123456789 kg, centre "
-                                 "of mass, inertia, elastic modulus 1500000 Pa, tracker, colour"});
+        std::vector<std::string>{"a.obj does not hold material rubber, mass 0.123456789 kg, center "
+                                 "of mass, inertia, elastic modulus 1500000 Pa, tracker, color"});
   told.list.clear();
   write_body(plain_body("box", Shape::make(box(1, 1, 1), "box")), folder.path() / "b.obj",
              told.options());
@@ -156,7 +156,7 @@ TEST_CASE("what a bare mesh does not hold is told") {
              told.options());
   CHECK(told.list == std::vector<std::string>{
                          "c.obj: it is 20 m large, and .obj names no unit: read it with the "
-                         "option unit = \"m\", or it is taken for millimetres"});
+                         "option unit = \"m\", or it is taken for millimeters"});
 }
 
 TEST_CASE("a frame is written where a body may be one") {

@@ -403,7 +403,7 @@ TEST_CASE("parts that are equal share their files, and others of one name have t
   CHECK(!fs::exists(folder.path() / "any_files/link_3.obj"));
 }
 
-TEST_CASE("colours beyond what files hold do not make a robot unreadable") {
+TEST_CASE("colors beyond what files hold do not make a robot unreadable") {
   const TemporaryFolder folder;
   RobotSpec robot = bare_hand();
   robot.base.shape = Shape::make(box(1, 1, 1));

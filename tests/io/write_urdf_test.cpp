@@ -304,7 +304,7 @@ TEST_CASE("virtual contacts of a .urdf name its own chains and links") {
   CHECK((link_poses(again, dofs)[1] * read.X_LC.position - at).norm() < 1e-12);
 }
 
-TEST_CASE("surfaces of several colours keep them beside a .urdf, transparent ones too") {
+TEST_CASE("surfaces of several colors keep them beside a .urdf, transparent ones too") {
   const TemporaryFolder folder;
   RobotSpec robot = one_link("any", "tip");
   Appearance& looks = link_of(robot, 0, 0).body.appearance;

@@ -49,7 +49,7 @@ static WorldSpec any_world(uint64_t seed) {
   return world;
 }
 
-/// One rounding of a length in metres to millimetres and one back.
+/// One rounding of a length in meters to millimeters and one back.
 static constexpr double world_rounding = 1e-15;
 
 static double gap(const Pose& a, const Pose& b) {

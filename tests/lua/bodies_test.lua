@@ -75,7 +75,7 @@ test("a number is both coefficients of friction", function(t)
   t.fails(function() world:set_friction("cork", "glass", 0 / 0) end, "friction: expected a finite number, got nan")
 end)
 
-test("vertices lie within a thousand million metres", function(t)
+test("vertices lie within a thousand million meters", function(t)
   local far = {{0, 0, 0}, {0.1, 0, 0}, {0, -1.1e9, 0}, {0, 0, 0.1}}
   t.fails(function() clench.world():add_object {vertices = far, triangles = faces} end,
           "mesh: vertex 3: coordinates: expected a number from -1e+09 to 1e+09 [m], got -1100000000")

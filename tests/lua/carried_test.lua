@@ -57,7 +57,7 @@ test("what a hand holds stays where it is in it while the hand turns", function(
   local held = hand.pose:inverse() * mug.pose
   world:run(2)
   local now = hand.pose:inverse() * mug.pose
-  -- a third of a turn; 150 micrometres along the tangents
+  -- a third of a turn; 150 micrometers along the tangents
   t.ok((now.position - held.position):norm() < 1e-9, now.position - held.position)
   t.ok((held:inverse() * now):angle() < 1e-8)
 end)
@@ -251,7 +251,7 @@ test("what stands on a plate whose velocity changes comes along, and is pressed 
     end)
     world:run(0.2)
     t.ok(checked > 100)
-    -- it stayed behind by a step's way, 400 micrometres
+    -- it stayed behind by a step's way, 400 micrometers
     t.ok((plate.pose:inverse() * high.pose.position - before):norm() < 1e-9)
     t.equal(world.report.overlaps, 0)
   end

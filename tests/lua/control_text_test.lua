@@ -74,7 +74,7 @@ test("moveDOFs moves by steps until the first contact", function(t)
   t.close(tonumber(ask("moveDOFs 0 4 0.2 -9 0.2 0 1 1 1 1", 4)[2]), hand.dof_limits[2][1], 1e-8)
 end)
 
-test("DOFs that slide are in millimetres", function(t)
+test("DOFs that slide are in millimeters", function(t)
   local server <close>, _, hand = serve {world = clench.load("worlds/parallel_jaw_cube.wld", {root = "."})}
   local _, ask = connect(server)
   local slides

@@ -96,8 +96,8 @@ test("DOFs that were edited and joints that were not contradict each other", fun
   local alone = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,'):gsub('"joints":%[[^%]]*%],?', "") end)
   alone:apply(world)
   t.equal(hand.dofs[1], 0.123)
-  local metres = with(function(s) return s:gsub('"dof_units":%["rad"', '"dof_units":["m"') end)
-  t.fails(function() metres:apply(world) end, "expected a value in rad, got one in m")
+  local meters = with(function(s) return s:gsub('"dof_units":%["rad"', '"dof_units":["m"') end)
+  t.fails(function() meters:apply(world) end, "expected a value in rad, got one in m")
 end)
 
 test("joints have the same names in a grasp, in its lists and in its scene, followers included", function(t)

@@ -82,7 +82,7 @@ test("virtual contacts come back from files, on other hands of the kind too", fu
     t.ok(#other.virtual_contacts == #hand.virtual_contacts)
     for i, c in ipairs(other.virtual_contacts) do
       local own = hand.virtual_contacts[i]
-      -- millimetres cost a rounding
+      -- millimeters cost a rounding
       t.ok((c.point - own.point):norm() < 1e-15 and (c.normal - own.normal):norm() < 1e-15)
       t.ok(c.mu == own.mu and c.link.name == own.link.name)
     end

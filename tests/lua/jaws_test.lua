@@ -194,7 +194,7 @@ test("an object can pivot between two fingers, with or without a palm, and not b
           {true, true, false})
 end)
 
-test("the load of two soft fingers decreases with the distance from the centre of mass, epsilon about their line does not", function(t)
+test("the load of two soft fingers decreases with the distance from the center of mass, epsilon about their line does not", function(t)
   local hand, bar = scene("parallel_jaw", clench.shapes.box {0.03, 0.2, 0.03}, {mass = 0.1, material = "wood"})
   local loads, epsilons = {}, {}
   for i, lever in ipairs {0, 0.01, 0.02, 0.04} do

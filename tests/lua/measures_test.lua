@@ -105,7 +105,7 @@ test("what of the world a measure asks must stand as it did", function(t)
   t.fails(function() grasp:contact_forces {} end, "friction has changed since it was measured; measure it anew")
   grasp = closed "dlr_flask"
   grasp.object.com = grasp.object.com + clench.vec3(0.01, 0, 0)
-  t.fails(function() grasp:contact_forces {} end, "the object's centre of mass has changed since it was measured; measure it anew")
+  t.fails(function() grasp:contact_forces {} end, "the object's center of mass has changed since it was measured; measure it anew")
 end)
 
 test("directions of any length, and thin ellipsoids", function(t)

@@ -2,10 +2,10 @@
 local clench = require "clench"
 local test = require "test"
 
-test("degrees and millimetres in a pose are reported once, with the script's line", function(t)
+test("degrees and millimeters in a pose are reported once, with the script's line", function(t)
   local world = clench.world {}
   local box = clench.shapes.box {0.1, 0.1, 0.1}
-  -- within a turn and ten metres nothing is
+  -- within a turn and ten meters nothing is
   t.equal(#t.warnings(function() clench.pose {rpy = {0, -6.28, 3}, xyz = {10, 0, -10}} end), 0)
   local said = t.warnings(function()
     for _ = 1, 2 do world:add_object(box, {pose = {rpy = {0, 0, 90}, xyz = {300, 0, 0}}}) end
@@ -14,10 +14,10 @@ test("degrees and millimetres in a pose are reported once, with the script's lin
   end)
   t.equal(#said, 2)
   t.ok(said[1]:find("mistakes_test.lua:11: world:add_object: pose: rpy is 90: radians? clench.rad(90) is 1.571", 1, true), said[1])
-  t.ok(said[2]:find("world:add_object: pose: it is 300 m away: metres? clench.mm(300) is 0.3", 1, true), said[2])
+  t.ok(said[2]:find("world:add_object: pose: it is 300 m away: meters? clench.mm(300) is 0.3", 1, true), said[2])
 end)
 
-test("a standoff in millimetres is told, and so is what a pose may be given by", function(t)
+test("a standoff in millimeters is told, and so is what a pose may be given by", function(t)
   local hand = clench.load("worlds/barrett_mug.wld").robots[1]
   t.fails(function() clench.pose {x = {1, 0, 0}} end,
           "unknown key 'x', expected one of axis, angle, x_axis, y_axis, z_axis, rpy, quat, matrix, xyz")
@@ -28,7 +28,7 @@ test("a standoff in millimetres is told, and so is what a pose may be given by",
     clench.load("worlds/barrett_mug.wld").robots[1]:place_approach({0, 0, 0}, {0, 0, -1}, 50)
     return said
   end, {1})  -- in a state of its own, for it is told once in each
-  t.ok(said[1]:find("hand:place_approach: standoff: it is 50 m away: metres? clench.mm(50) is 0.05", 1, true), said[1])
+  t.ok(said[1]:find("hand:place_approach: standoff: it is 50 m away: meters? clench.mm(50) is 0.05", 1, true), said[1])
 end)
 
 test("a slip in the name of a material is told once, and a new material is none", function(t)

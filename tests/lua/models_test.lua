@@ -41,7 +41,7 @@ for _, path in ipairs(catalog.arms) do
   end)
 end
 
-test("the catalogue holds hands, arms, objects, obstacles and worlds", function(t)
+test("the catalog holds hands, arms, objects, obstacles and worlds", function(t)
   for shelf, least in pairs {hands = 9, arms = 2, objects = 17, obstacles = 5, worlds = 13} do
     t.ok(#catalog[shelf] >= least, shelf .. ": " .. #catalog[shelf])
   end
@@ -54,7 +54,7 @@ for _, shelf in ipairs {"objects", "obstacles"} do
       local body = shelf == "objects" and world:add_object(path) or world:add_obstacle(path)
       t.ok(body.mesh:is_watertight(), path)
       local low, high = body.mesh.bounds.low, body.mesh.bounds.high
-      -- files have four decimals of a millimetre; a banana rests on a ring of its tube, whose sides are flat: 1 mm
+      -- files have four decimals of a millimeter; a banana rests on a ring of its tube, whose sides are flat: 1 mm
       local ground = path:find "floor" and high.z or low.z
       t.ok(math.abs(ground) < 1e-3, ("%s: %g"):format(path, ground))
     end
@@ -108,7 +108,7 @@ test("the arms stand where their published tables say, at 0", function(t)
     local world = clench.world()
     local arm = world:add_robot(("models/arms/%s/%s.cfg"):format(name, name))
     local flange = arm.links[6].pose.position
-    -- the tables are in degrees: rounding of pi/2 times a metre
+    -- the tables are in degrees: rounding of pi/2 times a meter
     t.close(flange.x, at[1], 1e-9)
     t.close(flange.y, at[2], 1e-9)
     t.close(flange.z, at[3], 1e-9)
@@ -159,7 +159,7 @@ for _, path in ipairs(catalog.hands) do
       for _, corner in ipairs(triangles) do
         local a, b, c = vertices[corner[1]], vertices[corner[2]], vertices[corner[3]]
         local normal = (b - a):cross(c - a)
-        -- files have four decimals of a millimetre; the normal of a small triangle leans by no more
+        -- files have four decimals of a millimeter; the normal of a small triangle leans by no more
         local size = normal:norm()
         if math.abs((site.point - a):dot(normal)) < 2e-7 * size and normal:dot(site.normal) > 0.999 * size then
           local function inside(p, q) return (q - p):cross(site.point - p):dot(normal) >= -1e-3 * size ^ 2 end

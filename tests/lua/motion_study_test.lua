@@ -289,7 +289,7 @@ test("an object that is welded cannot be lost", function(t)
   end
 end)
 
-test("an angle in degrees and a distance in millimetres are told once", function(t)
+test("an angle in degrees and a distance in millimeters are told once", function(t)
   local said = clench.parallel.map(function()
     local clench, said = require "clench", {}
     clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -301,10 +301,10 @@ test("an angle in degrees and a distance in millimetres are told once", function
     end
     return table.concat(said, "\n")
   end, {1})[1]  -- in a state of its own
-  local _, metres = said:gsub("metres%?", "")
+  local _, meters = said:gsub("meters%?", "")
   local _, radians = said:gsub("radians%?", "")
   t.ok(radians == 1 and said:find("study.shake: max_angle is 15: radians? clench.rad(15) is 0.2618", 1, true), said)
-  t.ok(metres == 1 and said:find("study.shake: max_distance is 50 m: metres? clench.mm(50) is 0.05", 1, true), said)
+  t.ok(meters == 1 and said:find("study.shake: max_distance is 50 m: meters? clench.mm(50) is 0.05", 1, true), said)
 end)
 
 test("what is wrong with a study is said in a sentence", function(t)

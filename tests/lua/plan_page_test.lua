@@ -164,7 +164,7 @@ test("Chromium draws a grasp, and takes hostile names for words", function(t)
   t.equal(text:find("<img src=\"x\"", 1, true), nil)
 end)
 
-test("a page has the colours of triangles where a file gives several, and lists the assumptions", function(t)
+test("a page has the colors of triangles where a file gives several, and lists the assumptions", function(t)
   if not three then t.skip(missing) end
   local path = test.path()
   clench.files.save_text(path .. ".mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n")

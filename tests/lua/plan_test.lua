@@ -245,7 +245,7 @@ test("a list of states names what is missing or strange in them", function(t)
   t.fails(function() clench.plan.list {hand = hand, object = mug, states = away, approach = 1e300} end, "approach must be a number of at most 1e+06")
 end)
 
-test("primitives have sizes, and are in metres", function(t)
+test("primitives have sizes, and are in meters", function(t)
   local _, hand, mug = barrett_mug()
   local function plan(p)
     p.pose = clench.pose {}
@@ -254,7 +254,7 @@ test("primitives have sizes, and are in metres", function(t)
   local function refused(p, sentence) t.fails(function() plan(p) end, "plan_test.lua:", "plan.primitive: primitives[1]: " .. sentence) end
   refused({kind = "sphere", radius = -1}, "radius must be a number > 0, got -1")
   refused({kind = "sphere", radius = 0 / 0}, "radius must be a number > 0, got nan")
-  refused({kind = "sphere", radius = 30}, "radius must be at most 10 m, got 30: metres? clench.mm(30) is 0.03")
+  refused({kind = "sphere", radius = 30}, "radius must be at most 10 m, got 30: meters? clench.mm(30) is 0.03")
   refused({kind = "cone", radius = 0.1, height = "x"}, "height must be a number > 0, got 'x'")
   refused({kind = "box", size = clench.vec3(0.1, -0.1, 0.1)}, "size.y must be a number > 0, got -0.1")
   local large = plan {kind = "sphere", radius = 3}

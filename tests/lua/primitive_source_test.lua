@@ -62,7 +62,7 @@ test("primitives in the object's own file come third, its bounding box last", fu
   list, source = primitive_source(read, object)
   t.equal(source, "bounding box")
   t.close(list[1].size, {0.1, 0.2, 0.3}, 1e-12)
-  -- a file is in millimetres, and the object is not
+  -- a file is in millimeters, and the object is not
   t.equal(select(2, find(write(folder .. "/c.iv", cube), nil, {unit = "cm"})), "bounding box")
 end)
 

@@ -211,7 +211,7 @@ test("five files whose values are exchanged or contradict one another", function
   t.equal(told(urdf(good, -0.2, 1.5), "suspicious"), "")
   has(t, told(urdf(good, 1.5, -0.2), "repaired"), "joint 'j': lower 1.5 exceeds upper -0.2; they are exchanged")
   has(t, told(urdf(good, 0, 90), "suspicious"), "joints that turn more than four times: 'j'")
-  has(t, told(urdf({50, 0.5, 1e-3, 1e-3, 1e-3}, 0, 1), "suspicious"), "centre of mass is far from their surface: 'a_f'")
+  has(t, told(urdf({50, 0.5, 1e-3, 1e-3, 1e-3}, 0, 1), "suspicious"), "center of mass is far from their surface: 'a_f'")
   has(t, told(urdf({0, 0.5, 5, 5, 5}, 0, 1), "suspicious"), "parts with the inertia of a much larger body: 'a_f'")
   has(t, told(urdf({0, 500, 1, 1, 1}, 0, 1), "suspicious"), "parts ten times denser than any metal, or lighter than air: 'a_f'")
   has(t, told(urdf({0, 0.5, 1e-3, 1e-3, 5e-3}, 0, 1), "repaired"), "one moment exceeds the sum of the others")

@@ -133,7 +133,7 @@ test("what .wld and .xml cannot hold is told in one warning that names it", func
   for _, ending in ipairs {".wld", ".xml"} do
     local said = table.concat(t.warnings(function() world:save(folder .. "/lossy" .. ending, {root = ".", format = formats[ending]}) end), "\n")
     t.ok(said:find("lossy" .. ending .. " does not hold which bodies may collide, the contact threshold, the name 'bottle'", 1, true), said)
-    for _, part in ipairs {"the mass of 'bottle'", "the centre of mass of 'bottle'", " more"} do t.ok(said:find(part, 1, true), said) end
+    for _, part in ipairs {"the mass of 'bottle'", "the center of mass of 'bottle'", " more"} do t.ok(said:find(part, 1, true), said) end
     t.equal(select(2, said:gsub("\n", "")), 0)
     local again = clench.load(folder .. "/lossy" .. ending, {root = "."})
     t.equal(#again.bodies, #world.bodies)
@@ -288,7 +288,7 @@ test("worlds of the original come back from every format, and are the same in bo
       world:save(folder .. "/original" .. ending, {root = root, format = formats[ending]})
       local again = clench.load(folder .. "/original" .. ending, {root = root})
       -- the hand of the first one is carried: its place there and in the world are written both, and not every length in
-      -- metres has a decimal in millimetres that is read as it
+      -- meters has a decimal in millimeters that is read as it
       if ending == ".lua" or i > 1 then t.equal(again:hash(), world:hash()) end
       for k, body in ipairs(world.bodies) do
         local off = body.pose:inverse() * again.bodies[k].pose
@@ -304,7 +304,7 @@ test("an .xml is a scene of MuJoCo, or a world of GraspIt! where it says so or a
   world.robots[1]:autograsp()
   world:save(folder .. "/scene.xml")
   t.ok(read(folder .. "/scene.xml"):find("^<mujoco"))
-  t.ok(read(folder .. "/scene_files/flask.obj"):find("^# metres\nv "))
+  t.ok(read(folder .. "/scene_files/flask.obj"):find("^# meters\nv "))
   local again = clench.load(folder .. "/scene.xml")
   t.equal(again.keyframes[1], "start")
   t.equal(again.robots[1].name, "dlr")

@@ -93,7 +93,7 @@ test("robustness is that of the grasp, wherever the hand and the object have gon
   again(1e-4)
 end)
 
-test("robustness counts with the centre of mass with which the grasp was measured", function(t)
+test("robustness counts with the center of mass with which the grasp was measured", function(t)
   local grasp = closed_on_flask()
   local epsilon = grasp:quality "epsilon"
   local moving = {samples = 3, position = 0.001}
@@ -173,7 +173,7 @@ test("a grasp that stands in no world is studied as far as that goes, and else t
   t.close(clench.study.robustness(loose, errors).samples, clench.study.robustness(grasp, errors).samples, 1e-9)
 end)
 
-test("errors in millimetres and degrees are told once, with the script's line", function(t)
+test("errors in millimeters and degrees are told once, with the script's line", function(t)
   local said = clench.parallel.map(function()
     local clench, said = require "clench", {}
     clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -185,10 +185,10 @@ test("errors in millimetres and degrees are told once, with the script's line", 
     for _ = 1, 2 do clench.study.robustness(grasp, {samples = 1, position = 3, angle = 15}) end
     return table.concat(said, "\n")
   end, {1})[1]  -- in a state of its own, for it is told once in each
-  local _, metres = said:gsub("metres%?", "")
+  local _, meters = said:gsub("meters%?", "")
   local _, radians = said:gsub("radians%?", "")
   t.ok(radians == 1 and said:find("study.robustness: angle is 15: radians? clench.rad(15) is 0.2618", 1, true), said)
-  t.ok(metres == 1 and said:find("study_test.lua:%d+: study.robustness: position is 3 m, more than the object's size of 0.281 m: metres%? clench.mm%(3%) is 0.003"), said)
+  t.ok(meters == 1 and said:find("study_test.lua:%d+: study.robustness: position is 3 m, more than the object's size of 0.281 m: meters%? clench.mm%(3%) is 0.003"), said)
 end)
 
 test("where friction may vanish, so may force closure", function(t)

@@ -41,7 +41,7 @@ local quantities = {
   {name = "density", allowed = {1}, option = function(x) a_box {density = x} end},
   {name = "inertia", allowed = {1}, option = function(x) a_box {inertia = {{x, 0, 0}, {0, x, 0}, {0, 0, x}}} end,
    field = function(x) a_box().inertia = {{x, 0, 0}, {0, x, 0}, {0, 0, x}} end},
-  {name = "colour", allowed = {5e-324, 0, 1}, option = function(x) a_box {color = {x, 0, 0}} end,
+  {name = "color", allowed = {5e-324, 0, 1}, option = function(x) a_box {color = {x, 0, 0}} end,
    field = function(x) a_box().color = {x, 0, 0} end},
   {name = "transparency", allowed = {5e-324, 0, 1}, option = function(x) a_box {transparency = x} end,
    field = function(x) a_box().transparency = x end},

@@ -9,7 +9,7 @@ end
 
 local function close(t, a, b, tolerance) t.close((a - b):norm(), 0, tolerance) end
 
-test("two that are welded on the way keep momentum and turn about their common centre", function(t)
+test("two that are welded on the way keep momentum and turn about their common center", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   local a, b = ball(world, 0, 1), ball(world, 0.1, 3)
   a.velocity = {linear = {0, 2, 0}}
@@ -19,16 +19,16 @@ test("two that are welded on the way keep momentum and turn about their common c
   close(t, after.linear, before.linear, 1e-14)
   close(t, after.angular, before.angular, 1e-14)
   t.ok(world:energy().kinetic < 2)
-  -- about the centre, 75 mm from a: L = mu r v, with the inertia of two balls and of their masses about it
+  -- about the center, 75 mm from a: L = mu r v, with the inertia of two balls and of their masses about it
   local mu, ball_inertia = 1 * 3 / 4, 0.4 * 4 * 0.02 ^ 2
   t.close(a.velocity.angular.z, -mu * 0.1 * 2 / (mu * 0.1 ^ 2 + ball_inertia), 0.02)
   local apart = (b.pose.position - a.pose.position):norm()
   world:run(1)
   t.close((b.pose.position - a.pose.position):norm(), apart, 1e-13)
   close(t, world:momentum().linear, before.linear, 1e-12)
-  -- the centre goes straight on
-  local centre = (a.pose.position + 3 * b.pose.position) / 4
-  close(t, centre, clench.vec3(0.075, 0.5, 0), 1e-3)
+  -- the center goes straight on
+  local center = (a.pose.position + 3 * b.pose.position) / 4
+  close(t, center, clench.vec3(0.075, 0.5, 0), 1e-3)
   a:unweld()
   local velocity = a.velocity.linear
   world:run(0.5)
@@ -41,7 +41,7 @@ test("a dumb-bell of two welded objects falls and rests like one of one piece", 
     local world = clench.world {dynamics = {engine = engine}}
     world:add_obstacle(clench.shapes.box {2, 2, 0.1}, {pose = {xyz = {0, 0, -0.05}}})
     local low = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {0, 0, 0.06}}})
-    -- beyond the edge of the lower one, but the common centre is not
+    -- beyond the edge of the lower one, but the common center is not
     local high = world:add_object(clench.shapes.box {0.1, 0.1, 0.02}, {mass = 0.2, pose = {xyz = {0.09, 0, 0.12}}})
     high:weld(low)
     local relative = low.pose:inverse() * high.pose
@@ -68,7 +68,7 @@ test("what is welded to a finger moves with it, and loads it; what is welded to 
   local before = hand:bias_forces()[4]
   load.pose = {xyz = (link.bounds_in_world.low + link.bounds_in_world.high) / 2 + clench.vec3(0, 0, 0.1)}
   load:weld(link)
-  -- the weight of 0.1 kg on an arm of some centimetres
+  -- the weight of 0.1 kg on an arm of some centimeters
   t.ok(math.abs(hand:bias_forces()[4] - before) > 0.01)
   local relative = link.pose:inverse() * load.pose
   hand:set_targets({0, 0, 0, 0.3})

@@ -114,7 +114,7 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.set_mass(cup, 7); }) == phrase("the mass of 'cup'"));
   CHECK(only([&](World& w) {
           w.set_com(cup, {0, 0, 0.1});
-        }) == std::vector<std::string>{"the centre of mass of 'cup'", "the inertia of 'cup'"});
+        }) == std::vector<std::string>{"the center of mass of 'cup'", "the inertia of 'cup'"});
   CHECK(only([&](World& w) { w.set_inertia(cup, Eigen::Matrix3d::Identity()); }) ==
         phrase("the inertia of 'cup'"));
   CHECK(only([&](World& w) { w.set_material(cup, "glass"); }) == phrase("the material of 'cup'"));

@@ -16,7 +16,7 @@ static Id<Body> add_box(World& world, const std::string& name, const Eigen::Vect
 }
 
 TEST_CASE(
-    "a centre of mass that is set later gives the inertia that it gives as part of the spec") {
+    "a center of mass that is set later gives the inertia that it gives as part of the spec") {
   const Eigen::Vector3d com(0.01, -0.02, 0.03);
   BodySpec spec = body_spec("box", box(0.1, 0.2, 0.3)), moved = spec;
   moved.com = com;
@@ -93,7 +93,7 @@ TEST_CASE("mass properties come from the solid when the file gives none") {
   CHECK(body.max_radius() == doctest::Approx(0.5 * std::sqrt(0.01 + 0.04 + 0.09)).epsilon(1e-12));
 }
 
-TEST_CASE("a centre of mass away from the centroid adds the parallel axis term") {
+TEST_CASE("a center of mass away from the centroid adds the parallel axis term") {
   World world;
   auto spec = body_spec("block", box(0.1, 0.1, 0.1));
   spec.com = Eigen::Vector3d(0, 0, 0.02);

@@ -50,7 +50,7 @@ TEST_CASE("closing stops both fingers on the object with a gap within the thresh
     CHECK(gap > 0);
     CHECK(gap <= bench.world.contact_threshold());
   }
-  // two mirrored fingers on a centred ball close alike, but for where in the threshold each stops
+  // two mirrored fingers on a centered ball close alike, but for where in the threshold each stops
   CHECK(std::abs(bench.dofs()[0] - bench.dofs()[1]) < 0.01);
 }
 
@@ -76,8 +76,8 @@ TEST_CASE("an empty hand closes to where its fingers meet") {
   CHECK(gap <= bench.world.contact_threshold());
 }
 
-TEST_CASE("a thin wall is not tunnelled by a long drive") {
-  // half a millimetre thin, in the way of both fingers
+TEST_CASE("a thin wall is not tunneled by a long drive") {
+  // half a millimeter thin, in the way of both fingers
   Bench bench(DofKind::rigid, 0.5, box(0.0005, 0.2, 0.2), {0, 0.15, 0});
   autograsp(bench.world, bench.hand);
   for (const int c : {0, 1})

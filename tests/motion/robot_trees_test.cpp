@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// poses are products of some ten to thirty rotations of doubles; lengths are metres or less
+// poses are products of some ten to thirty rotations of doubles; lengths are meters or less
 constexpr double urdf_rounding = 1e-11;
 
 void check_equal(const Pose& a, const Eigen::Matrix4d& b) {

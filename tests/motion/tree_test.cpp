@@ -135,7 +135,7 @@ TEST_CASE("a hand closes the same wherever its links' frames are") {
   }
 }
 
-TEST_CASE("neighbours in a tree never collide, over frames without a shape too") {
+TEST_CASE("neighbors in a tree never collide, over frames without a shape too") {
   RobotSpec spec = two_finger();
   spec.links[0].body.shape = nullptr;
   spec.chain_links_collide = true;

@@ -46,7 +46,7 @@ TEST_CASE(
   CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
 }
 
-TEST_CASE("a place is the centre of what its link sweeps") {
+TEST_CASE("a place is the center of what its link sweeps") {
   // A face that turns about an axis sweeps in proportion to the distance r from it. Of the two
   // ends, half of height h goes forward, in proportion to the height. Per width, over r from `near`
   // to `far`:

@@ -89,7 +89,7 @@ TEST_CASE(
   CHECK(c.search->best().states()[0].energy < c.search->first_energy() / 2);
 }
 
-TEST_CASE("the mean of neighbours drawn with a target lies on its side, and fixed variables stay") {
+TEST_CASE("the mean of neighbors drawn with a target lies on its side, and fixed variables stay") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   World world = scene.world;
   SearchSpace space(scene.robot(), scene.state());
@@ -151,7 +151,7 @@ TEST_CASE("a chain that cannot move says how many steps it took") {
 TEST_CASE("the five schedules are the original's, and their temperatures fall") {
   const AnnealingSchedule usual = annealing_schedule("default");
   // planners.md, section 5: T0 exp(-YC k^(1/YD)) with 1e6, 7, 8 at 30000
-  CHECK(usual.neighbour_temperature(30000) ==
+  CHECK(usual.neighbor_temperature(30000) ==
         doctest::Approx(1e6 * std::exp(-7 * std::pow(30000, 0.125))));
   for (const char* name : {"default", "loop", "modified", "strict", "online"}) {
     const AnnealingSchedule s = annealing_schedule(name);

@@ -206,7 +206,7 @@ TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   const Bounds box = palm.shape->bounds();
   const auto rod =
       scene.world.add_body(test::body_spec("rod", test::box(0.002, 0.002, 1)), BodyKind::obstacle,
-                           scene.world.pose(scene.robot().base) * Pose::translation(box.centre()));
+                           scene.world.pose(scene.robot().base) * Pose::translation(box.center()));
   REQUIRE(collides(scene.world, std::array{rod}));
   CHECK(penetration->value(scene.world) > 0.9);
 }

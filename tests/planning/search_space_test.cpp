@@ -43,7 +43,7 @@ TEST_CASE("values of a state give that state again, in every space") {
           space = SearchSpace(scene.robot(), state,
                               {.position = position, .posture = PostureKind::fixed});
         const HandState again = space.state(space.values(state));
-        // a few roundings of lengths of a metre; angles near pi lose half the digits
+        // a few roundings of lengths of a meter; angles near pi lose half the digits
         CHECK(gap(state, again) < 1e-7);
         if (posture == PostureKind::eigengrasps) break;
       }

@@ -11,7 +11,7 @@ static std::vector<std::array<Eigen::Vector3f, 3>> normals_of(const Mesh& mesh) 
   return corner_normals(mesh.vertices, mesh.triangles);
 }
 
-TEST_CASE("a ball is smooth: its normals point away from its centre") {
+TEST_CASE("a ball is smooth: its normals point away from its center") {
   const Mesh mesh = ball(2, 24, 48);
   const auto normals = normals_of(mesh);
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -33,7 +33,7 @@ TEST_CASE("a box is sharp: each corner has its face's normal") {
 }
 
 TEST_CASE(
-    "a triangle that runs the wrong way round has the opposite normals, its neighbours keep "
+    "a triangle that runs the wrong way round has the opposite normals, its neighbors keep "
     "theirs") {
   Mesh mesh = ball(1);
   const auto before = normals_of(mesh);
@@ -60,7 +60,7 @@ TEST_CASE("triangles without area have no normal and disturb no other") {
     for (const auto& n : after[i]) CHECK(n.isZero());
 }
 
-TEST_CASE("the centre of a huge fan costs no more than its triangles") {
+TEST_CASE("the center of a huge fan costs no more than its triangles") {
   // a fan of 200,000: its square would take minutes
   Mesh mesh;
   const int count = 200000;

@@ -28,9 +28,9 @@ double area(const DrawList& list, const Batch& batch) {
 
 }  // namespace
 
-TEST_CASE("a scene is moved to its centre and divided by its radius") {
+TEST_CASE("a scene is moved to its center and divided by its radius") {
   const DrawList list = make_draw_list(one_box());
-  CHECK(list.centre == Eigen::Vector3d(5, 6, 7));
+  CHECK(list.center == Eigen::Vector3d(5, 6, 7));
   CHECK(list.scale == doctest::Approx(std::sqrt(1.5)));
   double most = 0;
   for (const Corner& corner : list.corners) {
@@ -72,7 +72,7 @@ TEST_CASE("solid, seen-through, marked and background things are kept apart") {
   CHECK(list.behind.size() == 1);
   CHECK(list.marks.count > 0);
   CHECK(list.floor.count == 6 * (floor_lines - 1) * (floor_lines - 1));
-  CHECK(list.centre == Eigen::Vector3d(5, 6, 7));
+  CHECK(list.center == Eigen::Vector3d(5, 6, 7));
   // no run overlaps another, and all of them are whole triangles
   size_t all = 0;
   for (const auto& run : {list.solid[0], list.clear[0], list.behind[0], list.marks, list.floor}) {
@@ -115,7 +115,7 @@ TEST_CASE("a cone has its apex, its angle and its height") {
     const DrawList list = make_draw_list(scene);
     double far = 0, wide = 0;
     for (const Corner& corner : list.corners) {
-      const Eigen::Vector3d p = list.centre + list.scale * corner.p.cast<double>() - cone.apex;
+      const Eigen::Vector3d p = list.center + list.scale * corner.p.cast<double>() - cone.apex;
       far = std::max(far, p.dot(cone.axis));
       wide = std::max(wide, p.cross(cone.axis).norm());
     }
@@ -170,16 +170,16 @@ TEST_CASE("what a scene may not hold is refused by name") {
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.meshes[0].opacity = 1.5f; }),
                        "picture: mesh 1: opacity must be between 0 and 1, got 1.5", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.meshes[0].color[1] = static_cast<float>(nan); }),
-                       "picture: mesh 1: colour must be finite numbers", Error);
+                       "picture: mesh 1: color must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) {
                          s.meshes[0].triangle_colors.resize(3, {0, 0, 0});
                        }),
-                       "picture: mesh 1: expected one colour for each of 12 triangles, got 3",
+                       "picture: mesh 1: expected one color for each of 12 triangles, got 3",
                        Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) {
                          s.meshes[0].triangle_colors.assign(12, {0, static_cast<float>(nan), 0});
                        }),
-                       "picture: mesh 1: triangle colours must be finite numbers", Error);
+                       "picture: mesh 1: triangle colors must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.meshes[0].X_WM.rotation.coeffs().fill(1e200); }),
                        "picture: mesh 1: lies beyond all numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) {
@@ -189,7 +189,7 @@ TEST_CASE("what a scene may not hold is refused by name") {
                        }),
                        "picture: the scene is larger than numbers can be", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].apex.x() = nan; }),
-                       "picture: cone 1: apex and colour must be finite numbers", Error);
+                       "picture: cone 1: apex and color must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].axis *= 2; }),
                        "picture: cone 1: axis must have length 1", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].half_angle = 2; }),
@@ -198,11 +198,11 @@ TEST_CASE("what a scene may not hold is refused by name") {
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].height = -1; }),
                        "picture: cone 1: height must be >= 0, got -1 [m]", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.arrows[0].tip.x() = nan; }),
-                       "picture: arrow 1: tail, tip and colour must be finite numbers", Error);
+                       "picture: arrow 1: tail, tip and color must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.arrows[0].radius = 0; }),
                        "picture: arrow 1: radius must be > 0, got 0 [m]", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.labels[0].p_W.x() = nan; }),
-                       "picture: label 1: place and colour must be finite numbers", Error);
+                       "picture: label 1: place and color must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.ground = nan; }),
                        "picture: height of the ground must be a finite number", Error);
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int edge_wide = 90, edge_high = 70;
 
-// lines and discs of random colours, which may cover in part
+// lines and discs of random colors, which may cover in part
 Picture random_shapes(uint64_t seed, bool clear) {
   Random random(seed);
   Picture out{edge_wide, edge_high, std::vector<uint8_t>(3 * edge_wide * edge_high), {}};

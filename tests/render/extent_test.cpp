@@ -61,7 +61,7 @@ TEST_CASE("the extent that is found again is that of every vertex, to the bit") 
     Scene scene = random_scene(random, shapes);
     for (int k = 0; k < 3; ++k) {
       const Extent expected = plain_extent(scene), found = finder.find(scene);
-      CHECK(found.centre == expected.centre);
+      CHECK(found.center == expected.center);
       CHECK(found.scale == expected.scale);
       if (!scene.meshes.empty()) scene.meshes.back().X_WM = random_pose(random, 2);
     }

@@ -72,7 +72,7 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   const Pose X_WM{shortest_rotation(Eigen::Vector3d::UnitX(), side), 0.6 * side};
   scene.meshes.push_back(solid(box(0.1, 2, 2), {1, 1, 1}, X_WM));
   const Eye moved = frame_all(scene, 1);
-  // the ball's centre seen from the eye does not lie beyond the wall's plane
+  // the ball's center seen from the eye does not lie beyond the wall's plane
   CHECK(moved.eye.dot(side) < 0.6 + 1);
   CHECK((moved.eye - moved.target).normalized().dot(side) < 0.5);
 }

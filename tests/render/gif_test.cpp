@@ -35,7 +35,7 @@ int read(GifFileType* file, GifByteType* to, int count) {
 
 TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their delays") {
   constexpr std::array delays = {3, 4, 700};
-  // 240 colours in all, and 2,700, for which 256 stand
+  // 240 colors in all, and 2,700, for which 256 stand
   for (const auto& [columns, rows] : {std::pair{10, 8}, std::pair{30, 30}}) {
     const std::array frames = {squares(columns, rows, 0), squares(columns, rows, 1),
                                squares(columns, rows, 2)};
@@ -59,7 +59,7 @@ TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their
         const std::array rgb = {color.Red, color.Green, color.Blue};
         for (size_t c = 0; c < 3; ++c) sum += std::abs(rgb[c] - frames[i].pixels[3 * p + c]);
       }
-      // 85 colours a frame, by halving: 8 x 8 or more, squares of 30, whose points lie a quarter of
+      // 85 colors a frame, by halving: 8 x 8 or more, squares of 30, whose points lie a quarter of
       // that from the middle
       CHECK(sum / (3 * 90 * 60) <= (columns == 10 ? 0 : 30 / 4.0));
     }

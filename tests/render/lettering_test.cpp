@@ -74,7 +74,7 @@ TEST_CASE("letters of Latin and Greek stay within their width, between top and b
     CHECK(covered_by(letter) != box);
     const float right = 50 + font.width(letter, height);
     for (const auto& [place, part] : parts) {
-      // a few letters lean over their neighbours
+      // a few letters lean over their neighbors
       CHECK(static_cast<float>(place.second) > 50 - 0.2f * height);
       CHECK(static_cast<float>(place.second) < right + 0.1f * height);
       CHECK(static_cast<float>(place.first) > 60 - 1.35f * height);

@@ -40,7 +40,7 @@ TEST_CASE("a lamp shines from above on the viewer's left, from straight down too
 }
 
 TEST_CASE(
-    "samples balance about the middle of the pixel and reach into its neighbours, not beyond") {
+    "samples balance about the middle of the pixel and reach into its neighbors, not beyond") {
   CHECK(place_samples(1).front().isZero());
   for (const int count : {1, 4, 8, 16, 64}) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();

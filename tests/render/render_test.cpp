@@ -19,7 +19,7 @@ Scene red_box() {
   return scene;
 }
 
-// a bit of everything: solid, seen through, coloured by triangle, a cone and a needle, a floor
+// a bit of everything: solid, seen through, colored by triangle, a cone and a needle, a floor
 Scene still_life() {
   Scene scene = red_box();
   scene.meshes.push_back(solid(ball(0.5), {0.2f, 0.5f, 0.9f}, Pose::translation({1.2, 0.3, 0})));
@@ -89,14 +89,14 @@ TEST_CASE("a picture has the size that was asked for, in one tile or several") {
 
 TEST_CASE("no seam shows between tiles") {
   REQUIRE_PICTURES();
-  // tiles end at 1536: a wall across that column is one colour on either side of it
+  // tiles end at 1536: a wall across that column is one color on either side of it
   Scene scene;
   scene.meshes.push_back(solid(box(40, 1, 40)));
   scene.eye = looking_along_y(10);
   const Picture picture = render(scene, {.width = 1568, .height = 24, .samples = 1});
   for (int y = 0; y < 24; ++y) {
     const Color left = pixel(picture, 1535, y), right = pixel(picture, 1536, y);
-    // a lit wall changes slowly: neighbours differ by less than 2 of 255
+    // a lit wall changes slowly: neighbors differ by less than 2 of 255
     for (int k = 0; k < 3; ++k) CHECK(std::abs(left[k] - right[k]) < 2);
   }
 }
@@ -131,7 +131,7 @@ TEST_CASE("z is up and x is to the right for a camera that looks along y") {
   scene.eye = looking_along_y(4);
   const Picture picture = render(scene, small);
   // 72 pixels cover 2 * 4 * tan(0.4) = 3.38 m: the box's middle lies 12.8 right and 8.5 up of the
-  // centre
+  // center
   CHECK(is_red(pixel(picture, 48 + 12, 36 - 8)));
   CHECK(!is_red(pixel(picture, 48 - 12, 36 - 8)));
   CHECK(!is_red(pixel(picture, 48 + 12, 36 + 8)));
@@ -212,7 +212,7 @@ TEST_CASE("a box throws a shadow on the floor, and a thinner one a thinner shado
 TEST_CASE("a mesh whose triangles run the wrong way round looks the same") {
   REQUIRE_PICTURES();
   Mesh turned = ball(0.5);
-  // half of them: neighbours disagree, as in many files
+  // half of them: neighbors disagree, as in many files
   for (size_t i = 0; i < turned.triangles.size(); i += 2)
     std::swap(turned.triangles[i][0], turned.triangles[i][1]);
   Scene one, other;
@@ -224,7 +224,7 @@ TEST_CASE("a mesh whose triangles run the wrong way round looks the same") {
   CHECK(greatest_difference(render(one, small), render(other, small)) <= 8);
 }
 
-TEST_CASE("a millimetre and a kilometre make the same picture") {
+TEST_CASE("a millimeter and a kilometer make the same picture") {
   REQUIRE_PICTURES();
   // scaling by a power of two is exact, so the pictures agree to the byte
   const auto scaled = [](double factor) {
@@ -235,19 +235,19 @@ TEST_CASE("a millimetre and a kilometre make the same picture") {
     scene.ground = -0.25 * factor;
     return render(scene, small);
   };
-  const Picture metre = scaled(1);
-  CHECK(scaled(1.0 / 1024).pixels == metre.pixels);
-  CHECK(scaled(1024).pixels == metre.pixels);
-  CHECK(scaled(std::ldexp(1, 29)).pixels == metre.pixels);
+  const Picture meter = scaled(1);
+  CHECK(scaled(1.0 / 1024).pixels == meter.pixels);
+  CHECK(scaled(1024).pixels == meter.pixels);
+  CHECK(scaled(std::ldexp(1, 29)).pixels == meter.pixels);
 }
 
 TEST_CASE("a view from close by and one from far away show what they should") {
   REQUIRE_PICTURES();
   Scene scene = red_box();
-  // a millimetre off the face of a box of a metre
+  // a millimeter off the face of a box of a meter
   scene.eye = looking_along_y(0.501);
   CHECK(is_red(pixel(render(scene, small), 48, 36)));
-  // from ten kilometres, through a narrow lens
+  // from ten kilometers, through a narrow lens
   scene.eye = looking_along_y(1e4);
   scene.eye->field_of_view = 0.001;
   CHECK(is_red(pixel(render(scene, small), 48, 36)));
@@ -334,7 +334,7 @@ TEST_CASE(
         scene.eye = eye;
         const Picture picture =
             render(scene, {.width = 96, .height = 96, .samples = 1, .quality = quality});
-        // within the bottom neighbours differ by less than one layer of glass
+        // within the bottom neighbors differ by less than one layer of glass
         int most = 0;
         for (int x = 42; x < 54; ++x)
           for (int y = 46; y < 52; ++y) {

@@ -84,7 +84,7 @@ inline Mix mix_at(const Brightness& b, int x, int y) {
   return mix;
 }
 
-// between each pixel of a row and its four neighbours. Bytes alone, so that many are found at once:
+// between each pixel of a row and its four neighbors. Bytes alone, so that many are found at once:
 // few are worth more
 inline void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts) {
   const uint8_t* row = &b.values[static_cast<size_t>(y) * b.width];
@@ -99,7 +99,7 @@ inline void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& con
   }
 }
 
-/// Mixes pixels at edges with those across, by where along a step of the edge they lie. Colours are
+/// Mixes pixels at edges with those across, by where along a step of the edge they lie. Colors are
 /// multiplied by alpha where there is alpha.
 /// source  Lottes (2009), FXAA
 inline void smooth_edges(Picture& picture) {

@@ -104,7 +104,7 @@ TEST_CASE("a chart and a plot in SVG have every part where the picture has it") 
   compare(a_plot());
 }
 
-TEST_CASE("what a picture shows at an area of the drawing is the area's colour") {
+TEST_CASE("what a picture shows at an area of the drawing is the area's color") {
   for (const Drawing& drawing : {a_chart(), a_plot()}) {
     const Picture picture = paint(drawing, letters());
     int compared = 0;

@@ -34,7 +34,7 @@ RobotSpec block(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("bodies come in creation order, each with the colour of its kind") {
+TEST_CASE("bodies come in creation order, each with the color of its kind") {
   World world;
   world.add_body(body("table", box(1, 1, 0.1)), BodyKind::obstacle, {});
   world.add_body(body("tin", ball(0.1)), BodyKind::object, Pose::translation({3, 0, 0}));
@@ -50,7 +50,7 @@ TEST_CASE("bodies come in creation order, each with the colour of its kind") {
   CHECK(make_scene(world, {.transparent_objects = false}).meshes[1].opacity == 1);
 }
 
-TEST_CASE("a file's own colours are used unless it is asked not to") {
+TEST_CASE("a file's own colors are used unless it is asked not to") {
   World world;
   BodySpec spec = body("tin", box(1, 1, 1));
   spec.appearance.given = true;
@@ -134,7 +134,7 @@ TEST_CASE("cones of patches that lie close do not reach each other, and stay in 
     add_row(world, side, 2);
     const std::vector<DrawCone> cones = make_scene(world).cones;
     REQUIRE(cones.size() == 2);
-    // without a neighbour: 0.15 of the object's largest radius
+    // without a neighbor: 0.15 of the object's largest radius
     const double usual = 0.15 * std::sqrt(3) * 0.05;
     for (const DrawCone& a : cones) {
       CHECK(a.height >= 0.199 * usual);

@@ -85,7 +85,7 @@ TEST_CASE("the log goes where it is told, from the level it is told") {
                 "error('text', 0) end}))") == "text");
 }
 
-TEST_CASE("the catalogue lists what lies below the folder that CLENCH_MODELS names, sorted") {
+TEST_CASE("the catalog lists what lies below the folder that CLENCH_MODELS names, sorted") {
   const clench::test::TemporaryFolder folder;
   const fs::path home = folder.path();
   for (const char* name :

@@ -19,18 +19,18 @@ struct Sketch {
     robot.base = body("palm", palm, {0, 0, 0});
   }
   static BodySpec body(const std::string& name, const Eigen::Vector3d& size,
-                       const Eigen::Vector3d& centre) {
+                       const Eigen::Vector3d& center) {
     BodySpec out;
     out.name = name;
     if (size.x() > 0)
       out.shape = Shape::make(
-          test::moved(test::box(size.x(), size.y(), size.z()), Pose::translation(centre)));
+          test::moved(test::box(size.x(), size.y(), size.z()), Pose::translation(center)));
     return out;
   }
   int add(const std::string& name, int parent, const Pose& X_PL, const Eigen::Vector3d& size,
-          const Eigen::Vector3d& centre) {
+          const Eigen::Vector3d& center) {
     robot.links.push_back(
-        {.body = body(name, size, centre), .parent = parent - 1, .joints = {}, .X_JL = X_PL});
+        {.body = body(name, size, center), .parent = parent - 1, .joints = {}, .X_JL = X_PL});
     return static_cast<int>(robot.links.size());
   }
   int joint(int number, const Eigen::Vector3d& axis, double min, double max,

@@ -37,9 +37,9 @@ inline Pose random_pose(Random& random, double reach) {
 inline Mesh soup(Random& random, int count, double size = 0.2) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d centre = random_pose(random, 0.5).position;
+    const Eigen::Vector3d center = random_pose(random, 0.5).position;
     std::array<Eigen::Vector3d, 3> c;
-    for (auto& p : c) p = centre + random_point(random, size);
+    for (auto& p : c) p = center + random_point(random, size);
     if (i % 15 == 4) c[2] = c[1];
     if (i % 15 == 9) c[2] = 0.25 * c[0] + 0.75 * c[1];
     if (i % 15 == 14) c[1] = c[2] = c[0];

@@ -7,7 +7,7 @@
 
 namespace clench::test {
 
-/// Closed box, centred, 12 triangles.
+/// Closed box, centered, 12 triangles.
 inline Mesh box(double x, double y, double z) {
   Mesh m;
   for (int i = 0; i < 8; ++i)

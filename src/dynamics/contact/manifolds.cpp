@@ -15,7 +15,7 @@ namespace clench {
 
 double displacement(const Pose& X_AB, const Pose& other, const Shape& b) {
   if (X_AB == other) return 0;
-  const Eigen::Vector3d moved = other * b.centre() - X_AB * b.centre();
+  const Eigen::Vector3d moved = other * b.center() - X_AB * b.center();
   // chord of the rotation: 2 sin(angle / 2)
   const double turned = 2 * (X_AB.rotation.conjugate() * other.rotation).vec().norm();
   return moved.norm() + turned * b.radius();
@@ -238,11 +238,11 @@ static std::vector<Touch> push_back_touches(const Shape& a, const Shape& b, cons
   const auto add = [&](const Shape& mesh, const Shape& piece_of, size_t number, const Pose& X_MP,
                        bool of_b) {
     const RoundPiece& piece = piece_of.rounds().pieces[number];
-    const Eigen::Vector3d centre = X_MP * piece.X_SR.position;
-    if (!out.empty() || !contains(mesh, centre)) return;
-    const ClosestPoint near = closest_point(mesh, centre);
+    const Eigen::Vector3d center = X_MP * piece.X_SR.position;
+    if (!out.empty() || !contains(mesh, center)) return;
+    const ClosestPoint near = closest_point(mesh, center);
     if (!(near.distance > 0)) return;
-    const Eigen::Vector3d normal = (near.point - centre) / near.distance;
+    const Eigen::Vector3d normal = (near.point - center) / near.distance;
     const PlacedRound round{piece.solid, X_MP * piece.X_SR};
     const Eigen::Vector3d deepest = round.farthest(-normal);
     Touch touch{near.point,

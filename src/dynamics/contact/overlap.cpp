@@ -6,7 +6,7 @@ namespace clench {
 
 std::optional<Pose> moved_out(const Shape& a, const Shape& b, const Pose& X_AB, double threshold) {
   std::vector<Eigen::Vector3d> ways;
-  const Eigen::Vector3d apart = X_AB * b.centre() - a.centre();
+  const Eigen::Vector3d apart = X_AB * b.center() - a.center();
   for (const auto& axes :
        {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), X_AB.rotation.toRotationMatrix()})
     for (int k = 0; k < 3; ++k) {

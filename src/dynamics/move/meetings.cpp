@@ -29,7 +29,7 @@ double max_speed(const World& world, Id<Body> id) {
   const Body& body = world.body(id);
   if (twist.is_zero()) return 0;
   return twist.linear.norm() +
-         twist.angular.norm() * (body.shape->radius() + (body.shape->centre() - body.com).norm());
+         twist.angular.norm() * (body.shape->radius() + (body.shape->center() - body.com).norm());
 }
 
 // Upper bound on the relative rotation of a pair [rad].

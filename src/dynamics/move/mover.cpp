@@ -246,7 +246,7 @@ Mover::Part Mover::free_part(const World& world, const Articulation& tree) {
   const Twist twist = world.twist(tree.root);
   Part out{tree.root, world.pose(tree.root), twist, root.com, root.mass * root.inertia_per_mass};
   if (tree.bodies.size() == 1) return out;
-  const Eigen::Vector3d c = centre(world, tree);
+  const Eigen::Vector3d c = center(world, tree);
   SpatialInertia all;
   for (const TreeBody& part : tree.bodies)
     all.add(SpatialInertia::of(world.body(part.body), world.pose(part.body), c));

@@ -125,7 +125,7 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
   OdeTree& out = trees_[number];
   OdeNode& root = out.nodes[0];
   // the group's center of mass is elsewhere if something is fixed to the root
-  const Eigen::Vector3d arm = root.com - centre(world_, tree);
+  const Eigen::Vector3d arm = root.com - center(world_, tree);
   Twist twist = world_.twist(tree.root);
   if (tree.floating)
     twist = {problem_.v.segment<3>(tree.first), problem_.v.segment<3>(tree.first + 3)};
@@ -209,7 +209,7 @@ void OdeScene::add_forces(const Articulation& tree, int number) {
     OdeNode& root = out.nodes[0];
     const Eigen::Vector3d f = forces.efforts.head<3>();
     root.force += f;
-    root.torque += forces.efforts.segment<3>(3) + (centre(world_, tree) - root.com).cross(f);
+    root.torque += forces.efforts.segment<3>(3) + (center(world_, tree) - root.com).cross(f);
   }
   for (size_t i = 0; i < tree.coordinates.size(); ++i) {
     const int c = tree.root_size() + static_cast<int>(i), lead = out.lead[c];
@@ -230,7 +230,7 @@ void OdeScene::damp_root(const Articulation& tree, int number) {
   if (damped.size() == 0) return;
   OdeNode& root = trees_[number].nodes[0];
   // from the center of the coordinates to that of the node
-  const Eigen::Vector3d arm = root.com - centre(world_, tree);
+  const Eigen::Vector3d arm = root.com - center(world_, tree);
   Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Identity() * root.mass, J = M;
   M.bottomRightCorner<3, 3>() = root.inertia;
   J.setIdentity();
@@ -283,7 +283,7 @@ void OdeScene::step() {
 Twist OdeScene::root_twist(int tree) const {
   const OdeNode& node = trees_[tree].nodes[0];
   const Eigen::Vector3d w = turning_of(node);
-  return {velocity_of(node) + w.cross(centre(world_, problem_.system.trees[tree]) - node.com), w};
+  return {velocity_of(node) + w.cross(center(world_, problem_.system.trees[tree]) - node.com), w};
 }
 
 }  // namespace clench

@@ -7,7 +7,7 @@ namespace clench {
 namespace {
 
 // eigenvalues onto the diagonal of A, eigenvectors into the columns of V, by Jacobi rotations
-void diagonalise(int n, double A[3][3], double* V) {
+void diagonalize(int n, double A[3][3], double* V) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) V[n * j + i] = i == j;
   for (int sweep = 0; sweep < 30; ++sweep) {
@@ -47,7 +47,7 @@ void ContactBlock::set(double mu, int tangents, const double* W, int stride, dou
   for (int i = 0; i < tangents_; ++i)
     for (int j = 0; j < tangents_; ++j)
       A[i][j] = W[stride * (1 + i) + 1 + j] + (i == j ? added : 0) - W_tn_[i] * W_tn_[j] / W_nn_;
-  diagonalise(tangents_, A, V_);
+  diagonalize(tangents_, A, V_);
   for (int k = 0; k < tangents_; ++k) {
     a_[k] = std::max(A[k][k], added), w_[k] = 0;
     for (int i = 0; i < tangents_; ++i) w_[k] += V_[tangents_ * k + i] * W_tn_[i];

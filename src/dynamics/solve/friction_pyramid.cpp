@@ -134,7 +134,7 @@ std::vector<FrictionProblem::Block> inscribed_cones(std::vector<FrictionProblem:
 // Largest number of unknowns; time of a pivot and memory are quadratic in it.
 static constexpr int max_unknowns = 6000;
 
-PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& centre,
+PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, const VectorXd& center,
                               const std::vector<MatrixXd>& edges) {
   if (const int count = count_unknowns(problem, edges); count > max_unknowns)
     fail(ErrorKind::limit,
@@ -144,7 +144,7 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
   Complementarity c = put_together(problem, edges);
   MatrixXd S = problem.S;
   S.diagonal() += damping * problem.weights;
-  const VectorXd pulled = problem.q - damping * problem.weights.cwiseProduct(centre);
+  const VectorXd pulled = problem.q - damping * problem.weights.cwiseProduct(center);
   // rows without bounds are equations: their r follows from the others, as u is 0
   std::vector<int> free;
   for (const auto& block : problem.blocks)

@@ -33,7 +33,7 @@ struct PyramidSolution {
 /// edges    directions per contact; of all blocks, those of others empty
 /// source   Stewart & Trinkle (1996), An implicit time-stepping scheme for rigid body dynamics
 PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping,
-                              const Eigen::VectorXd& centre,
+                              const Eigen::VectorXd& center,
                               const std::vector<Eigen::MatrixXd>& edges);
 
 }  // namespace clench

@@ -241,7 +241,7 @@ double TreeNewton::shorten(const TreeFriction& problem, const Pull& pull, double
     if (value < lowest || !std::isfinite(lowest)) lowest = value, best = fraction;
     if (value < energy * (1 - 1e-4 * fraction)) break;
   }
-  // no part reduces the energy: take the full step, to leave the neighbourhood
+  // no part reduces the energy: take the full step, to leave the neighborhood
   if (!(lowest < energy)) best = 1;
   if (best == last) return lowest;
   next_ = r + best * (full_ - r);

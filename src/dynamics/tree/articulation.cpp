@@ -111,7 +111,7 @@ static Eigen::Vector3d com(const World& world, Id<Body> id) {
   return world.pose(id) * world.body(id).com;
 }
 
-Eigen::Vector3d centre(const World& world, const Articulation& tree) {
+Eigen::Vector3d center(const World& world, const Articulation& tree) {
   if (!tree.is_free_body() || tree.bodies.size() == 1) return com(world, tree.root);
   double mass = 0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -123,7 +123,7 @@ Eigen::Vector3d centre(const World& world, const Articulation& tree) {
 }
 
 Eigen::Matrix<double, 6, 6> free_motion(const World& world, const Articulation& tree) {
-  const Eigen::Vector3d r = world.pose(tree.root).position - centre(world, tree);
+  const Eigen::Vector3d r = world.pose(tree.root).position - center(world, tree);
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
   // w x r
   J.topRightCorner<3, 3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
@@ -146,7 +146,7 @@ void gather_velocities(const System& system, const World& world, const DynamicSt
     if (tree.floating) {
       const Twist& twist = state.twists[tree.root.index];
       v.segment<3>(at) =
-          twist.linear + twist.angular.cross(centre(world, tree) - com(world, tree.root));
+          twist.linear + twist.angular.cross(center(world, tree) - com(world, tree.root));
       v.segment<3>(at + 3) = twist.angular;
       at += 6;
     }
@@ -163,7 +163,7 @@ void scatter_velocities(const System& system, const World& world, const Eigen::V
       const Eigen::Vector3d linear = v.segment<3>(tree.first),
                             angular = v.segment<3>(tree.first + 3);
       state.twists[tree.root.index] = {
-          linear + angular.cross(com(world, tree.root) - centre(world, tree)), angular};
+          linear + angular.cross(com(world, tree.root) - center(world, tree)), angular};
     }
     for (const ArticulationJoint& joint : tree.joints)
       state.joint_velocities[world.robot(joint.robot).first_joint +

@@ -34,7 +34,7 @@ struct Coordinate {
 };
 
 struct Articulation {
-  /// six coordinates first: the linear velocity of the root at centre(), and its angular velocity
+  /// six coordinates first: the linear velocity of the root at center(), and its angular velocity
   bool floating = false;
   Id<Body> root;  ///< a free body, or the base of a robot that nothing carries
   std::vector<ArticulationJoint> joints;
@@ -68,13 +68,13 @@ System find_system(const World& world);
 
 /// Reference point of the root: its center of mass; that of the complete rigid piece if the tree
 /// has no joints [m].
-Eigen::Vector3d centre(const World& world, const Articulation& tree);
+Eigen::Vector3d center(const World& world, const Articulation& tree);
 
 /// How the six coordinates of a floating root move the origin of its frame, and rotate it:
 /// (velocity, angular velocity) = J v, in world axes.
 Eigen::Matrix<double, 6, 6> free_motion(const World& world, const Articulation& tree);
 
-/// Velocity of a root with prescribed motion, at centre() [m/s, rad/s]; 0 for a floating root,
+/// Velocity of a root with prescribed motion, at center() [m/s, rad/s]; 0 for a floating root,
 /// whose velocity is in the coordinates.
 Vector6d prescribed_twist(const World& world, const Articulation& tree);
 

@@ -40,7 +40,7 @@ static Vector6d cross_force(const Vector6d& v, const Vector6d& f) {
 
 void TreeDynamics::place(const World& world, const Articulation& tree) {
   tree_ = &tree;
-  about_ = centre(world, tree);
+  about_ = center(world, tree);
   com_.resize(tree.bodies.size());
   own_.assign(tree.joints.size() + 1, {});
   carried_.clear();

@@ -20,19 +20,19 @@ namespace {
 
 // Points relative to their mean and divided by their spread, so that no digits are lost to a
 // distant origin and tolerances mean the same at every size.
-struct Normalised {
+struct Normalized {
   Eigen::MatrixXd points;
-  Eigen::VectorXd centre;
+  Eigen::VectorXd center;
   double scale = 1;
   double noise = 0;  // rounding of the given coordinates, in units of scale
 
-  explicit Normalised(const Eigen::MatrixXd& given) {
+  explicit Normalized(const Eigen::MatrixXd& given) {
     const double largest = given.size() > 0 ? given.cwiseAbs().maxCoeff() : 0;
-    centre = Eigen::VectorXd::Zero(given.rows());
+    center = Eigen::VectorXd::Zero(given.rows());
     points = given;
     if (largest == 0) return;
-    centre = (given / largest).rowwise().mean() * largest;
-    points.colwise() -= centre;
+    center = (given / largest).rowwise().mean() * largest;
+    points.colwise() -= center;
     const double spread = points.cwiseAbs().maxCoeff();
     if (spread == 0) return;
     scale = spread;
@@ -49,7 +49,7 @@ void check_points(const Eigen::MatrixXd& points, const char* subject) {
              points(row, column));
 }
 
-int rank_of(const Normalised& n, double tolerance) {
+int rank_of(const Normalized& n, double tolerance) {
   if (n.points.cols() < 2 || n.points.rows() < 1) return 0;
   const Eigen::VectorXd values = singular_value_decomposition(n.points).values;
   return static_cast<int>((values.array() > std::max(tolerance, n.noise) * values[0]).count());
@@ -119,7 +119,7 @@ class Qhull {
   bool stopped_ = false;
 };
 
-void read_facets(qhT* qh, const Normalised& n, Hull& hull) {
+void read_facets(qhT* qh, const Normalized& n, Hull& hull) {
   facetT* facet;
   vertexT *vertex, **vertexp;
   int count = 0;
@@ -130,7 +130,7 @@ void read_facets(qhT* qh, const Normalised& n, Hull& hull) {
   FORALLfacets {
     const Eigen::Map<const Eigen::VectorXd> normal(facet->normal, hull.dimension);
     hull.normals.col(column) = normal;
-    hull.offsets[column] = -facet->offset * n.scale + normal.dot(n.centre);
+    hull.offsets[column] = -facet->offset * n.scale + normal.dot(n.center);
     std::vector<int>& corners = hull.facets.emplace_back();
     FOREACHvertex_(facet->vertices) corners.push_back(qh_pointid(qh, vertex->point));
     ++column;
@@ -147,7 +147,7 @@ Hull convex_hull(const Eigen::MatrixXd& points) {
   if (hull.dimension < 2 || hull.dimension > 6)
     fail("convex_hull: dimension must be in 2..6, got {}", hull.dimension);
   check_points(points, "convex_hull");
-  Normalised n(points);
+  Normalized n(points);
   hull.rank = rank_of(n, 1e-10);
   if (!hull.full()) return hull;
 
@@ -180,7 +180,7 @@ std::vector<Triangle> hull_triangles(const Hull& hull, const Eigen::MatrixXd& po
 
 int affine_rank(const Eigen::MatrixXd& points, double tolerance) {
   check_points(points, "affine_rank");
-  return rank_of(Normalised(points), tolerance);
+  return rank_of(Normalized(points), tolerance);
 }
 
 }  // namespace clench

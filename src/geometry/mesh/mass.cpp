@@ -19,7 +19,7 @@ MassProperties solid_mass(const Mesh& mesh) {
 
   // signed tetrahedra over the triangles, from a nearby apex so that a distant origin costs no
   // digits
-  const Vector3d apex = bounds.centre();
+  const Vector3d apex = bounds.center();
   double volume = 0;
   Vector3d first = Vector3d::Zero();
   Matrix3d second = Matrix3d::Zero();
@@ -42,9 +42,9 @@ MassProperties solid_mass(const Mesh& mesh) {
     out.centroid = surface_centroid(mesh);
     return out;
   }
-  const Vector3d centre = first / volume;
-  const Matrix3d spread = second / volume - centre * centre.transpose();
-  out.centroid = apex + centre;
+  const Vector3d center = first / volume;
+  const Matrix3d spread = second / volume - center * center.transpose();
+  out.centroid = apex + center;
   out.inertia = spread.trace() * Matrix3d::Identity() - spread;
   return out;
 }
@@ -58,7 +58,7 @@ bool turn_outward(Mesh& mesh) {
 Vector3d surface_centroid(const Mesh& mesh) {
   const Bounds bounds = mesh.bounds();
   if (bounds.empty()) return Vector3d::Zero();
-  const Vector3d origin = bounds.centre();
+  const Vector3d origin = bounds.center();
   double area = 0;
   Vector3d sum = Vector3d::Zero();
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -26,7 +26,7 @@ struct Bounds {
     return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
   }
   bool empty() const { return (low.array() > high.array()).any(); }
-  Eigen::Vector3d centre() const { return 0.5 * (low + high); }
+  Eigen::Vector3d center() const { return 0.5 * (low + high); }
   Eigen::Vector3d size() const { return high - low; }
 };
 

@@ -44,7 +44,7 @@ ClosestPoint closest_point(const Shape& shape, const Vector3d& p, int seed) {
     }
     count = 0;
   };
-  const Vector3d from = p - Vector3d::Map(shape.tree().centre());
+  const Vector3d from = p - Vector3d::Map(shape.tree().center());
   const double rounding = rounding_of(shape.bounds(), p);
   // the result is at least as near as the corners of the seed
   double reach = std::numeric_limits<double>::infinity();

@@ -13,9 +13,9 @@ using Eigen::Vector3d;
 
 Sphere sphere_about(Simplex corners) {
   Sphere out{Vector3d::Zero()};
-  for (const Vector3d& p : corners) out.centre += p;
-  out.centre /= static_cast<double>(corners.size());
-  for (const Vector3d& p : corners) out.radius = std::max(out.radius, (p - out.centre).norm());
+  for (const Vector3d& p : corners) out.center += p;
+  out.center /= static_cast<double>(corners.size());
+  for (const Vector3d& p : corners) out.radius = std::max(out.radius, (p - out.center).norm());
   return out;
 }
 
@@ -90,15 +90,15 @@ static double min_along(const Vector3d& u, const Vector3d& p, const Corners& c, 
 // maximum number of triangles whose pairs local_rows all examines
 static constexpr int few_triangles = 24;
 
-void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const {
-  const double rounding = rounding_of(solid_.bounds(), ball.centre);
+void DepthField::find_near(const Sphere& ball, const Probe& center, NearTriangles& out) const {
+  const double rounding = rounding_of(solid_.bounds(), ball.center);
   out.count = 0;
-  out.reach = centre.deepest(2 * ball.radius) + rounding;
+  out.reach = center.deepest(2 * ball.radius) + rounding;
   out.complete = out.reach < 0;
   // of a large mesh, only a small part
   const size_t all = surface_.mesh().triangles.size();
   if (out.complete || (all > NearTriangles::capacity && out.reach > solid_.radius() / 4)) return;
-  const Vector3d from = ball.centre - Vector3d::Map(surface_.tree().centre());
+  const Vector3d from = ball.center - Vector3d::Map(surface_.tree().center());
   int count = 0;
   for_near_triangles(surface_.tree(), from.data(), rounding, out.reach, false, [&](int triangle) {
     if (count < NearTriangles::capacity) out.triangles[count] = triangle;
@@ -114,7 +114,7 @@ void DepthField::find_near(const Sphere& ball, const Probe& centre, NearTriangle
       static_cast<int>(std::remove_if(out.triangles.begin(), end,
                                       [&](int triangle) {
                                         const Corners c = surface_.mesh().corners(triangle);
-                                        return point_triangle(ball.centre, c).distance > out.reach;
+                                        return point_triangle(ball.center, c).distance > out.reach;
                                       }) -
                        out.triangles.begin());
 }
@@ -175,7 +175,7 @@ void DepthField::local_rows(Simplex corners, const Sphere& ball, const NearTrian
       for (auto i = group.begin(); i != end; ++i) {
         highest = std::max(highest, inward[*i].dot(corners[j] - on_plane[*i]));
         const Closest c = point_triangle(corners[j], surface_.mesh().corners(near.triangles[*i]));
-        if ((c.q - ball.centre).norm() <= near.reach) nearest = std::min(nearest, c.distance);
+        if ((c.q - ball.center).norm() <= near.reach) nearest = std::min(nearest, c.distance);
       }
       row[j] = highest <= 0 ? 0 : nearest;
       valid = std::isfinite(row[j]);
@@ -191,7 +191,7 @@ void DepthField::local_rows(Simplex corners, const Sphere& ball, const NearTrian
 // q is no farther from x than the points of the cone.
 bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles& near) const {
   if (!near.complete) return false;
-  const double rounding = rounding_of(solid_.bounds(), ball.centre);
+  const double rounding = rounding_of(solid_.bounds(), ball.center);
   Vector3d u = Vector3d::Zero();
   std::array<Slope, NearTriangles::capacity> slopes;
   for (int i = 0; i < near.count; ++i) u += (slopes[i] = slope(near.triangles[i])).inward;
@@ -201,18 +201,18 @@ bool DepthField::rises(Simplex corners, const Sphere& ball, const NearTriangles&
     u.normalize();
     // no corner lies farther behind the center
     double behind = 0;
-    for (const Vector3d& p : corners) behind = std::max(behind, u.dot(ball.centre - p));
+    for (const Vector3d& p : corners) behind = std::max(behind, u.dot(ball.center - p));
     double least = std::numeric_limits<double>::infinity();
     int worst = -1;
     for (int i = 0; i < near.count; ++i) {
       const double rise = u.dot(slopes[i].inward) - slopes[i].error;
       if (rise > 0 || rise >= least) continue;
       const Corners c = surface_.mesh().corners(near.triangles[i]);
-      if (min_along(u, ball.centre, c, near.reach) <= behind + rounding) least = rise, worst = i;
+      if (min_along(u, ball.center, c, near.reach) <= behind + rounding) least = rise, worst = i;
     }
     if (worst < 0) return true;
     const Corners c = surface_.mesh().corners(near.triangles[worst]);
-    const Vector3d away = ball.centre - point_triangle(ball.centre, c).q;
+    const Vector3d away = ball.center - point_triangle(ball.center, c).q;
     const Vector3d& inward = slopes[worst].inward;
     u += inward.isZero(0) ? Vector3d(away.stableNormalized()) : inward;
   }

@@ -15,7 +15,7 @@ namespace clench {
 using Simplex = std::span<const Eigen::Vector3d>;
 
 struct Sphere {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 0;                                 ///< [m]
 };
 
@@ -70,7 +70,7 @@ class DepthField {
   bool holds(const Eigen::Vector3d& p) const { return contains(solid_, p); }
   Probe probe(const Eigen::Vector3d& p, int seed = -1) const;
   /// center  the probe of the ball's center
-  void find_near(const Sphere& ball, const Probe& centre, NearTriangles& out) const;
+  void find_near(const Sphere& ball, const Probe& center, NearTriangles& out) const;
   /// Does the depth certainly have no local maximum in the simplex? True if it increases along one
   /// direction in the complete part of the simplex inside the solid.
   bool rises(Simplex corners, const Sphere& ball, const NearTriangles& near) const;

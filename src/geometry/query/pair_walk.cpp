@@ -121,8 +121,8 @@ class PairWalk {
     if (guided_) {
       // from the eight to the one, or the opposite
       const Real sense = open_a ? 1 : -1;
-      const Real one_near = dot(one.centre, along_) - sense * shadow(one, along_);
-      const F eight_near = dot(eight.centre, along_) + shadow(eight, along_) * sense;
+      const Real one_near = dot(one.center, along_) - sense * shadow(one, along_);
+      const F eight_near = dot(eight.center, along_) + shadow(eight, along_) * sense;
       const F gap = (eight_near - one_near) * -sense;
       used &= ~(gap > limit_).set();
       if (!used) return 0;

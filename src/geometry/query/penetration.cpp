@@ -181,9 +181,9 @@ class DeepestPoint {
     Bounds box;
     for (int i = begin; i < end; ++i)
       for (const int v : b_.mesh().triangles[triangles_[i]]) box.add(vertices_[v]);
-    const Vector3d centre = box.centre();
+    const Vector3d center = box.center();
     const double radius = box.size().norm() / 2;
-    const Probe probe = field_.probe(centre, seed);
+    const Probe probe = field_.probe(center, seed);
     push({.kind = Region::Kind::group,
           .bound = std::min(bound, probe.deepest(radius)),
           .begin = begin,
@@ -237,8 +237,8 @@ class DeepestPoint {
 
   // Is the ball outside b? `held` returns: is it inside b?
   bool is_beside(const Sphere& ball, bool& held) const {
-    const Vector3d p_B = placement_.to_b(ball.centre);
-    const Vector3d from = p_B - Vector3d::Map(b_.tree().centre());
+    const Vector3d p_B = placement_.to_b(ball.center);
+    const Vector3d from = p_B - Vector3d::Map(b_.tree().center());
     bool crossed = false;
     for_near_triangles(b_.tree(), from.data(), placement_.rounding(), ball.radius, false,
                        [&](int) { return crossed = true; });
@@ -272,20 +272,20 @@ class DeepestPoint {
   void add_simplex(Region region) {
     const bool solid = region.kind == Region::Kind::solid;
     const Sphere ball = sphere_about(region.corners());
-    const Probe centre = field_.probe(ball.centre, region.nearest);
-    region.nearest = centre.triangle;
-    region.bound = std::min(region.bound, centre.deepest(ball.radius));
-    if (!solid && centre.inside) take(ball.centre, centre.distance, centre.triangle);
+    const Probe center = field_.probe(ball.center, region.nearest);
+    region.nearest = center.triangle;
+    region.bound = std::min(region.bound, center.deepest(ball.radius));
+    if (!solid && center.inside) take(ball.center, center.distance, center.triangle);
     if (!matters(region.bound)) return push(std::move(region));
-    field_.find_near(ball, centre, near_);
+    field_.find_near(ball, center, near_);
     // the surface search finds maxima on the surface of b
     if (solid) {
       if (field_.rises(region.corners(), ball, near_)) return;
       if (!region.held && is_beside(ball, region.held)) return;
-      if (centre.inside && improves(centre.distance) && (region.held || holds(ball.centre)))
-        take(ball.centre, centre.distance, centre.triangle);
+      if (center.inside && improves(center.distance) && (region.held || holds(ball.center)))
+        take(ball.center, center.distance, center.triangle);
     }
-    tighten(region, ball, centre);
+    tighten(region, ball, center);
     push(std::move(region));
   }
 
@@ -310,7 +310,7 @@ class DeepestPoint {
 
   // Lowers the bound by cutting planes at the point where it is attained.
   // source  Kelley (1960), The cutting-plane method
-  void tighten(Region& region, const Sphere& ball, const Probe& centre) {
+  void tighten(Region& region, const Sphere& ball, const Probe& center) {
     constexpr int max_cuts = 10;
     const std::span<Vector3d> corners = region.corners();
     Rows rows;
@@ -323,7 +323,7 @@ class DeepestPoint {
     });
     for (const int triangle : region.triangles)
       if (triangle >= 0) add(triangle);
-    add(centre.triangle);
+    add(center.triangle);
     const double first = region.bound;
     for (int cut = 0; cut < max_cuts; ++cut) {
       const GameSolution game = rows.solve(static_cast<int>(corners.size()));

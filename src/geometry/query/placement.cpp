@@ -18,11 +18,11 @@ double rounding_of(const Bounds& bounds, const Vector3d& p) {
 double motion_bound(const Shape& b, const Pose& from, const Pose& to) {
   const Eigen::Matrix3d before = from.rotation.normalized().toRotationMatrix(),
                         after = to.rotation.normalized().toRotationMatrix();
-  const Vector3d centre = (after - before) * b.centre() + (to.position - from.position);
+  const Vector3d center = (after - before) * b.center() + (to.position - from.position);
   // a rotation by t moves points by 2 sin(t/2) times their distance from the center, and the norm
   // of the difference of the matrices is that times the square root of 2
   const double turn = (after - before).norm() * std::sqrt(0.5);
-  return (centre.norm() + turn * b.radius()) * (1 + 1e-12) +
+  return (center.norm() + turn * b.radius()) * (1 + 1e-12) +
          rounding_of(b.bounds(), from.position) + rounding_of(b.bounds(), to.position);
 }
 
@@ -49,7 +49,7 @@ Placement::Placement(const Shape& a, const Shape& b, const Pose& X_AB)
       trees_{&a.tree(), &b.tree(), {}, {}, 0} {
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(trees_.rotation) = rotation_;
   Vector3d::Map(trees_.offset) =
-      to_a(Vector3d::Map(b.tree().centre())) - Vector3d::Map(a.tree().centre());
+      to_a(Vector3d::Map(b.tree().center())) - Vector3d::Map(a.tree().center());
   trees_.rounding = rounding_of(a.bounds(), position_) + rounding_of(b.bounds(), position_);
 }
 

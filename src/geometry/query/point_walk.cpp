@@ -134,8 +134,8 @@ CLENCH_INLINE F ray_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& 
                          const Triple<typename F::Real>& direction, typename F::Real slack) {
   using Real = typename F::Real;
   const F infinite = F::all(std::numeric_limits<Real>::infinity());
-  const Triple<F> to = {eight.centre.x - origin.x, eight.centre.y - origin.y,
-                        eight.centre.z - origin.z};
+  const Triple<F> to = {eight.center.x - origin.x, eight.center.y - origin.y,
+                        eight.center.z - origin.z};
   F low = F::all(0), high = infinite;
   for (int k = 0; k < 3; ++k) {
     const F middle = dot(eight.axis[k], to), speed = dot(eight.axis[k], direction);

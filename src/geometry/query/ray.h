@@ -52,7 +52,7 @@ class Ray {
   /// Calls visit(triangle) for all triangles that the ray may hit within `limit`, near ones early;
   /// visit may lower `limit`, and ends the traversal by returning true.
   bool for_near_triangles(const Shape& shape, const double& limit, TriangleVisit visit) const {
-    const Eigen::Vector3d from = origin_ - Eigen::Vector3d::Map(shape.tree().centre());
+    const Eigen::Vector3d from = origin_ - Eigen::Vector3d::Map(shape.tree().center());
     return for_crossed_triangles(shape.tree(), from.data(), direction_.data(),
                                  rounding_of(shape.bounds(), origin_), limit, visit);
   }

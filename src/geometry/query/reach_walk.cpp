@@ -155,7 +155,7 @@ class ReachWalk {
   // which triangles of a side are in reach of a box of the other, by its axes and their own planes
   CLENCH_INLINE unsigned near_box(const Side& side, const BoxOf<Real>& box) const {
     const Triple<F> n = eight(side.normal);
-    const F at = dot(n, box.centre);
+    const F at = dot(n, box.center);
     F reach = F::all(0);
     for (int k = 0; k < 3; ++k) reach = reach + abs(dot(n, box.axis[k])) * box.half[k];
     auto off = (at - reach - F::stored(side.above) > limit_) |
@@ -163,7 +163,7 @@ class ReachWalk {
     for (int k = 0; k < 3; ++k) {
       F s[3];
       for (int c = 0; c < 3; ++c) s[c] = dot(eight(side.corners, c), box.axis[k]);
-      const Real middle = dot(box.centre, box.axis[k]), far = box.half[k] + limit_;
+      const Real middle = dot(box.center, box.axis[k]), far = box.half[k] + limit_;
       off = off | (min(min(s[0], s[1]), s[2]) > middle + far) |
             (max(max(s[0], s[1]), s[2]) < middle - far);
     }

@@ -21,7 +21,7 @@ std::vector<int> region(const Shape& shape, const Eigen::Vector3d& p, double rad
     fail("region: point and radius must be numbers [m], got ({}, {}, {}), {}", p.x(), p.y(), p.z(),
          radius);
   std::vector<int> out;
-  const Eigen::Vector3d from = p - Eigen::Vector3d::Map(shape.tree().centre());
+  const Eigen::Vector3d from = p - Eigen::Vector3d::Map(shape.tree().center());
   for_near_triangles(
       shape.tree(), from.data(), rounding_of(shape.bounds(), p), radius, false, [&](int triangle) {
         const Corners corners = shape.mesh().corners(triangle);

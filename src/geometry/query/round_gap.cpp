@@ -84,7 +84,7 @@ NearPlace nearest_on_triangle(const PlacedRound& round, const Corners& triangle)
       (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   if (normal.isZero()) return best;
   const auto height = [&](const Vector3d& p) { return normal.dot(p - triangle[0]); };
-  const Vector3d up = height(round.centre()) < 0 ? Vector3d(-normal) : normal;
+  const Vector3d up = height(round.center()) < 0 ? Vector3d(-normal) : normal;
   const Vector3d low = round.farthest(-up);
   const double gap = up.dot(low - triangle[0]);
   Vector3d foot = low - gap * up;
@@ -159,7 +159,7 @@ RoundGap gap_of_cylinder(const PlacedRound& a, const PlacedRound& b) {
     const Vector3d extreme = a.farthest(-outward);
     const double height = outward.dot(extreme - cap);
     const Vector3d foot = extreme - height * outward;
-    if (outward.dot(a.centre() - cap) > 0 && (foot - cap).norm() <= radius)
+    if (outward.dot(a.center() - cap) > 0 && (foot - cap).norm() <= radius)
       keep_nearer(best, height > 0 ? NearPlace{height, foot, -outward} : a.nearest_to(foot));
   }
   const NearPlace middle =
@@ -187,7 +187,7 @@ double gap_along(const PlacedRound& a, const PlacedRound& b, const Vector3d& n) 
 // Newton's method for the direction of the largest separation, which points from one extreme point
 // to the other.
 RoundGap gap_of_ellipsoids(const PlacedRound& a, const PlacedRound& b) {
-  Vector3d n = (b.centre() - a.centre()).stableNormalized();
+  Vector3d n = (b.center() - a.center()).stableNormalized();
   if (n.isZero()) n = Vector3d::UnitZ();
   const auto shape = [](const PlacedRound& round) -> Eigen::Matrix3d {
     const Eigen::Matrix3d R = round.X.matrix();

@@ -23,7 +23,7 @@ struct PlacedRound {
     const NearSkin skin = nearest(solid, X.inverse() * p);
     return {skin.distance, p, X.rotation * skin.normal};
   }
-  Eigen::Vector3d centre() const { return X.position; }
+  Eigen::Vector3d center() const { return X.position; }
   /// the point farthest along a unit direction
   Eigen::Vector3d farthest(const Eigen::Vector3d& direction) const {
     return X * support(solid, X.rotation.conjugate() * direction);

@@ -152,7 +152,7 @@ class PartsQuery {
 
   void facets_of_b(size_t i) {
     const RoundPiece& a = a_.rounds[i];
-    if (apart(a.X_SR.position, radius_of(a), X_AB_ * b_.facets->centre(), b_.facets->radius()))
+    if (apart(a.X_SR.position, radius_of(a), X_AB_ * b_.facets->center(), b_.facets->radius()))
       return;
     const FacetPlace place = FacetQuery(*a_.shape, static_cast<int>(i), *b_.facets, X_AB_.inverse())
                                  .nearest_place(limit());
@@ -164,7 +164,7 @@ class PartsQuery {
 
   void facets_of_a(size_t j) {
     const RoundPiece& b = b_.rounds[j];
-    if (apart(a_.facets->centre(), a_.facets->radius(), X_AB_ * b.X_SR.position, radius_of(b)))
+    if (apart(a_.facets->center(), a_.facets->radius(), X_AB_ * b.X_SR.position, radius_of(b)))
       return;
     const FacetPlace place =
         FacetQuery(*b_.shape, static_cast<int>(j), *a_.facets, X_AB_).nearest_place(limit());

@@ -44,7 +44,7 @@ static std::optional<RoundPiece> ball_of(const Mesh& mesh, const Bounds& bounds)
   const Vector3d size = bounds.size();
   if (size.minCoeff() < 0.9 * size.maxCoeff()) return std::nullopt;
   // |v|^2 = 2 c.v + (r^2 - |c|^2), by least squares about the middle of the box
-  const Vector3d middle = bounds.centre();
+  const Vector3d middle = bounds.center();
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
   for (const Vector3d& vertex : mesh.vertices) {
@@ -54,9 +54,9 @@ static std::optional<RoundPiece> ball_of(const Mesh& mesh, const Bounds& bounds)
     b += v.squaredNorm() * row;
   }
   const Eigen::Vector4d x = A.ldlt().solve(b);
-  const Vector3d centre = x.head<3>();
-  return RoundPiece{.solid = Round::ball(std::sqrt(x[3] + centre.squaredNorm())),
-                    .X_SR = Pose::translation(middle + centre)};
+  const Vector3d center = x.head<3>();
+  return RoundPiece{.solid = Round::ball(std::sqrt(x[3] + center.squaredNorm())),
+                    .X_SR = Pose::translation(middle + center)};
 }
 
 // The cylinder or capsule about an axis through the centroid that extends to the farthest vertices.

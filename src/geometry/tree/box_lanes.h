@@ -17,7 +17,7 @@ namespace clench {
 template <class F>
 struct BoxOf {
   Triple<F> axis[3];
-  Triple<F> centre;
+  Triple<F> center;
   F half[3];
 };
 
@@ -43,7 +43,7 @@ CLENCH_INLINE BoxOf<F> load_boxes(const BoxBundle& from) {
                    F::load(from.axes[3 * k + 2])};
     out.half[k] = F::load(from.half[k]);
   }
-  out.centre = {F::load(from.centre[0]), F::load(from.centre[1]), F::load(from.centre[2])};
+  out.center = {F::load(from.center[0]), F::load(from.center[1]), F::load(from.center[2])};
   if constexpr (sizeof(typename F::Real) == 8) straighten(out, F::load(from.size) * straightened);
   return out;
 }
@@ -51,7 +51,7 @@ CLENCH_INLINE BoxOf<F> load_boxes(const BoxBundle& from) {
 template <class F, class Real>
 CLENCH_INLINE BoxOf<F> moved(const BoxOf<F>& boxes, const Move<Real>& move) {
   return {{move.turned(boxes.axis[0]), move.turned(boxes.axis[1]), move.turned(boxes.axis[2])},
-          move(boxes.centre),
+          move(boxes.center),
           {boxes.half[0], boxes.half[1], boxes.half[2]}};
 }
 
@@ -68,8 +68,8 @@ CLENCH_INLINE F shadow(const BoxOf<F>& box, const Triple<N>& n) {
 template <class F>
 CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
   using Real = typename F::Real;
-  const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
-                             eight.centre.z - one.centre.z};
+  const Triple<F> between = {eight.center.x - one.center.x, eight.center.y - one.center.y,
+                             eight.center.z - one.center.z};
   const F zero = F::all(0);
   // along[j]: components of the eight along axis j of the one
   F along[3] = {zero, zero, zero};
@@ -101,8 +101,8 @@ CLENCH_INLINE F box_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& o
 /// also a lower bound of the distance, less tight than box_gaps, and cheaper.
 template <class F>
 CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
-  const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
-                             eight.centre.z - one.centre.z};
+  const Triple<F> between = {eight.center.x - one.center.x, eight.center.y - one.center.y,
+                             eight.center.z - one.center.z};
   F along[3], most;
   for (int k = 0; k < 3; ++k) {
     F reach = eight.half[k];
@@ -124,8 +124,8 @@ CLENCH_INLINE F axis_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& 
 /// of the axes.
 template <class F>
 CLENCH_INLINE F edge_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& one) {
-  const Triple<F> between = {eight.centre.x - one.centre.x, eight.centre.y - one.centre.y,
-                             eight.centre.z - one.centre.z};
+  const Triple<F> between = {eight.center.x - one.center.x, eight.center.y - one.center.y,
+                             eight.center.z - one.center.z};
   F turn[3][3], shadow[3][3], offset[3];
   for (int k = 0; k < 3; ++k) {
     offset[k] = dot(eight.axis[k], between);
@@ -148,7 +148,7 @@ CLENCH_INLINE F edge_gaps(const BoxOf<F>& eight, const BoxOf<typename F::Real>& 
 /// Squares of the distances of a point from eight boxes; 0 inside.
 template <class F>
 CLENCH_INLINE F squared_point_gaps(const BoxOf<F>& eight, const Triple<typename F::Real>& p) {
-  const Triple<F> between = {eight.centre.x - p.x, eight.centre.y - p.y, eight.centre.z - p.z};
+  const Triple<F> between = {eight.center.x - p.x, eight.center.y - p.y, eight.center.z - p.z};
   F squared = F::all(0);
   for (int k = 0; k < 3; ++k) {
     const F apart = max(abs(dot(eight.axis[k], between)) - eight.half[k], F::all(0));

@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// Eight boxes by rows of eight numbers: nine of axes, three of centres, three of half extents.
+/// Eight boxes by rows of eight numbers: nine of axes, three of centers, three of half extents.
 template <class Real>
 using BoxRows = const Real*;
 
@@ -45,7 +45,7 @@ class FrameBoxes {
   /// valid until the next call
   CLENCH_INLINE BoxRows<Real> operator()(int bundle) {
     if constexpr (as_stored) {
-      static_assert(offsetof(BoxBundle, centre) == 9 * 8 * sizeof(float) &&
+      static_assert(offsetof(BoxBundle, center) == 9 * 8 * sizeof(float) &&
                     offsetof(BoxBundle, half) == 12 * 8 * sizeof(float));
       return reinterpret_cast<const float*>(&tree_.boxes(bundle));
     } else {
@@ -63,7 +63,7 @@ class FrameBoxes {
     Real* to = rows_[slot];
     const auto keep = [&](const F& row) { row.store(to), to += 8; };
     for (const Triple<F>& axis : eight.axis) keep(axis.x), keep(axis.y), keep(axis.z);
-    keep(eight.centre.x), keep(eight.centre.y), keep(eight.centre.z);
+    keep(eight.center.x), keep(eight.center.y), keep(eight.center.z);
     for (const F& half : eight.half) keep(half);
   }
 

@@ -121,8 +121,8 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
   for (const Triangle& t : shape->mesh_.triangles)
     for (const int v : t) shape->bounds_.add(shape->mesh_.vertices[v]);
   check_stop();
-  shape->centre_ = shape->bounds_.centre();
-  shape->radius_ = largest_radius(shape->mesh_, shape->centre_);
+  shape->center_ = shape->bounds_.center();
+  shape->radius_ = largest_radius(shape->mesh_, shape->center_);
   if (rounds.in == RoundIn::all)
     for (const RoundPiece& piece : rounds.pieces) {
       for (int k = 0; k < 3; ++k)
@@ -131,7 +131,7 @@ std::shared_ptr<const Shape> Shape::make(Mesh mesh, const std::string& subject,
               piece.X_SR.rotation.conjugate() * Eigen::Vector3d(side * Eigen::Vector3d::Unit(k));
           shape->bounds_.add(piece.X_SR * support(piece.solid, along));
         }
-      shape->radius_ = std::max(shape->radius_, farthest_from(piece, shape->centre_));
+      shape->radius_ = std::max(shape->radius_, farthest_from(piece, shape->center_));
     }
   shape->convex_ = shape->closed() && is_convex(shape->mesh_);
   if (rounds.pieces.empty() && shape->closed())

@@ -52,8 +52,8 @@ class Shape {
   bool has_volume() const;
   /// closed and convex, and small enough for the test: see is_convex
   bool convex() const { return convex_; }
-  /// centre and radius [m] of a sphere that contains the mesh, and round pieces of RoundIn::all
-  const Eigen::Vector3d& centre() const { return centre_; }
+  /// center and radius [m] of a sphere that contains the mesh, and round pieces of RoundIn::all
+  const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
   const RoundPieces& rounds() const { return rounds_; }
   /// Does the shape have round pieces that count there?
@@ -95,7 +95,7 @@ class Shape {
   MeshFaults faults_;
   MassProperties solid_;
   Bounds bounds_;
-  Eigen::Vector3d centre_;
+  Eigen::Vector3d center_;
   double radius_ = 0;
   bool convex_ = false;
   RoundPieces rounds_;

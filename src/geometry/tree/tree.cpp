@@ -45,11 +45,11 @@ class TreeBuilder {
     Bounds bounds;
     for (const Triangle& t : mesh.triangles)
       for (const int v : t) bounds.add(mesh.vertices[v]);
-    const Vector3d centre = bounds.centre();
-    Vector3d::Map(tree.centre_) = centre;
+    const Vector3d center = bounds.center();
+    Vector3d::Map(tree.center_) = center;
     points_.reserve(mesh.vertices.size());
     gathered_.assign(mesh.vertices.size(), 0);
-    for (const Vector3d& p : mesh.vertices) points_.push_back(p - centre);
+    for (const Vector3d& p : mesh.vertices) points_.push_back(p - center);
     items_.reserve(count);
     for (int i = 0; i < count; ++i) {
       Item item{{}, i};
@@ -70,7 +70,7 @@ class TreeBuilder {
   struct Item {
     Bounds bounds;
     int triangle;
-    Vector3d centre() const { return bounds.centre(); }
+    Vector3d center() const { return bounds.center(); }
   };
   struct Group {
     int begin, end, depth;
@@ -119,7 +119,7 @@ class TreeBuilder {
 
   static void copy_lane(BoxBundle& bundle, int from, int to) {
     for (auto& row : bundle.axes) row[to] = row[from];
-    for (auto& row : bundle.centre) row[to] = row[from];
+    for (auto& row : bundle.center) row[to] = row[from];
     for (auto& row : bundle.half) row[to] = row[from];
     bundle.size[to] = bundle.size[from];
   }
@@ -210,17 +210,17 @@ class TreeBuilder {
   // returns  start of the second half
   int split(const Group& group) {
     check_stop();
-    Bounds centres;
-    for (int i = group.begin; i < group.end; ++i) centres.add(items_[i].centre());
-    const Vector3d scale = bin_count * centres.size().cwiseInverse();
-    if (group.depth >= deep) return split_in_half(group, centres);
+    Bounds centers;
+    for (int i = group.begin; i < group.end; ++i) centers.add(items_[i].center());
+    const Vector3d scale = bin_count * centers.size().cwiseInverse();
+    if (group.depth >= deep) return split_in_half(group, centers);
     std::array<std::array<Bounds, bin_count>, 3> bins;
     std::array<std::array<int, bin_count>, 3> counts{};
     for (int i = group.begin; i < group.end; ++i) {
-      const Vector3d centre = items_[i].centre();
+      const Vector3d center = items_[i].center();
       for (int axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(scale[axis])) continue;
-        const int bin = bin_of(centre[axis], centres.low[axis], scale[axis]);
+        const int bin = bin_of(center[axis], centers.low[axis], scale[axis]);
         join(bins[axis][bin], items_[i].bounds);
         ++counts[axis][bin];
       }
@@ -228,21 +228,21 @@ class TreeBuilder {
     Cut cut;
     for (int axis = 0; axis < 3; ++axis)
       if (std::isfinite(scale[axis])) find_cut(bins[axis], counts[axis], axis, cut);
-    if (!(cut.cost < std::numeric_limits<double>::infinity())) return split_in_half(group, centres);
+    if (!(cut.cost < std::numeric_limits<double>::infinity())) return split_in_half(group, centers);
     const auto middle = std::partition(
         items_.begin() + group.begin, items_.begin() + group.end, [&](const Item& item) {
-          return bin_of(item.centre()[cut.axis], centres.low[cut.axis], scale[cut.axis]) < cut.bin;
+          return bin_of(item.center()[cut.axis], centers.low[cut.axis], scale[cut.axis]) < cut.bin;
         });
     return static_cast<int>(middle - items_.begin());
   }
 
-  int split_in_half(const Group& group, const Bounds& centres) {
+  int split_in_half(const Group& group, const Bounds& centers) {
     int axis;
-    centres.size().maxCoeff(&axis);
+    centers.size().maxCoeff(&axis);
     const int middle = group.begin + group.count() / 2;
     std::nth_element(items_.begin() + group.begin, items_.begin() + middle,
                      items_.begin() + group.end, [&](const Item& s, const Item& t) {
-                       const double x = s.centre()[axis], y = t.centre()[axis];
+                       const double x = s.center()[axis], y = t.center()[axis];
                        return x < y || (x == y && s.triangle < t.triangle);
                      });
     return middle;
@@ -329,15 +329,15 @@ class TreeBuilder {
   }
 
   static void store(const Matrix3d& axes, const Bounds& along, BoxBundle& bundle, int lane) {
-    const Vector3d centre = (axes * along.centre()).unaryExpr(&to_single);
+    const Vector3d center = (axes * along.center()).unaryExpr(&to_single);
     double squared = 0;
     for (int k = 0; k < 3; ++k) {
       // what is stored holds the points, to the rounding of double
-      const double middle = axes.col(k).dot(centre);
+      const double middle = axes.col(k).dot(center);
       const double half = std::max(along.high[k] - middle, middle - along.low[k]);
       bundle.half[k][lane] = rounded_up(half);
       squared += half * half;
-      bundle.centre[k][lane] = static_cast<float>(centre[k]);
+      bundle.center[k][lane] = static_cast<float>(center[k]);
       for (int m = 0; m < 3; ++m) bundle.axes[3 * k + m][lane] = static_cast<float>(axes(m, k));
     }
     bundle.size[lane] = rounded_up(std::sqrt(squared));
@@ -389,7 +389,7 @@ class TreeBuilder {
   const Mesh& mesh_;
   Tree& tree_;
   const Progress& progress_;
-  std::vector<Vector3d> points_;  // vertices about the centre
+  std::vector<Vector3d> points_;  // vertices about the center
   std::vector<Item> items_;
   std::array<std::vector<double>, 3> corners_;  // of the group being fitted
   std::vector<int> gathered_;                   // by vertex: the last group that used it

@@ -21,7 +21,7 @@ struct ExposedSurface;  // of query/exposed
 /// Eight boxes side by side: the children of a node.
 struct alignas(32) BoxBundle {
   float axes[9][8];  ///< component m of axis k of box i at [3 k + m][i]; unit up to rounding
-  float centre[3][8];
+  float center[3][8];
   float half[3][8];  ///< half extents along the axes, rounded up
   float size[8];     ///< half the diagonal
   int32_t child[8];  ///< leaf: 2 * index + 1, node: 2 * index; -1: none
@@ -42,7 +42,7 @@ class Tree {
   const BoxBundle& boxes(int i) const { return boxes_[i]; }
   const TriangleBundle& leaf(int i) const { return leaves_[i]; }
   const BoundingPolytope& bounding_polytope() const { return bounding_polytope_; }
-  const double* centre() const { return centre_; }  ///< in the mesh's frame [m]
+  const double* center() const { return center_; }  ///< in the mesh's frame [m]
   double radius() const { return radius_; }         ///< no vertex is farther from the center [m]
   std::size_t bytes() const;
 
@@ -60,7 +60,7 @@ class Tree {
   std::vector<BoxBundle> boxes_;
   std::vector<TriangleBundle> leaves_;
   BoundingPolytope bounding_polytope_;
-  double centre_[3] = {};
+  double center_[3] = {};
   double radius_ = 0;
   mutable std::mutex exposing_;
   mutable ExposedPtr exposed_;

@@ -10,7 +10,7 @@
 
 namespace clench {
 
-/// Two trees, each about its own centre: p_a = rotation p_b + offset.
+/// Two trees, each about its own center: p_a = rotation p_b + offset.
 struct TreePair {
   const Tree *a, *b;
   double rotation[9];  ///< by rows
@@ -66,7 +66,7 @@ DistanceBound bound_distance(const TreePair& pair, const Reach& reach, double pa
 /// Visits all pairs of triangles that may meet, likely ones early.
 bool for_meeting_pairs(const TreePair& pair, PairVisit visit);
 
-/// Visits all triangles that may be as near to p (about the tree's centre) as reach [m]; of these,
+/// Visits all triangles that may be as near to p (about the tree's center) as reach [m]; of these,
 /// if nearest_only, all that may be the nearest. What visit returns ends nothing.
 void for_near_triangles(const Tree& tree, const double p[3], double rounding, double reach,
                         bool nearest_only, TriangleVisit visit);

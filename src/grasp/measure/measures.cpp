@@ -254,7 +254,7 @@ const Measure all_measures[] = {
      "how far the angles of that polygon are from those of a regular one; 1 with fewer than three "
      "corners",
      "0 to 1", "1", false, "Park and Starr (1992)", polygon_irregularity},
-    {"centroid_distance", "of the mean of the contact points from the object's centre of mass",
+    {"centroid_distance", "of the mean of the contact points from the object's center of mass",
      ">= 0", "m", false, "Ponce, Sullivan, Sudsang, Boissonnat and Merlet (1997)",
      centroid_distance},
     {"orthogonality",

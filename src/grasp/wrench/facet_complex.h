@@ -58,11 +58,11 @@ template <int D>
 class FacetComplex {
  public:
   struct alignas(64) Facet {
-    Eight plane;                  // unit normal, outwards
-    int corner[D], neighbour[D];  // neighbour k has all corners but corner k
-    double height;                // height of the new point, valid if `mark` is current
-    int mark;                     // the last expansion that visited it; -1: removed
-    bool turned;                  // is the order of corners mirrored?
+    Eight plane;                 // unit normal, outwards
+    int corner[D], neighbor[D];  // neighbor k has all corners but corner k
+    double height;               // height of the new point, valid if `mark` is current
+    int mark;                    // the last expansion that visited it; -1: removed
+    bool turned;                 // is the order of corners mirrored?
 
     double offset() const { return -plane.x[behind]; }
     bool alive() const { return mark >= 0; }
@@ -141,7 +141,7 @@ void FacetComplex<D>::start(const Eight* planes) {
     Facet& facet = facets_[k];
     facet.plane = planes[k];
     for (int j = 0, slot = 0; j <= D; ++j)
-      if (j != k) facet.corner[slot] = facet.neighbour[slot] = j, ++slot;
+      if (j != k) facet.corner[slot] = facet.neighbor[slot] = j, ++slot;
     facet.turned = k % 2;
     facet.mark = 0;
   }
@@ -172,7 +172,7 @@ void FacetComplex<D>::look(int first, const Eight& point) {
     if (static_cast<int>(rim_.size()) < rim_count_ + D) rim_.resize(2 * rim_.size() + D);
     const int a = seen_[next];
     for (int side = 0; side < D; ++side) {
-      const int b = facets_[a].neighbour[side];
+      const int b = facets_[a].neighbor[side];
       Facet& other = facets_[b];
       const double height = dot(other.plane.lanes(), p);
       const bool sees = height > seen, fresh = other.mark != growth_;
@@ -228,13 +228,13 @@ void FacetComplex<D>::raise(int corner) {
     facet.corner[D - 1] = corner;
     facet.turned = a.turned != (rim.side != D - 1);
     facet.mark = 0;
-    facet.neighbour[D - 1] = rim.beyond;
+    facet.neighbor[D - 1] = rim.beyond;
     int back = 0;
     for (int k = 0; k < D; ++k) {
-      const int is = b.neighbour[k] == rim.facet;
+      const int is = b.neighbor[k] == rim.facet;
       back += k * is, backs += is;
     }
-    b.neighbour[back] = made_[i];
+    b.neighbor[back] = made_[i];
 
     // both sides of a new ridge store their numbers in its entry
     uint64_t own[D], all = 0x9e3779b97f4a7c15u;
@@ -260,7 +260,7 @@ void FacetComplex<D>::join() {
     for (uint32_t k = 0; k < D - 1; ++k) {
       const uint32_t own = 8 * i + k, other = other_side(own, 0);
       if (other != own)
-        facet.neighbour[k] = made_[other / 8];
+        facet.neighbor[k] = made_[other / 8];
       else
         unmatched_.push_back(own);
     }
@@ -272,7 +272,7 @@ void FacetComplex<D>::join() {
     for (const uint32_t own : unmatched_) place(own, shift) ^= own;
     std::erase_if(unmatched_, [&](uint32_t own) {
       const uint32_t other = other_side(own, shift);
-      facets_[made_[own / 8]].neighbour[own % 8] = made_[other / 8];
+      facets_[made_[own / 8]].neighbor[own % 8] = made_[other / 8];
       return other != own;
     });
   }

@@ -44,7 +44,7 @@ static Pose hand_in_object(const World& world, Id<Robot> hand, Id<Body> object) 
   return world.pose(object).inverse() * world.pose(world.robot(hand).base);
 }
 
-// of metres and radians: a hundredth of the usual contact threshold, far above rounding
+// of meters and radians: a hundredth of the usual contact threshold, far above rounding
 static constexpr double moved = 1e-6;
 
 static bool has_moved(const Pose& off) {
@@ -73,7 +73,7 @@ void check_unmoved(const World& world, const Grasp& grasp) {
     fail(ErrorKind::stale, "grasp of {} by {}: {} since it was measured; measure it anew",
          world.body(grasp.object).name, world.robot(grasp.hand).name,
          friction ? "friction has changed"
-         : com    ? "the object's centre of mass has changed"
+         : com    ? "the object's center of mass has changed"
          : joints ? "joints of the hand have moved"
                   : "hand and object have moved apart");
 }

@@ -13,7 +13,7 @@ namespace clench {
 
 namespace {
 
-// of metres and radians: far above the rounding of 32 bits
+// of meters and radians: far above the rounding of 32 bits
 constexpr double apart = 1e-6;
 
 bool differ(double a, double b) { return !(std::abs(a - b) <= apart * std::max(1.0, std::abs(b))); }

@@ -180,7 +180,7 @@ double invert(CellMatrix& m) {
 
 struct Surroundings {
   double volume = 0;  // of the cell
-  std::vector<Cell> neighbours;
+  std::vector<Cell> neighbors;
 };
 
 Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
@@ -226,7 +226,7 @@ Surroundings look_around(const LiftedPoints& points, const Cell& cell) {
     plane.rise = by.transpose() * along / (edges.colwise().norm() * by.cwiseAbs());
     const NextPoint next = next_point(points, cell, first_corners(points, cell, cell[k]), plane);
     if (next.point < 0) continue;
-    exchange(out.neighbours.emplace_back(cell), cell[k], next.point);
+    exchange(out.neighbors.emplace_back(cell), cell[k], next.point);
   }
   return out;
 }
@@ -243,10 +243,10 @@ SumVolume cut_into_cells(const LiftedPoints& points, Random& random, int max_cel
   std::unordered_map<Cell, Entry, CellHash> entries = {{cells[0], {0, 0}}};
   for (size_t k = 0; k < cells.size(); ++k) {
     progress.check();
-    const auto [volume, neighbours] = look_around(points, cells[k]);
+    const auto [volume, neighbors] = look_around(points, cells[k]);
     out.volume += volume;
     int known = 0;
-    for (const Cell& next : neighbours) {
+    for (const Cell& next : neighbors) {
       const auto [entry, fresh] = entries.try_emplace(next, Entry{cells.size(), 0});
       if (fresh) cells.push_back(next);
       ++entry->second.seen;

@@ -70,14 +70,14 @@ GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
   return format;
 }
 
-/// Triangles in the body frame; coordinates of the file count as millimetres.
+/// Triangles in the body frame; coordinates of the file count as millimeters.
 Geometry read_scaled(const XmlElement& element, const PlacedFile& file, FileCache& cache) {
   Eigen::Vector3d scaling = file.scaling;
   ReadOptions options = cache.options();
   options.mesh_scale.reset();
   if (file.format != GeometryFormat::inventor) {
-    // one factor for both, so that metres scaled by 1000 lose no digit
-    options.mesh_scale = units::millimetre * scaling.x();
+    // one factor for both, so that meters scaled by 1000 lose no digit
+    options.mesh_scale = units::millimeter * scaling.x();
     scaling /= scaling.x();
   }
   Geometry geometry =
@@ -108,13 +108,13 @@ void read_mass(const XmlElement& body, const FileCache& cache, Repairs& repairs,
     out.mass_from = Origin::file;
   }
   if (const XmlElement cog = body.child("cog")) {
-    out.com = cog.vector() * units::millimetre;
+    out.com = cog.vector() * units::millimeter;
     check(coordinate_rule.called("cog"), *out.com, cog.place());
   }
   if (const XmlElement inertia = body.child("inertia_matrix")) {
     const auto x = inertia.numbers(9);
     Eigen::Matrix3d rows;
-    for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimetre;
+    for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimeter;
     out.inertia_per_mass = checked_inertia(rows, inertia.place(), cache.options().listeners());
   }
 }

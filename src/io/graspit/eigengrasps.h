@@ -8,7 +8,7 @@
 namespace clench {
 
 /// `path` as find_file gives it; text or XML, by what stands in it. Vectors are kept as written,
-/// the origin and the norm too: angles in radians, lengths in metres, as the DOFs count.
+/// the origin and the norm too: angles in radians, lengths in meters, as the DOFs count.
 /// throws Error  "hand.egr:5: eigengrasp 2: expected a number, got 'x'"
 EigengraspSet read_eigengrasps(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -52,7 +52,7 @@ static double read_real(NumberReader& numbers, const std::string& what) {
 static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
   GlovePose pose;
   const int n = numbers.integer(what + ": size", 0, max_entries);
-  const double distance = numbers.number(what + ": distance") * units::millimetre;
+  const double distance = numbers.number(what + ": distance") * units::millimeter;
   if (distance >= 0) pose.distance = distance;
   pose.sensors = optional_list(numbers, n, what + ": sensor", read_whole);
   pose.dof_of_sensor = optional_list(numbers, n, what + ": DOF of sensor", read_dof);
@@ -64,7 +64,7 @@ static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
     numbers.line().fail("{}: rotation: expected a quaternion of length 1, got ({} {} {} {})", what,
                         q[0], q[1], q[2], q[3]);
   pose.pose.rotation = *unit;
-  pose.pose.position = numbers.vector(what + ": translation") * units::millimetre;
+  pose.pose.position = numbers.vector(what + ": translation") * units::millimeter;
   return pose;
 }
 

@@ -35,7 +35,7 @@ static Pregrasp read_pregrasp(const Line& line) {
     if (!value) line.fail("expected a number, got {}", in_quotes(words[i]));
     x[i] = *value;
   }
-  return {.point = Vector3d(x[0], x[1], x[2]) * units::millimetre,
+  return {.point = Vector3d(x[0], x[1], x[2]) * units::millimeter,
           .direction = direction(line, x + 3, "approach direction"),
           .thumb = direction(line, x + 6, "thumb direction"),
           .spread = x[9] * units::degree};
@@ -53,7 +53,7 @@ std::vector<Pregrasp> read_pregrasps(const fs::path& path, const ReadOptions&) {
 void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const fs::path& path) {
   std::string out;
   for (const Pregrasp& p : pregrasps) {
-    for (const Vector3d& v : {Vector3d(p.point / units::millimetre), p.direction, p.thumb})
+    for (const Vector3d& v : {Vector3d(p.point / units::millimeter), p.direction, p.thumb})
       out += fmt::format("[{} {} {}]", v.x(), v.y(), v.z());
     out += fmt::format("{}\n", p.spread / units::degree);
   }
@@ -98,7 +98,7 @@ void read_planned_grasps(const std::string& file, std::string text, const GraspS
         line.fail("expected a quaternion of length 1, got ({} {} {} {})", x[3], x[4], x[5], x[6]);
       run = std::max(run, 0);
       GraspSpec grasp;
-      grasp.X_OH = Pose{*q, Vector3d(x[0], x[1], x[2]) * units::millimetre};
+      grasp.X_OH = Pose{*q, Vector3d(x[0], x[1], x[2]) * units::millimeter};
       grasp.measures["quality"] = x[8];
       grasp.info["run"] = run + 1;
       grasp.info["spread"] = x[7] * units::degree;
@@ -123,7 +123,7 @@ std::string planned_grasps_text(const std::vector<GraspSpec>& grasps, const std:
     const int of = floor_int(number);
     if (of < run) fail("{}: expected runs in their order", file);
     for (; run < of; ++run) out += fmt::format("{}\n", run_mark);
-    const Vector3d p = g.X_OH->position / units::millimetre;
+    const Vector3d p = g.X_OH->position / units::millimeter;
     const Eigen::Quaterniond& q = g.X_OH->rotation;
     out += fmt::format("{} {} {} {} {} {} {} {} {}\n", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
                        q.z(), number_of(g.info, "spread", 0) / units::degree,

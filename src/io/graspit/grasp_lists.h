@@ -16,7 +16,7 @@ struct Pregrasp {
   double spread = 0;                                     ///< of the fingers [rad]
 };
 
-/// Lines of `[point][direction][thumb]spread`, millimetres and degrees.
+/// Lines of `[point][direction][thumb]spread`, millimeters and degrees.
 /// throws Error  "list.txt:3: expected [x y z][x y z][x y z] and a spread angle, got '...'"
 std::vector<Pregrasp> read_pregrasps(const std::filesystem::path& path,
                                      const ReadOptions& options = {});
@@ -24,7 +24,7 @@ void write_pregrasps(const std::vector<Pregrasp>& pregrasps, const std::filesyst
 
 /// Grasps that have no more than a pose, the measure "quality" (<= 0: no grasp), and the notes
 /// "run", from 1, for a file collects several, and "spread" [rad]. Lines of `x y z qw qx qy qz
-/// spread quality`, millimetres and degrees; a line of zeros that ends in -2 begins a run.
+/// spread quality`, millimeters and degrees; a line of zeros that ends in -2 begins a run.
 std::vector<GraspSpec> read_planned_grasps(const std::filesystem::path& path,
                                            const ReadOptions& options = {});
 /// The same from a text; `file` is the name shown in errors.

@@ -19,7 +19,7 @@ constexpr size_t max_found = 10'000;           // primitives
 constexpr double digits =
     1e-4;  // matrices of scene graphs have six digits, and several are multiplied
 
-/// A primitive before it is placed: millimetres, in its own frame.
+/// A primitive before it is placed: millimeters, in its own frame.
 struct Solid {
   PrimitiveKind kind;
   Vector3d size = Vector3d::Zero();
@@ -84,10 +84,10 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
     warnings.add(file, fmt::format("{}: {}: it is oval; the largest radius is used", file, name));
 
   Primitive out{.kind = shape.kind,
-                .X_OP = {Eigen::Quaterniond(axes).normalized(), position * units::millimetre}};
-  out.size = shape.size.cwiseProduct(scale) * units::millimetre;
-  out.radius = shape.radius * (ball ? scale.maxCoeff() : across) * units::millimetre;
-  out.height = shape.height * scale.y() * units::millimetre;
+                .X_OP = {Eigen::Quaterniond(axes).normalized(), position * units::millimeter}};
+  out.size = shape.size.cwiseProduct(scale) * units::millimeter;
+  out.radius = shape.radius * (ball ? scale.maxCoeff() : across) * units::millimeter;
+  out.height = shape.height * scale.y() * units::millimeter;
   return out;
 }
 
@@ -101,14 +101,14 @@ PlacedFile geometry_of_body(const fs::path& path, const ReadOptions& options) {
   return found.value_or(PlacedFile());
 }
 
-/// Millimetres to millimetres; rows are multiplied.
+/// Millimeters to millimeters; rows are multiplied.
 InventorMatrix placement_of(const PlacedFile& file) {
   const Pose X_BG = file.X_BG.value_or(Pose{});
   const Matrix3d axes = X_BG.rotation.toRotationMatrix() * file.scaling.asDiagonal();
   InventorMatrix X;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) X.m[i][j] = static_cast<float>(axes(j, i));
-    X.m[3][i] = static_cast<float>(X_BG.position[i] / units::millimetre);
+    X.m[3][i] = static_cast<float>(X_BG.position[i] / units::millimeter);
   }
   return X;
 }

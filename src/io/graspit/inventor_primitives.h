@@ -10,7 +10,7 @@ enum class PrimitiveKind { box, sphere, cylinder, cone };
 
 struct Primitive {
   PrimitiveKind kind = PrimitiveKind::box;
-  /// its centre in the object's frame; y is the axis of cylinder and cone, whose tip is +y
+  /// its center in the object's frame; y is the axis of cylinder and cone, whose tip is +y
   Pose X_OP;
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< of a box [m]
   double radius = 0;                               ///< of the others; of a cone's bottom [m]

@@ -245,7 +245,7 @@ void CfgReader::read_approach() {
     return std::pair(
         line, Eigen::Vector3d(line.number(0, what), line.number(1, what), line.number(2, what)));
   };
-  const Eigen::Vector3d point = vector("approach point").second * units::millimetre;
+  const Eigen::Vector3d point = vector("approach point").second * units::millimeter;
   const auto direction = vector("approach direction");
   robot_.X_BA = errors_at(direction.first, [&] { return approach_frame(point, direction.second); });
 }

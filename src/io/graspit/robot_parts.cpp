@@ -29,12 +29,12 @@ DofKind dof_kind(std::string_view letter, const std::string& subject) {
 }
 
 DofSpec in_si(DofSpec dof, bool slides) {
-  dof.default_velocity *= slides ? units::millimetre : 1.0;
-  dof.default_value *= slides ? units::millimetre : units::degree;
-  dof.max_effort *= slides ? units::gram_millimetre : units::gram_square_millimetre;
-  dof.kp *= slides ? units::gram_per_square_second : units::gram_square_millimetre;
-  dof.kd *= slides ? units::gram : units::gram_square_millimetre;
-  dof.dragger_scale *= units::millimetre;
+  dof.default_velocity *= slides ? units::millimeter : 1.0;
+  dof.default_value *= slides ? units::millimeter : units::degree;
+  dof.max_effort *= slides ? units::gram_millimeter : units::gram_square_millimeter;
+  dof.kp *= slides ? units::gram_per_square_second : units::gram_square_millimeter;
+  dof.kd *= slides ? units::gram : units::gram_square_millimeter;
+  dof.dragger_scale *= units::millimeter;
   return dof;
 }
 
@@ -62,12 +62,12 @@ int joints_of_kind(std::string_view word) {
 
 static JointSpec in_si(JointSpec joint) {
   const bool turns = joint.kind == JointKind::revolute;
-  joint.min *= turns ? units::degree : units::millimetre;
-  joint.max *= turns ? units::degree : units::millimetre;
-  joint.viscous *= turns ? units::gram_square_millimetre : units::gram;
-  joint.coulomb *= turns ? units::gram_square_millimetre : units::gram_millimetre;
-  joint.spring *= turns ? units::newton_millimetre : units::newton_per_millimetre;
-  joint.rest *= turns ? 1.0 : units::millimetre;
+  joint.min *= turns ? units::degree : units::millimeter;
+  joint.max *= turns ? units::degree : units::millimeter;
+  joint.viscous *= turns ? units::gram_square_millimeter : units::gram;
+  joint.coulomb *= turns ? units::gram_square_millimeter : units::gram_millimeter;
+  joint.spring *= turns ? units::newton_millimeter : units::newton_per_millimeter;
+  joint.rest *= turns ? 1.0 : units::millimeter;
   return joint;
 }
 
@@ -82,10 +82,10 @@ void ChainLinks::add_joint(JointSpec joint, const DenavitHartenberg& written) {
   auto& kind = dof_kinds_[joint.dof];
   if (!kind) kind = joint.kind;
   if (*kind != joint.kind)
-    joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimetre : units::millimetre;
+    joint.ratio *= joint.kind == JointKind::revolute ? 1 / units::millimeter : units::millimeter;
   const DenavitHartenberg numbers = {.theta = written.theta * units::degree,
-                                     .d = written.d * units::millimetre,
-                                     .a = written.a * units::millimetre,
+                                     .d = written.d * units::millimeter,
+                                     .a = written.a * units::millimeter,
                                      .alpha = written.alpha * units::degree};
   const std::string subject = fmt::format("joint {}", joints());
   check_each(angle_rule, {{"theta", numbers.theta}, {"alpha", numbers.alpha}}, subject);

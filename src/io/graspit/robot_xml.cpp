@@ -332,7 +332,7 @@ void XmlRobotReader::read_approach() {
   const XmlElement element = root_.child("approachDirection");
   if (!element) return;
   element.check({.once = {"referenceLocation", "direction"}}, warn());
-  const Eigen::Vector3d point = element.expected("referenceLocation").vector() * units::millimetre;
+  const Eigen::Vector3d point = element.expected("referenceLocation").vector() * units::millimeter;
   const XmlElement direction = element.expected("direction");
   const Eigen::Vector3d along = direction.vector();
   robot_.X_BA = errors_at(direction, [&] { return approach_frame(point, along); });

@@ -36,13 +36,13 @@ double friction_of(const XmlElement& element, Repairs& repairs) {
   return friction ? not_negative(friction, repairs) : 0;
 }
 
-/// A length in metres; the original writes -1 for none.
+/// A length in meters; the original writes -1 for none.
 std::optional<double> length_of(const XmlElement& element, const char* name, Repairs& repairs) {
   const XmlElement child = element.child(name);
   if (!child) return {};
   const double value = child.number();
   if (value == -1) return {};
-  return not_negative(child, repairs) * units::millimetre;
+  return not_negative(child, repairs) * units::millimeter;
 }
 
 TendonSpec read_tendon(const XmlElement& element, const FindLink& find, const Warn& warn,
@@ -54,14 +54,14 @@ TendonSpec read_tendon(const XmlElement& element, const FindLink& find, const Wa
   TendonSpec tendon;
   tendon.name = element.expected_attribute("name");
   if (const XmlElement stiffness = element.child("stiffness"))
-    tendon.stiffness = not_negative(stiffness, repairs) * units::newton_per_millimetre;
+    tendon.stiffness = not_negative(stiffness, repairs) * units::newton_per_millimeter;
   tendon.rest_length = length_of(element, "restLength", repairs);
   tendon.pre_tension_length = length_of(element, "preTensionLength", repairs);
   for (const XmlElement& e : element.children("insertionPoint")) {
     e.check({.once = {"chain", "link", "position", "friction"}}, warn);
     TendonPoint point;
     point.link = link_of(e, find);
-    point.p_L = e.expected("position").vector() * units::millimetre;
+    point.p_L = e.expected("position").vector() * units::millimeter;
     point.friction = friction_of(e, repairs);
     tendon.points.push_back(point);
   }
@@ -79,11 +79,11 @@ TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find, cons
   TendonWrapper wrapper;
   wrapper.link = link_of(element, find);
   wrapper.friction = friction_of(element, repairs);
-  wrapper.p_L = element.expected("position").vector() * units::millimetre;
+  wrapper.p_L = element.expected("position").vector() * units::millimeter;
   wrapper.axis_L = direction(element.expected("orientation"));
-  wrapper.radius = not_negative(element.expected("radius"), repairs) * units::millimetre;
+  wrapper.radius = not_negative(element.expected("radius"), repairs) * units::millimeter;
   if (const XmlElement length = element.child("length"))
-    wrapper.length = not_negative(length, repairs) * units::millimetre;
+    wrapper.length = not_negative(length, repairs) * units::millimeter;
   for (const XmlElement& e : element.children("exemption")) {
     e.check({.attributes = {"tendon"}}, warn);
     wrapper.exempt.push_back(e.expected_attribute("tendon"));
@@ -136,7 +136,7 @@ void read_tactile(const XmlElement& chain, int number, const FindLink& find, con
       const auto value = i < words.size() ? parse_number(words[i]) : std::nullopt;
       if (!value || words.size() != 6)
         e.fail("filter: params: expected 6 numbers x0,y0,z0,x1,y1,z1, got {}", in_quotes(params));
-      x[i] = *value * units::millimetre;
+      x[i] = *value * units::millimeter;
     }
     sensor.low_L = Eigen::Vector3d(x[0], x[1], x[2]);
     sensor.high_L = Eigen::Vector3d(x[3], x[4], x[5]);

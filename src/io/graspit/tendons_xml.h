@@ -11,7 +11,7 @@ namespace clench {
 /// The caller's: the link at a place.   throws Error at the element when there is none
 using FindLink = std::function<int(const XmlElement& element, ChainPlace place)>;
 
-/// <tendon> and <tendonWrapper>, millimetres; they are kept, and `warn` is told that they do not act.
+/// <tendon> and <tendonWrapper>, millimeters; they are kept, and `warn` is told that they do not act.
 /// throws Error  "hand.xml:31: tendon: expected at least 2 insertion points, got 1"
 void read_tendons(const XmlElement& robot, const FindLink& find,
                   const std::function<void(const std::string&)>& warn, Repairs& repairs,

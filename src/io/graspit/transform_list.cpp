@@ -37,7 +37,7 @@ Pose read_full_transform(const Line& line, std::string_view text, const Listener
     tell(listeners.repair, listeners.warn,
          fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
                      line.place(), x[0], x[1], x[2], x[3]));
-  return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimetre};
+  return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimeter};
 }
 
 static Eigen::Vector3d axis(const Line& line, int i) {
@@ -78,7 +78,7 @@ Pose read_transform(const Line& line, LineReader& lines, const Listeners& listen
     return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"),
                                              line.number(2, "translation y"),
                                              line.number(3, "translation z")) *
-                             units::millimetre);
+                             units::millimeter);
   if (key == "r") return Pose::turn(line.number(1, "rotation") * units::degree, axis(line, 2));
   if (key == "rr") return Pose::turn(line.number(1, "rotation"), axis(line, 2));
   line.fail("transform: expected t, r, rr, T or R, got {}", in_quotes(key));

@@ -9,7 +9,7 @@ namespace clench {
 /// Does the line begin with t, T, r or R, as the lines of a transform list do?
 bool begins_transform(const Line& line);
 
-/// "(w x y z)[x y z]", millimetres; the quaternion is made unit, with a warning when it is not
+/// "(w x y z)[x y z]", millimeters; the quaternion is made unit, with a warning when it is not
 /// near; a comment from '#' on is left out.
 /// throws Error with the line's place when it is anything else, or the quaternion is zero
 Pose read_full_transform(const Line& line, std::string_view text, const Listeners& listeners = {});

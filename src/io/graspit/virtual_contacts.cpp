@@ -20,14 +20,14 @@ namespace {
 constexpr int max_chains = 1000;  // as of robots
 
 // forces have no unit, torques per force are lengths
-Vector6d edge_in_metres(Vector6d edge) {
-  edge.tail<3>() *= units::millimetre;
+Vector6d edge_in_meters(Vector6d edge) {
+  edge.tail<3>() *= units::millimeter;
   return edge;
 }
 
 /// What a file says of the place, as it says it: some of it twice.
 struct Place {
-  Vector3d location, translation, normal;  // millimetres
+  Vector3d location, translation, normal;  // millimeters
   Eigen::Quaterniond rotation;
 };
 
@@ -43,7 +43,7 @@ Pose contact_pose(const Place& place, const std::string& subject, const Tell& wa
   if (warn && !(angle <= same_angle))
     warn(fmt::format("{}: normal and rotation differ by {:.3g} rad; the rotation is used", subject,
                      angle));
-  return {place.rotation, place.translation * units::millimetre};
+  return {place.rotation, place.translation * units::millimeter};
 }
 
 /// Where a file says that a contact is. `read` gives the whole number of a name from a minimum on.
@@ -68,7 +68,7 @@ FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
   FrictionEdges edges(6, count);
   for (int e = 0; e < count; ++e)
     edges.col(e) =
-        edge_in_metres(numbers.numbers(6, fmt::format("{}: friction edge {}", what, e + 1)));
+        edge_in_meters(numbers.numbers(6, fmt::format("{}: friction edge {}", what, e + 1)));
   return edges;
 }
 
@@ -142,7 +142,7 @@ void read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs,
     check_count(said, count, "friction edges", repairs);
   contact.edges.resize(6, count);
   for (int i = 0; i < count; ++i)
-    contact.edges.col(i) = edge_in_metres(Vector6d(edges[i].numbers(6).data()));
+    contact.edges.col(i) = edge_in_meters(Vector6d(edges[i].numbers(6).data()));
 
   const XmlElement rotation = e.expected("rotation");
   const auto x = rotation.numbers(4);
@@ -184,11 +184,11 @@ struct Written {
   explicit Written(const Pose& X_LC, const FrictionEdges& friction) {
     const Eigen::Quaterniond& q = X_LC.rotation;
     rotation = fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
-    location = listed(X_LC.position / units::millimetre);
+    location = listed(X_LC.position / units::millimeter);
     normal = listed(q * Vector3d::UnitZ());
     for (int e = 0; e < friction.cols(); ++e) {
       Vector6d edge = friction.col(e);
-      edge.tail<3>() /= units::millimetre;
+      edge.tail<3>() /= units::millimeter;
       edges.push_back(listed(edge));
     }
   }
@@ -303,7 +303,7 @@ static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, 
     c.placed = placed;
     c.edges = read_edges(numbers, what);
     c.X_OC.rotation = numbers.quaternion(what + ": rotation");
-    if (placed) c.X_OC.position = numbers.vector(what + ": translation") * units::millimetre;
+    if (placed) c.X_OC.position = numbers.vector(what + ": translation") * units::millimeter;
     const Vector3d normal = numbers.vector(what + ": normal");
     const double length = normal.stableNorm();
     if (!(length > 1e-6)) numbers.line().fail("{}: normal: expected a direction, got zero", what);

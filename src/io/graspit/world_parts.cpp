@@ -13,7 +13,7 @@ namespace {
 
 /// A DOF counts in the unit of its first joint: rad or mm.
 double unit_of(const RobotSpec& robot, int dof) {
-  return dof_slides(robot, dof) ? units::millimetre : 1.0;
+  return dof_slides(robot, dof) ? units::millimeter : 1.0;
 }
 
 }  // namespace
@@ -166,9 +166,9 @@ std::string number_in(double value, double unit, double factor) {
   return shortest.empty() ? fmt::format("{}", best) : shortest;
 }
 
-std::string millimetres(const Eigen::Vector3d& p) {
-  return fmt::format("{} {} {}", number_in(p.x(), units::millimetre),
-                     number_in(p.y(), units::millimetre), number_in(p.z(), units::millimetre));
+std::string millimeters(const Eigen::Vector3d& p) {
+  return fmt::format("{} {} {}", number_in(p.x(), units::millimeter),
+                     number_in(p.y(), units::millimeter), number_in(p.z(), units::millimeter));
 }
 
 std::string orientation(const Eigen::Quaterniond& q) {
@@ -177,7 +177,7 @@ std::string orientation(const Eigen::Quaterniond& q) {
 
 std::string full_transform(const Pose& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
-  return fmt::format("({} {} {} {})[{}]", q.w(), q.x(), q.y(), q.z(), millimetres(pose.position));
+  return fmt::format("({} {} {} {})[{}]", q.w(), q.x(), q.y(), q.z(), millimeters(pose.position));
 }
 
 std::string transform_element(const Pose& pose) {

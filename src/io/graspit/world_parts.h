@@ -45,10 +45,10 @@ std::optional<Camera> checked_camera(const Camera& camera, const std::string& pl
 /// the value to the bit; where there is none, the nearest.
 std::string number_in(double value, double unit, double factor = 1);
 
-/// "(w x y z)[x y z]", millimetres.
+/// "(w x y z)[x y z]", millimeters.
 std::string full_transform(const Pose& pose);
 std::string transform_element(const Pose& pose);       ///< <transform>, indented by four
-std::string millimetres(const Eigen::Vector3d& p);     ///< "x y z"
+std::string millimeters(const Eigen::Vector3d& p);     ///< "x y z"
 std::string orientation(const Eigen::Quaterniond& q);  ///< "x y z w"
 
 }  // namespace clench

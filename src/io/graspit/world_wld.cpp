@@ -174,8 +174,8 @@ void WldReader::read_camera(bool focal_distance) {
   if (!q) return;
   warn_of_surplus(line, focal_distance ? 8 : 7, cache_.options().warn);
   Camera camera;
-  camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimetre};
-  if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimetre;
+  camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimeter};
+  if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimeter;
   world_.camera = checked_camera(camera, line.place(), cache_.options());
 }
 

@@ -132,9 +132,9 @@ void XmlWorldReader::read_camera(const XmlElement& element) {
                                     turn.place() + ": orientation", cache_.options());
   if (!q) return;
   Camera camera;
-  camera.X_WC = {*q, element.expected("position").vector() * units::millimetre};
+  camera.X_WC = {*q, element.expected("position").vector() * units::millimeter};
   if (const XmlElement focus = element.child("focalDistance"))
-    camera.focal_distance = focus.number() * units::millimetre;
+    camera.focal_distance = focus.number() * units::millimeter;
   world_.camera = checked_camera(camera, element.place(), cache_.options());
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using NamedNumbers = std::map<std::string, double>;
 
-constexpr double matrix_angle = 1e-6, matrix_length = 1e-9;  // [rad], of a length or metre
+constexpr double matrix_angle = 1e-6, matrix_length = 1e-9;  // [rad], of a length or meter
 
 bool same_pose(const std::optional<Pose>& a, const std::optional<Pose>& b, bool exact) {
   if (a.has_value() != b.has_value()) return false;
@@ -109,7 +109,7 @@ bool same_joints(const GraspSpec& a, const GraspSpec& back) {
 
 std::string of_measured(const GraspSpec& a, const GraspSpec& back) {
   if (!same_contacts(a, back)) return "contacts";
-  if (a.com != back.com) return "the centre of mass";
+  if (a.com != back.com) return "the center of mass";
   if (a.rho != back.rho || a.largest_radius != back.largest_radius ||
       a.gyration_radius != back.gyration_radius)
     return "a length";

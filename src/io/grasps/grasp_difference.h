@@ -8,7 +8,7 @@
 namespace clench {
 
 /// Compares a grasp with `back`, which was read from the format's text. Poses of graspgen and of
-/// graspit are compared up to the rounding of matrices and millimetres.
+/// graspit are compared up to the rounding of matrices and millimeters.
 /// returns  the first part that the format holds and that differs, "the label 'note'"; empty if none
 std::string difference(const GraspSpec& grasp, const GraspSpec& back, GraspFormat format);
 

@@ -125,7 +125,7 @@ static void make_last_index_fastest(NpyArray& array, MemoryBudget& budget) {
   const size_t count = array.is_text ? array.texts.size() : array.numbers.size();
   if (count == 0 || array.shape.size() < 2) return;
   const size_t indices = array.shape.size();
-  // places in the file between neighbours along each index
+  // places in the file between neighbors along each index
   std::vector<size_t> strides(indices, 1), index(indices, 0);
   for (size_t k = 1; k < indices; ++k) strides[k] = strides[k - 1] * array.shape[k - 1];
   budget.take(count * (array.is_text ? sizeof(std::string) : sizeof(double)));

@@ -73,7 +73,7 @@ void ShapeTriangles::add_triangle(const std::array<InventorVector, 3>& corners, 
 Geometry read_inventor(const std::filesystem::path& path, const std::string& text,
                        const ReadOptions& options) {
   const std::string file = path.filename().string();
-  const double unit = options.mesh_scale.value_or(units::millimetre);
+  const double unit = options.mesh_scale.value_or(units::millimeter);
   GeometryBuilder builder;
   builder.progress = options.progress;
   builder.keeps_triangles = true;

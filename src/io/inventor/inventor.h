@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Triangles of the file and of those it includes; coordinates count as millimetres, unless
+/// Triangles of the file and of those it includes; coordinates count as millimeters, unless
 /// options.mesh_scale says otherwise. Lines, points
 /// and text have none. `text` is what the file holds, its lines ended by '\n'. A file of frames
 /// only gives an empty mesh.

@@ -39,7 +39,7 @@ class FaceLister {
   std::span<const float> numbers_;
   int width_ = 3, point_count_ = 0;
   ColorBinding binding_ = ColorBinding::whole;
-  bool indexed_ = false;  // do indices name the colours?
+  bool indexed_ = false;  // do indices name the colors?
   std::vector<InventorVector> corners_;
 };
 
@@ -127,7 +127,7 @@ void FaceLister::list_indexed(const std::vector<int32_t>& color_indices) {
     if (index < 0 || index >= point_count_)
       refuse("number {} of coordIndex: expected -1 or one of {} points, got {}", i, point_count_,
              index);
-    // a face has the colour of its first corner
+    // a face has the color of its first corner
     if (face.empty() && binding_ == ColorBinding::face)
       color = own_indices ? color_at(faces) : faces;
     if (face.empty() && binding_ == ColorBinding::corner)

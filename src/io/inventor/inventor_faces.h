@@ -9,8 +9,8 @@ namespace clench {
 struct InventorSurface {
   bool convex = false;                       ///< the file says that all are
   bool clockwise = false;                    ///< corners run clockwise seen from outside
-  std::vector<Eigen::Vector3f> colors = {};  ///< empty: the colours of the material in force
-  /// Corners of a face, and the number of its colour.
+  std::vector<Eigen::Vector3f> colors = {};  ///< empty: the colors of the material in force
+  /// Corners of a face, and the number of its color.
   std::function<void(std::span<const InventorVector>, int)> add = {};
 };
 

@@ -11,7 +11,7 @@ namespace clench {
 inline constexpr size_t max_includes = 10'000;
 
 /// The graph of a file that holds `text`. Nodes of unknown types are stepped over with a warning,
-/// nodes that have no part in triangles, colours, units and transforms without one. A PROTO's body
+/// nodes that have no part in triangles, colors, units and transforms without one. A PROTO's body
 /// is read again for each of its instances, with their values.
 /// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing,
 /// includes itself or is larger than files may be

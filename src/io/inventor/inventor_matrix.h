@@ -17,7 +17,7 @@ struct InventorMatrix {
   static InventorMatrix scale(std::span<const float> s);
   /// About an axis of any length, "x y z angle".
   static InventorMatrix rotation(std::span<const float> axis_angle);
-  /// Scaled along the axes of scale_orientation and rotated, both about the centre, then moved.
+  /// Scaled along the axes of scale_orientation and rotated, both about the center, then moved.
   static InventorMatrix transform(std::span<const float> translation,
                                   std::span<const float> rotation, std::span<const float> scale,
                                   std::span<const float> scale_orientation,

@@ -43,7 +43,7 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
       const auto value = parse_number(row.word(j));
       if (!value)
         line.fail("inertia_matrix: expected three numbers [mm^2], got {}", in_quotes(row.word(j)));
-      rows(i, j) = *value * units::square_millimetre;
+      rows(i, j) = *value * units::square_millimeter;
     }
   }
   return checked_inertia(rows, head.place(), options.listeners());
@@ -84,7 +84,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
     } else if (key == "cog") {
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *
-          units::millimetre;
+          units::millimeter;
       check(coordinate_rule.called("cog"), *body.com, line.place());
     } else if (key == "inertia_matrix") {
       body.inertia_per_mass = inertia_rows(lines, line, options);

@@ -11,7 +11,7 @@ namespace {
 struct TypeText {
   InventorKind kind;
   std::string_view names;  // a VRML 2 node's begins with VRML
-  // name[:content[=absent]]: f3 three numbers, F lists; i I b S n N, C colours; w(A|B) one of these
+  // name[:content[=absent]]: f3 three numbers, F lists; i I b S n N, C colors; w(A|B) one of these
   // words, W any of them
   std::string_view fields;
 };

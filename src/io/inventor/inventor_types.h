@@ -1,4 +1,4 @@
-// The nodes of Inventor and VRML that carry triangles, colours, units and transforms, with their
+// The nodes of Inventor and VRML that carry triangles, colors, units and transforms, with their
 // fields; and the names of those that have no part in these.
 #pragma once
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace clench {
 
 enum class InventorKind {
   unknown,
-  idle,   ///< without effect on triangles and colours
+  idle,   ///< without effect on triangles and colors
   value,  ///< stands in fields of others
   odd,    ///< has an effect that is not read
   flat,   ///< a shape without triangles: lines, points, text

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// Where a face's colour number comes from.
+/// Where a face's color number comes from.
 enum class ColorBinding { whole, face, corner };
 
 /// What the nodes before a shape have set.
@@ -16,11 +16,11 @@ struct InventorState {
   InventorMatrix X;
   float unit = 1;  ///< of the last Units node [m]
   const InventorNode* coordinates = nullptr;
-  std::span<const float> diffuse = {}, transparency = {};  ///< colours of three numbers
-  std::span<const int32_t> packed = {};                    ///< colours that go before diffuse
+  std::span<const float> diffuse = {}, transparency = {};  ///< colors of three numbers
+  std::span<const int32_t> packed = {};                    ///< colors that go before diffuse
   ColorBinding binding = ColorBinding::whole;
-  bool by_parts = false;        ///< has each side of a round shape or cube its colour?
-  bool colors_indexed = false;  ///< do indices name the colours?
+  bool by_parts = false;        ///< has each side of a round shape or cube its color?
+  bool colors_indexed = false;  ///< do indices name the colors?
   bool clockwise = false;
   bool convex = false;  ///< does the file say that all faces are?
   float complexity = 0.5f;
@@ -33,16 +33,16 @@ struct InventorState {
 /// Sets binding, by_parts and colors_indexed by the word of a MaterialBinding.
 void bind_colors(InventorState& state, const std::string& word);
 
-/// A number of a colour of four bytes, red first.
+/// A number of a color of four bytes, red first.
 Eigen::Vector3f unpacked_color(int32_t rgba);
 
 struct InventorWalk {
   int max_visits = 2'000'000;  ///< nodes, shared ones and copies each time
-  /// Indices, colours, heights and spines that shapes list, shared ones each time.
+  /// Indices, colors, heights and spines that shapes list, shared ones each time.
   size_t max_listed = 50'000'000;
   /// Called at each shape; what it throws gets the place of the shape.
   std::function<void(const InventorNode&, const InventorState&)> shape;
-  bool colors_given = false;         ///< out: was a node of colours passed?
+  bool colors_given = false;         ///< out: was a node of colors passed?
   std::set<std::string> units = {};  ///< out: named by nodes, METERS left out
   InventorWarnings warnings = {};    ///< out
 };

@@ -19,7 +19,7 @@ class ColladaReader {
  public:
   ColladaReader(const std::string& file, const std::string& text, GeometryBuilder& builder)
       : xml_(file, text, max_bytes), ids_(xml_.root()), work_{ids_, builder} {}
-  /// returns  are there colours?
+  /// returns  are there colors?
   bool read();
   const std::set<std::string>& warnings() const { return work_.warnings; }
 
@@ -63,7 +63,7 @@ Affine3d looking(const XmlElement& e) {
 void ColladaReader::read_asset(const XmlElement& root) {
   MeshReport& report = work_.builder.report;
   report.format = "COLLADA";
-  report.unit_source = UnitSource::format;  // metres and y up, unless the file says otherwise
+  report.unit_source = UnitSource::format;  // meters and y up, unless the file says otherwise
   report.up = 'y';
   const XmlElement asset = root.child("asset");
   if (!asset) return;
@@ -160,7 +160,7 @@ void ColladaReader::read_geometry(const XmlElement& geometry, const XmlElement& 
   add_collada_mesh(mesh, X, found_look, work_);
 }
 
-/// The diffuse colour of the material that an instance binds to the symbol.
+/// The diffuse color of the material that an instance binds to the symbol.
 ColladaLook ColladaReader::look(const XmlElement& instance, const std::string& symbol) const {
   const auto inner = [](XmlElement e, std::initializer_list<const char*> path) {
     for (const char* name : path)

@@ -235,7 +235,7 @@ void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& giv
   mesh_.triangles.push_back(t);
   colors_.push_back(color);
 
-  // the whole body's colour is the mean over its area
+  // the whole body's color is the mean over its area
   const Vector3d& p = mesh_.vertices[t[0]];
   const double area = (mesh_.vertices[t[1]] - p).cross(mesh_.vertices[t[2]] - p).norm();
   if (!std::isfinite(area)) return;

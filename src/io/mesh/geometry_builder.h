@@ -1,5 +1,5 @@
 // Triangles from any mesh reader, gathered into a surface whose parts hang together, and its
-// colours.
+// colors.
 #pragma once
 #include <map>
 #include <span>
@@ -54,8 +54,8 @@ class GeometryBuilder {
   /// become one, then those that lie within rounding of each other; triangles without area go, and
   /// those that lie on each other.
   /// A closed mesh that is inside out is turned, with a warning. A closed one stays as its file
-  /// connects it. Colours are kept one per triangle when they differ.
-  /// `colors_given`: do the colours come from the file?
+  /// connects it. Colors are kept one per triangle when they differ.
+  /// `colors_given`: do the colors come from the file?
   /// throws  Error naming line and vertex that lie too far out, "huge.off:4: vertex 2: ..."
   Geometry finish(bool colors_given, const std::string& subject, const ReadOptions& options);
 

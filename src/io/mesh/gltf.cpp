@@ -29,7 +29,7 @@ class GltfReader {
   struct Look {
     Eigen::Vector3f color = Appearance().color;
     float transparency = 0;
-    std::shared_ptr<const Image> image = {};  // null: one colour
+    std::shared_ptr<const Image> image = {};  // null: one color
     int coordinates = 0;                      // number of the set that places the image
   };
   using ImagePoints = std::vector<Eigen::Vector2d>;  // one per vertex; empty: no image
@@ -173,7 +173,7 @@ std::shared_ptr<const Image> GltfReader::image(int number, const std::string& ex
       image_budget_.add(*image, shown);
       at->second = std::move(image);
     } catch (const Error& error) {
-      warnings_.insert(fmt::format("{}; the colour of the material is used", error.what()));
+      warnings_.insert(fmt::format("{}; the color of the material is used", error.what()));
     }
   return at->second;
 }

@@ -90,7 +90,7 @@ Image decode_jpeg(const std::string& bytes, const std::string& name) {
       static_cast<int>(decoder.info.image_width), static_cast<int>(decoder.info.image_height), {}};
   image.pixels.resize(size_t{3} * image.width * image.height);
   if (!decoder.read_rows(image.pixels.data())) fail("{}: {}", name, decoder.errors.message);
-  // libjpeg fills the missing rows of a truncated file with grey, and only warns
+  // libjpeg fills the missing rows of a truncated file with gray, and only warns
   if (decoder.errors.base.num_warnings > 0) fail("{}: the image is damaged or cut short", name);
   return image;
 }

@@ -33,7 +33,7 @@ class ImageBudget {
 /// throws  Error "NAME: ..." when it has another format, is malformed, truncated or too large
 Image decode_image(const std::string& bytes, const std::string& name);
 
-/// Mean colour of an image over a triangle or polygon of texture coordinates, repeated beyond
+/// Mean color of an image over a triangle or polygon of texture coordinates, repeated beyond
 /// [0, 1]: u to the right, v down from the top.
 /// corners  at least 3, finite
 Eigen::Vector3f mean_color(const Image& image, std::span<const Eigen::Vector2d> corners);

@@ -9,12 +9,12 @@
 namespace clench {
 
 double guess_mesh_unit(double largest_side) {
-  // Mesh files are in metres (robots, games) or in millimetres (machines, scanners, printers).
+  // Mesh files are in meters (robots, games) or in millimeters (machines, scanners, printers).
   // What hands grasp and stand beside measures between a nut's 1 cm and a room's 10 m. Of the two
   // units the one that brings the mesh nearer to the middle of that range, 0.32 m, by its ratio,
-  // is metres up to 10 units.
-  constexpr double max_metres = 10;
-  return largest_side <= max_metres ? 1 : units::millimetre;
+  // is meters up to 10 units.
+  constexpr double max_meters = 10;
+  return largest_side <= max_meters ? 1 : units::millimeter;
 }
 
 static void set_unit(GeometryBuilder& builder, const std::string& file,
@@ -46,7 +46,7 @@ static Eigen::Matrix3d turn_up(char up) {
   return turn;
 }
 
-/// returns  do colours come from the file?
+/// returns  do colors come from the file?
 static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
   const std::string ending = ending_of(input.path);
   const bool given = input.format != GeometryFormat::none;

@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// Triangles in metres, by options.mesh_scale, else by the unit that the file names, else by
+/// Triangles in meters, by options.mesh_scale, else by the unit that the file names, else by
 /// options.silent_mesh_unit, else by a guess from the size, which is noted.
 /// format  none: the one of the ending
 /// throws Error  "part.stl: ..." when malformed, empty or cut short
@@ -18,8 +18,8 @@ Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& op
 /// The same of a file that has been read.
 Geometry read_mesh(const MeshInput& input);
 
-/// The unit [m] of a mesh whose largest side has that length, if nobody says: metres up to ten
-/// units, millimetres beyond.
+/// The unit [m] of a mesh whose largest side has that length, if nobody says: meters up to ten
+/// units, millimeters beyond.
 double guess_mesh_unit(double largest_side);
 
 }  // namespace clench

@@ -26,7 +26,7 @@ struct MeshInput {
 };
 
 /// Runs a reader of a scene, which has read() and warnings(); its sentences get the file's name.
-/// returns  do colours come from the file?
+/// returns  do colors come from the file?
 template <class MakeReader>
 bool run_reader(const MeshInput& input, MakeReader make) {
   const std::string file = input.file();

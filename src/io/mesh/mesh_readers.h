@@ -1,5 +1,5 @@
 // The readers of mesh files, one a format: each adds the triangles of a file to a builder, in the
-// file's unit and with its upward axis, and tells whether colours come from the file.
+// file's unit and with its upward axis, and tells whether colors come from the file.
 #pragma once
 #include "clench/io/mesh/geometry_builder.h"
 #include "clench/io/mesh/mesh_input.h"
@@ -7,7 +7,7 @@
 namespace clench {
 
 /// glTF 2.0, .gltf with its buffers, and .glb: triangles of all meshes of the file's scene, where
-/// its nodes place them; in metres, y up. Skins, morph targets and animations are not used, with a
+/// its nodes place them; in meters, y up. Skins, morph targets and animations are not used, with a
 /// warning.
 /// throws  Error  "part.glb: accessors[3]: expected 36 bytes of bufferViews[1], got 24"
 bool read_gltf(const MeshInput& input, GeometryBuilder& builder);
@@ -17,8 +17,8 @@ bool read_gltf(const MeshInput& input, GeometryBuilder& builder);
 /// throws  Error  "part.dae:31: ..."
 bool read_collada(const MeshInput& input, GeometryBuilder& builder);
 
-/// Wavefront OBJ, and colours from MTL files: faces over the file's own points. A face with a
-/// texture (`map_Kd`, PNG or JPEG) has its mean colour; normals are not read.
+/// Wavefront OBJ, and colors from MTL files: faces over the file's own points. A face with a
+/// texture (`map_Kd`, PNG or JPEG) has its mean color; normals are not read.
 /// throws  Error  "part.obj:31: expected one of 8 points after f, got 9"
 bool read_obj(const MeshInput& input, GeometryBuilder& builder);
 
@@ -29,7 +29,7 @@ bool read_off(const MeshInput& input, GeometryBuilder& builder);
 
 /// PLY, ascii, and binary of both byte orders: faces and triangle strips over the file's own
 /// vertices. Elements other than these are stepped over, with a warning; so are properties other
-/// than places, colours and indices.
+/// than places, colors and indices.
 /// throws  Error  "part.ply:31: ..." in header and ascii files, "part.ply: face 7 of 12: ..." else
 bool read_ply(const MeshInput& input, GeometryBuilder& builder);
 

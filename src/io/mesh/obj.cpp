@@ -18,8 +18,8 @@ namespace {
 struct Material {
   Eigen::Vector3f color = Appearance().color;
   float transparency = 0;
-  std::shared_ptr<const Image> image = {};  // null: one colour
-  bool colored = false;                     // does the file give the colour?
+  std::shared_ptr<const Image> image = {};  // null: one color
+  bool colored = false;                     // does the file give the color?
 };
 
 constexpr size_t max_images = 100;           // read
@@ -95,7 +95,7 @@ void ObjReader::read_point() {
     if (!value) words_.fail("expected three numbers after v, got {}", in_quotes(word));
     if (count == 7) {
       warn_once("point",
-                "expected at most a point, a weight and a colour after v; only the point is "
+                "expected at most a point, a weight and a color after v; only the point is "
                 "used");
       words_.rest();
       count = 3;
@@ -211,7 +211,7 @@ void ObjReader::read_materials(const std::string& names) {
     if (found && name == names) break;
   }
   if (!found && input_.options.note)
-    input_.options.note(words_.place() + ": " + missing + "; the body has no colours of its own");
+    input_.options.note(words_.place() + ": " + missing + "; the body has no colors of its own");
 }
 
 void ObjReader::read_material_file(const std::filesystem::path& path) {
@@ -264,13 +264,13 @@ void ObjReader::read_image(const WordReader& words, const std::string& name,
       at->second = std::move(image);
     } catch (const Error& error) {
       warn_once("image" + file, words.place(),
-                fmt::format("{}; the colour of the material is used", error.what()));
+                fmt::format("{}; the color of the material is used", error.what()));
     }
   material.image = at->second;
   if (material.image && !material.colored) material.color.setOnes();
 }
 
-// of the image over the face, times the colour of the material unless that is black
+// of the image over the face, times the color of the material unless that is black
 Eigen::Vector3f ObjReader::color_of(const Face& face, size_t end, const Material& look) const {
   if (!look.image) return look.color;
   std::vector<Eigen::Vector2d> corners;

@@ -34,7 +34,7 @@ class OffReader {
   std::set<std::string> warned_;
 };
 
-/// What stands before "OFF": ST texture coordinates, C colours, N normals of the vertices.
+/// What stands before "OFF": ST texture coordinates, C colors, N normals of the vertices.
 void OffReader::read_kind(std::string_view kind) {
   for (size_t i = 0; i < kind.size(); ++i) {
     if (kind.substr(i, 2) == "ST")
@@ -89,7 +89,7 @@ Eigen::Vector3f OffReader::read_color(int count, float* transparency) {
   for (int i = 0; i < count; ++i) {
     const auto word = words_.word();
     const auto value = parse_number(word);
-    if (!value) words_.fail("colour: expected a number, got {}", in_quotes(word));
+    if (!value) words_.fail("color: expected a number, got {}", in_quotes(word));
     whole = whole && word.find_first_of(".eE") == std::string_view::npos;
     color[i] = *value;
   }
@@ -137,7 +137,7 @@ void OffReader::read_faces() {
       color = read_color(rest, &transparency);
       face_colors_ = true;
     } else if (rest > 0) {
-      warn_once("what follows a face's vertices is no colour, and not used");
+      warn_once("what follows a face's vertices is no color, and not used");
     }
     if (count < 3) warn_once("a face of fewer than three vertices is not used");
     errors_at(words_, [&] { builder_.add_face(corners, color, transparency); });

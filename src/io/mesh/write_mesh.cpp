@@ -36,14 +36,14 @@ void append_lines(std::string& out, const Mesh& mesh, std::string_view vertex,
 }
 
 std::string obj_text(const Mesh& mesh) {
-  std::string out = "# metres\n";
+  std::string out = "# meters\n";
   append_lines(out, mesh, "v ", "f ", 1);
   return out;
 }
 
 std::string ply_bytes(const Mesh& mesh) {
   std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\n"
+      "ply\nformat binary_little_endian 1.0\ncomment meters\nelement vertex {}\n"
       "property double x\nproperty double y\nproperty double z\nelement face {}\n"
       "property list uchar int vertex_indices\nend_header\n",
       mesh.vertices.size(), mesh.triangles.size());
@@ -70,7 +70,7 @@ std::string stl_bytes(const Mesh& mesh, const std::string& file) {
     if (p.cwiseAbs().maxCoeff() > largest)
       fail("{}: expected coordinates within {:.4g} m, as .stl holds them, got {}", file, largest,
            p.cwiseAbs().maxCoeff());
-  std::string out = "metres, by clench";  // a header that begins with "solid" would be text
+  std::string out = "meters, by clench";  // a header that begins with "solid" would be text
   out.resize(80, ' ');
   append_little_endian(out, static_cast<uint32_t>(mesh.triangles.size()));
   StopCheck check(lines_between_checks);

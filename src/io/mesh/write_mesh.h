@@ -7,13 +7,13 @@
 
 namespace clench {
 
-/// Vertices in metres, triangles in their order, as .obj .off .ply (binary) .stl (binary), by the
+/// Vertices in meters, triangles in their order, as .obj .off .ply (binary) .stl (binary), by the
 /// ending. Numbers come back to the bit, but from .stl, which holds 32 bits of each.
 /// throws Error when the ending is another one, a number is beyond the format's, or the file cannot
 /// be written
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
-/// The text of an .off, metres.
+/// The text of an .off, meters.
 std::string off_text(const Mesh& mesh);
 
 /// Is it the ending of a mesh file that can be written? ".obj", in lower case

@@ -173,7 +173,7 @@ Mesh supertorus(const Params& params) {
   return mesh;
 }
 
-/// Centres of cells that divide a slice of the unit sphere about -z; points alone.
+/// Centers of cells that divide a slice of the unit sphere about -z; points alone.
 Mesh wedge(const Params& params) {
   const int across = params.integer(0, "res_phi", 1, max_resolution),
             along = params.integer(1, "res_theta", 1, max_resolution);
@@ -192,7 +192,7 @@ Mesh wedge(const Params& params) {
   return mesh;
 }
 
-/// Centres of the cells of a square of side 2, at z = -1.
+/// Centers of the cells of a square of side 2, at z = -1.
 Mesh plate(const Params& params) {
   const int nx = params.integer(0, "res_x", 1, max_resolution),
             ny = params.integer(1, "res_y", 1, max_resolution);

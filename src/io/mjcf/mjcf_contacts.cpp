@@ -178,15 +178,15 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
   TreeModel& model = tree.model;
   const int count = static_cast<int>(model.links.size());
   // links fixed to each other are represented by the first one, as is the link that carries them
-  std::vector<int> piece(count), carrier(count, -1), neighbour(count, -1);
+  std::vector<int> piece(count), carrier(count, -1), neighbor(count, -1);
   for (int i = 0; i < count; ++i) {
     const TreeLink& link = model.links[i];
     const bool fixed = link.parent >= 0 && link.joints.empty();
     piece[i] = fixed ? piece[link.parent] : i;
     carrier[i] = fixed ? carrier[link.parent] : link.parent < 0 ? -1 : piece[link.parent];
     // a World excludes collisions of a link with the nearest link with a shape towards the base
-    for (int up = link.parent; up >= 0 && neighbour[i] < 0; up = model.links[up].parent)
-      if (model.links[up].body.shape || up == 0) neighbour[i] = up;
+    for (int up = link.parent; up >= 0 && neighbor[i] < 0; up = model.links[up].parent)
+      if (model.links[up].body.shape || up == 0) neighbor[i] = up;
   }
   const std::set<std::pair<int, int>> excluded = [&] {
     std::set<std::pair<int, int>> out;
@@ -220,11 +220,11 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
       const bool filtered = is_excluded || (filter_parents_ && carries && !ground);
       const bool off = !may_collide || (filtered && !are_listed);
       apart += !may_collide;
-      const bool neighbours = neighbour[j] == i;
+      const bool neighbors = neighbor[j] == i;
       // links fixed to each other never move relative to each other
-      if (!may_collide || (off && is_excluded) || (off && !neighbours && !one))
+      if (!may_collide || (off && is_excluded) || (off && !neighbors && !one))
         model.never_meet.emplace_back(i, j);
-      else if (!off && neighbours && !one)
+      else if (!off && neighbors && !one)
         model.always_meet.emplace_back(i, j);
     }
   if (apart > 0)

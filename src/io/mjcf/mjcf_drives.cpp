@@ -112,12 +112,12 @@ void Drives::take_control_range(const MjcfDrive& drive) {
 
 /// Scales the range of the target by inheritrange about its center.
 void Drives::inherit_range(const MjcfDrive& drive, std::array<double, 2> target) {
-  const double centre = 0.5 * (target[0] + target[1]),
+  const double center = 0.5 * (target[0] + target[1]),
                half = 0.5 * (target[1] - target[0]) * drive.actuator.inherit_range;
   // the activation of an integrator
   auto& range =
       spec(drive).activation_range ? spec(drive).activation_range : spec(drive).control_range;
-  range = {centre - half, centre + half};
+  range = {center - half, center + half};
 }
 
 void Drives::take_control_ranges() {

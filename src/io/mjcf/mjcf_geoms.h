@@ -15,7 +15,7 @@ struct MjcfGeom {
   GeometryPiece piece;
   bool drawn = false;               ///< of the groups 0 to 2, which viewers show
   unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
-  /// Mass, centre of mass and inertia in the frame of the piece. Geoms of groups that the compiler
+  /// Mass, center of mass and inertia in the frame of the piece. Geoms of groups that the compiler
   /// leaves out have none.
   double mass = 0;       ///< [kg]
   bool weighed = true;   ///< is it of the compiler's groups?

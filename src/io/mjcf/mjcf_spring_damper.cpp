@@ -22,7 +22,7 @@ Eigen::MatrixXd reference_mass_matrix(const TreeModel& tree, bool floating) {
       points[j] = X.back() * tree.joints[j].anchor;
       moved_by.back().push_back(j);
     }
-    // how the coordinates move the centre of mass, and turn the link
+    // how the coordinates move the center of mass, and turn the link
     const double mass = link.body.mass;
     const Eigen::Vector3d com = X.back() * com_of(link.body);
     const Eigen::Matrix3d R = X.back().matrix(),

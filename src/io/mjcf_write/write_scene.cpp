@@ -338,7 +338,7 @@ void SceneWriter::write_keys() {
 // --- all ---
 
 std::string obj_lines(const Mesh& mesh) {
-  std::string out = "# metres\n";
+  std::string out = "# meters\n";
   for (const auto& p : mesh.vertices)
     fmt::format_to(std::back_inserter(out), "v {} {} {}\n", p.x(), p.y(), p.z());
   for (const Triangle& t : mesh.triangles)

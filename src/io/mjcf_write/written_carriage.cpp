@@ -25,7 +25,7 @@ std::vector<double> Carriage::coordinates(const Pose& X) const {
   return out;
 }
 
-// mass, centre of mass and inertia about the base of all that the carriage moves
+// mass, center of mass and inertia about the base of all that the carriage moves
 static CarriageAxis with_servo(CarriageAxis axis, const WrittenScene& scene, int base,
                                const Eigen::Vector3d& gravity) {
   const Pose& X = scene.bodies[static_cast<size_t>(base)].X_WB;

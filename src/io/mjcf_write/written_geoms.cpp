@@ -114,8 +114,8 @@ std::optional<BoxFit> box_of(const Mesh& mesh) {
   const double slack = 1e-9 * mesh.bounds().size().norm();
   const auto corners = distinct_corners(mesh, slack);
   if (corners.size() != 8) return {};
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const auto& p : corners) centre += p / 8;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const auto& p : corners) center += p / 8;
   // the three nearest to orthogonal edges from one corner
   std::array<Eigen::Vector3d, 3> edges;
   size_t count = 0;
@@ -138,7 +138,7 @@ std::optional<BoxFit> box_of(const Mesh& mesh) {
     R.col(i) = edges[static_cast<size_t>(i)].normalized();
   }
   if (R.determinant() < 0) R.col(2) = -R.col(2);
-  out.X_MB = Pose{Eigen::Quaterniond(R).normalized(), centre};
+  out.X_MB = Pose{Eigen::Quaterniond(R).normalized(), center};
   for (const auto& p : corners) {
     const Eigen::Vector3d q = out.X_MB.inverse() * p;
     if ((q.cwiseAbs() - out.half).cwiseAbs().maxCoeff() > 10 * slack + 1e-6 * out.half.maxCoeff())

@@ -14,7 +14,7 @@ static constexpr size_t max_round_triangles = 500'000;
 
 TreeGeometry::TreeGeometry(const ReadOptions& options, BarePoints bare_points)
     : options_(options), bare_points_(bare_points) {
-  // robot files of today count in metres, and place a mesh with its axes as they stand
+  // robot files of today count in meters, and place a mesh with its axes as they stand
   options_.silent_mesh_unit = 1;
   options_.turn_mesh_up = false;
 }
@@ -23,7 +23,7 @@ std::shared_ptr<const Geometry> TreeGeometry::file(const std::filesystem::path& 
   auto& found = geometries_["file " + path.string()];
   if (found) return found;
   ReadOptions options = options_;
-  // VRML of robots of today counts in metres, too
+  // VRML of robots of today counts in meters, too
   if (is_inventor(path) && !options.mesh_scale) options.mesh_scale = 1;
   const bool points = bare_points_ == BarePoints::hull && !is_inventor(path);
   return found = std::make_shared<const Geometry>(

@@ -37,7 +37,7 @@ class TreeGeometry {
  public:
   explicit TreeGeometry(const ReadOptions& options, BarePoints bare_points = BarePoints::refused);
 
-  /// A mesh file in metres.   throws what read_mesh_file throws
+  /// A mesh file in meters.   throws what read_mesh_file throws
   std::shared_ptr<const Geometry> file(const std::filesystem::path& path);
   /// A mesh made by a formula, kept under its name.
   std::shared_ptr<const Geometry> made(const std::string& name, Mesh mesh);

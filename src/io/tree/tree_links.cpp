@@ -56,7 +56,7 @@ static bool guess_mass(BodySpec& body, const ShapePtr& shape,
   return true;
 }
 
-/// A file may name one surface for both, coloured once.
+/// A file may name one surface for both, colored once.
 static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
   return a == b || (a && b && a->hash() == b->hash());
 }

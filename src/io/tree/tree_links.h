@@ -12,7 +12,7 @@ namespace clench {
 struct LinkPieces {
   std::vector<GeometryPiece> collision, visual;
   std::string place;          ///< "hand.urdf:31", for sentences
-  bool has_inertial = false;  ///< are mass, centre and inertia in the link's body?
+  bool has_inertial = false;  ///< are mass, center and inertia in the link's body?
 };
 
 /// Gives each link its shape and looks. Bodies collide with the collision pieces alone; where no
@@ -25,7 +25,7 @@ struct LinkPieces {
 void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeometry& geometry,
                  const std::string& file, const FileCache& cache, bool contacts_known = false);
 
-/// Mass, centre and inertia of a link from the inertia about its centre of mass [kg m^2].
+/// Mass, center and inertia of a link from the inertia about its center of mass [kg m^2].
 Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
                       const Eigen::Matrix3d& inertia_C);
 

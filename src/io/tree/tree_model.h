@@ -41,7 +41,7 @@ struct TreeModel {
   bool has_actuators = false;
   std::vector<JointTendonSpec> tendons;          ///< `arms`: of joints that lead
   std::vector<std::pair<int, int>> never_meet;   ///< links whose collisions the file switches off
-  std::vector<std::pair<int, int>> always_meet;  ///< neighbours that collide all the same
+  std::vector<std::pair<int, int>> always_meet;  ///< neighbors that collide all the same
 };
 
 /// How far searches go from where a joint without limits is: a full turn [rad]; so far [m].

@@ -91,7 +91,7 @@ MassProperties capsule_solid(double radius, double length) {
   const MassProperties middle = cylinder_solid(radius, length);
   const double r2 = radius * radius, ball = 4.0 / 3 * std::numbers::pi * r2 * radius;
   const double volume = middle.volume + ball, part = ball / volume;
-  // half balls, their centres of mass 3/8 r beyond the ends
+  // half balls, their centers of mass 3/8 r beyond the ends
   const double along = 0.4 * r2, across = along + length * length / 4 + 3.0 / 8 * length * radius;
   const Eigen::Vector3d ends(across, across, along);
   return solid(volume, (1 - part) * middle.inertia.diagonal() + part * ends);
@@ -129,7 +129,7 @@ MassProperties capsule_shell(double radius, double length) {
                ball = 4 * std::numbers::pi * radius * radius, area = side + ball;
   const double r2 = radius * radius, l2 = length * length;
   const Eigen::Vector3d of_side(r2 / 2 + l2 / 12, r2 / 2 + l2 / 12, r2);
-  // half spheres, their centres of mass half a radius beyond the ends
+  // half spheres, their centers of mass half a radius beyond the ends
   const double across = 2.0 / 3 * r2 + l2 / 4 + length * radius / 2;
   const Eigen::Vector3d of_ball(across, across, 2.0 / 3 * r2);
   return solid(area, (side * of_side + ball * of_ball) / area);

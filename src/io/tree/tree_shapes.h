@@ -1,11 +1,11 @@
-// Meshes of the primitive shapes that robot files name. All are closed, centred, and face outward;
+// Meshes of the primitive shapes that robot files name. All are closed, centered, and face outward;
 // round ones have their vertices on the true surface.
 #pragma once
 #include "clench/geometry/mesh/mass.h"
 
 namespace clench {
 
-/// Edges of a full circle: a centimetre's radius is met within 0.05 mm.
+/// Edges of a full circle: a centimeter's radius is met within 0.05 mm.
 inline constexpr int circle_edges = 32;
 
 /// edges of the given lengths [m]

@@ -46,7 +46,7 @@ class XmlValues {
   double not_negative(const char* name, double fallback, Repairs& repairs) const;
   /// lower and upper, put in order   throws as numbers
   std::array<double, 2> range(const char* name, Repairs& repairs) const;
-  /// three or four shares of a colour in 0..1
+  /// three or four shares of a color in 0..1
   std::vector<double> color(const char* name, int least, Repairs& repairs) const;
   std::string subject(const char* name) const;  ///< "hand.xml:31: joint: range"
   int integer(const char* name, int fallback) const;

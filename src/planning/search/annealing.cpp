@@ -14,8 +14,8 @@ namespace clench {
 namespace {
 
 constexpr int max_draws = 100;      // draws for a variable, until it lies in its range
-constexpr int max_stuck = 10'000;   // tries in a row without a legal neighbour
-constexpr double coldest = 1e-100;  // a temperature of 0 has no neighbours
+constexpr int max_stuck = 10'000;   // tries in a row without a legal neighbor
+constexpr double coldest = 1e-100;  // a temperature of 0 has no neighbors
 
 double temperature(double t0, double decay, double dimensions, double step) {
   return std::max(t0 * std::exp(-decay * std::pow(step, 1 / dimensions)), coldest);
@@ -34,11 +34,11 @@ void check_schedule(const AnnealingSchedule& s) {
   const auto positive = [](const char* name, double x) {
     if (!(std::isfinite(x) && x > 0)) fail("annealing: {} must be > 0, got {}", name, x);
   };
-  positive("neighbour_decay", s.neighbour_decay);
+  positive("neighbor_decay", s.neighbor_decay);
   positive("error_decay", s.error_decay);
-  positive("neighbour_dimensions", s.neighbour_dimensions);
+  positive("neighbor_dimensions", s.neighbor_dimensions);
   positive("error_dimensions", s.error_dimensions);
-  positive("neighbour_scale", s.neighbour_scale);
+  positive("neighbor_scale", s.neighbor_scale);
   positive("error_scale", s.error_scale);
   positive("t0", s.t0);
   if (s.first_step < 0) fail("annealing: first_step must be >= 0, got {}", s.first_step);
@@ -46,8 +46,8 @@ void check_schedule(const AnnealingSchedule& s) {
 
 }  // namespace
 
-double AnnealingSchedule::neighbour_temperature(double step) const {
-  return temperature(t0, neighbour_decay, neighbour_dimensions, step);
+double AnnealingSchedule::neighbor_temperature(double step) const {
+  return temperature(t0, neighbor_decay, neighbor_dimensions, step);
 }
 double AnnealingSchedule::error_temperature(double step) const {
   return temperature(t0, error_decay, error_dimensions, step);
@@ -125,9 +125,9 @@ double Annealing::jump(const Variable& v, double value, double temperature, doub
   return out;
 }
 
-std::optional<Values> Annealing::neighbour() {
-  const double temperature = options_.schedule.neighbour_scale *
-                             options_.schedule.neighbour_temperature(static_cast<double>(k_));
+std::optional<Values> Annealing::neighbor() {
+  const double temperature = options_.schedule.neighbor_scale *
+                             options_.schedule.neighbor_temperature(static_cast<double>(k_));
   const double farthest = reach(temperature);
   Values out = values_;
   for (int i = 0; i < out.size(); ++i) {
@@ -150,7 +150,7 @@ bool Annealing::take_step() {
   HandState state;
   bool legal = false;
   for (int i = 0; i < options_.max_tries && !legal; ++i) {
-    next = neighbour();
+    next = neighbor();
     if (!next) continue;
     state = space_.state(*next);
     const Verdict verdict = place(state);

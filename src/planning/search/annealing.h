@@ -12,14 +12,14 @@ namespace clench {
 
 /// Temperatures at step k: t0 exp(-decay k^(1 / dimensions)).
 struct AnnealingSchedule {
-  double neighbour_decay = 7, error_decay = 7;
-  double neighbour_dimensions = 8, error_dimensions = 8;
-  double neighbour_scale = 1;  ///< of the temperature of neighbours
-  double error_scale = 1e-6;   ///< of energies
+  double neighbor_decay = 7, error_decay = 7;
+  double neighbor_dimensions = 8, error_dimensions = 8;
+  double neighbor_scale = 1;  ///< of the temperature of neighbors
+  double error_scale = 1e-6;  ///< of energies
   double t0 = 1e6;
   int first_step = 30000;  ///< k of the first step
 
-  double neighbour_temperature(double step) const;
+  double neighbor_temperature(double step) const;
   double error_temperature(double step) const;
 };
 
@@ -37,11 +37,11 @@ struct AnnealingOptions {
 
 /// Statistics of the steps.
 struct AnnealingCounts {
-  int64_t steps = 0;  ///< with a legal neighbour
+  int64_t steps = 0;  ///< with a legal neighbor
   int64_t accepted = 0;
   int64_t improved = 0;      ///< accepted ones that lowered the energy
   int64_t stuck = 0;         ///< tries without a legal neighbor; they do not count as steps
-  int64_t in_collision = 0;  ///< neighbours
+  int64_t in_collision = 0;  ///< neighbors
   int64_t avoided = 0;       ///< neighbors rejected because of the avoid list
   int64_t outside = 0;  ///< neighbors for which 100 draws did not bring a variable into its range
 };
@@ -79,7 +79,7 @@ class Annealing {
 
  private:
   enum class Verdict { legal, collides, avoided };
-  std::optional<Values> neighbour();
+  std::optional<Values> neighbor();
   double jump(const Variable& variable, double value, double temperature, double reach);
   Verdict place(const HandState& state);
   bool take_step();

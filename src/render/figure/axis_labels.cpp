@@ -59,12 +59,12 @@ AxisLabels::AxisLabels(std::vector<std::string> texts, float pitch, float longes
   room_ = upright_ ? widest() : height;
 }
 
-void AxisLabels::draw(Pen& pen, float top, const std::function<float(size_t)>& centre,
+void AxisLabels::draw(Pen& pen, float top, const std::function<float(size_t)>& center,
                       const Drawing::Color& color) const {
   const float least = upright_ ? height_ + between : 0;
   const size_t every = floor_between(std::ceil(least / pitch_), size_t{1}, texts_.size());
   for (size_t i = 0; i < texts_.size(); i += every) {
-    const float width = pen.font.width(texts_[i], height_), x = centre(i);
+    const float width = pen.font.width(texts_[i], height_), x = center(i);
     if (upright_)
       pen.text(texts_[i], {x + height_ / 2, top + width}, height_, color, true);
     else

@@ -18,9 +18,9 @@ class AxisLabels {
 
   /// that they take below their upper edge [pixels]
   float room() const { return room_; }
-  /// Draws them around centre(i); some are left out where even upright ones would overlap.
+  /// Draws them around center(i); some are left out where even upright ones would overlap.
   /// top  their upper edge
-  void draw(Pen& pen, float top, const std::function<float(size_t)>& centre,
+  void draw(Pen& pen, float top, const std::function<float(size_t)>& center,
             const Drawing::Color& color) const;
 
  private:

@@ -81,8 +81,8 @@ void Canvas::line(const Vector2f& from, const Vector2f& to, float width, const C
     const PixelRange xs =
         pixels_of(std::min(x0, x1) - reach, std::max(x0, x1) + reach, picture_.width);
     for (int x = xs.first; x <= xs.last; ++x) {
-      const Vector2f centre(static_cast<float>(x) + 0.5f, row);
-      const float inside = width / 2 + 0.5f - distance_to_segment(centre, from, to);
+      const Vector2f center(static_cast<float>(x) + 0.5f, row);
+      const float inside = width / 2 + 0.5f - distance_to_segment(center, from, to);
       if (inside > 0) blend(x, y, std::min(inside, 1.0f), color);
     }
   }

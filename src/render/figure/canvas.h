@@ -9,7 +9,7 @@
 namespace clench {
 
 /// Draws on a picture and by a font that it does not own. Places are in pixels, x to the right and
-/// y down, from the upper left corner; what lies outside is cut off. Colours are as a screen shows
+/// y down, from the upper left corner; what lies outside is cut off. Colors are as a screen shows
 /// them, each part in 0..1.
 class Canvas {
  public:

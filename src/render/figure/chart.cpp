@@ -76,7 +76,7 @@ std::vector<std::string> labels_of(const Chart& chart) {
 // where the columns of all panels stand
 struct ChartColumns {
   float left, width;  // of one column, with the space beside it
-  float centre(size_t i) const { return left + (static_cast<float>(i) + 0.5f) * width; }
+  float center(size_t i) const { return left + (static_cast<float>(i) + 0.5f) * width; }
 };
 
 struct ChartPanel {
@@ -152,7 +152,7 @@ void write_values(Pen& pen, const ChartScale& scale, const std::vector<double>& 
   for (size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i]))
       pen.bright_text(numbers[i],
-                      {columns.centre(i) - width(numbers[i]) / 2,
+                      {columns.center(i) - width(numbers[i]) / 2,
                        std::min(end_of(scale, values[i]), scale.height(0)) - 4},
                       letter_height, ink);
 }
@@ -168,7 +168,7 @@ void draw_columns(Pen& pen, const ChartPanel& panel, const ChartSeries& series,
   const double best = best_of(series);
   const float half = std::max(0.5f, 0.36f * columns.width), zero = scale.height(0);
   for (size_t i = 0; i < series.values.size(); ++i) {
-    const float x = columns.centre(i);
+    const float x = columns.center(i);
     const double value = series.values[i];
     if (!std::isfinite(value)) {
       draw_cross(pen, x, zero);
@@ -228,7 +228,7 @@ Drawing draw_chart(const Chart& chart, const ChartOptions& options, const Font& 
                  chart.series[i], columns);
   }
   labels.draw(
-      pen, static_cast<float>(height) - below + 8, [&](size_t i) { return columns.centre(i); },
+      pen, static_cast<float>(height) - below + 8, [&](size_t i) { return columns.center(i); },
       ink);
   return drawing;
 }

@@ -9,7 +9,7 @@
 
 namespace clench {
 
-/// Places are in pixels, x to the right and y down, from the upper left corner; colours are as a
+/// Places are in pixels, x to the right and y down, from the upper left corner; colors are as a
 /// screen shows them, each part in 0..1. Items lie over those before them.
 struct Drawing {
   using Color = Eigen::Vector3f;

@@ -32,7 +32,7 @@ void close_gif(GifFileType* file) {
   EGifCloseFile(file, &error);
 }
 
-// colours are told apart by five bits a channel
+// colors are told apart by five bits a channel
 constexpr int bits = 5, shades = 1 << (3 * bits);
 constexpr size_t max_colors = 256;
 
@@ -155,7 +155,7 @@ std::string gif_bytes(std::span<const Picture> frames, std::span<const int> dela
   EGifSetGifVersion(file.get(), true);
   const Palette palette = find_palette(frames);
   const ColorMap map(GifMakeMapObject(max_colors, nullptr), GifFreeMapObject);
-  check_done(map != nullptr, "a colour map");
+  check_done(map != nullptr, "a color map");
   for (size_t i = 0; i < palette.colors.size(); ++i)
     map->Colors[i] = {palette.colors[i][0], palette.colors[i][1], palette.colors[i][2]};
   check_done(EGifPutScreenDesc(file.get(), width, height, 8, 0, map.get()) == GIF_OK, "writing");

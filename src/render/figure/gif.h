@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// All frames share up to 256 colours, and begin anew after the last.
+/// All frames share up to 256 colors, and begin anew after the last.
 /// delays   of each frame, in hundredths of a second
 /// source   Heckbert (1982), Color image quantization for frame buffer display: median cut
 /// throws   Error for no frames, sizes that differ, or more than 65535 pixels in a row

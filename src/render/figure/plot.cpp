@@ -323,7 +323,7 @@ void Figure::draw_bars(const PlotSeries& series, const Drawing::Color& color) {
                  high = within(y_.range, std::max(0.0, series.y[i]));
     if (!(left < right) || !(low < high)) continue;
     const Vector2f from = at({left, high}), to = at({right, low});
-    // a thin gap between neighbours, where there is room
+    // a thin gap between neighbors, where there is room
     const float space = to.x() - from.x() > 4 ? 0.5f : 0;
     pen_.rectangle(from + Vector2f(space, 0), to - Vector2f(space, 0), color);
   }

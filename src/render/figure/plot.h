@@ -40,7 +40,7 @@ struct Plot {
 /// Axes have lines at multiples of 1, 2 or 5 times a power of ten, logarithmic ones at powers of
 /// ten and, where these are few, at 2 and 5 times them; that of y holds 0 where there are bars.
 /// Names of categories that do not fit are upright or lose their middle.
-/// Colours are those of Okabe and Ito (2008), which colour-blind people tell apart. It needs no
+/// Colors are those of Okabe and Ito (2008), which color-blind people tell apart. It needs no
 /// graphics hardware.
 /// throws  Error without series, where counts differ, with no finite number, with more than anybody
 ///         can see, and on a size or range out of order, or not > 0 on a logarithmic axis

@@ -1,4 +1,4 @@
-// Pictures with several samples a pixel, and colours that were multiplied by alpha.
+// Pictures with several samples a pixel, and colors that were multiplied by alpha.
 #pragma once
 #include "clench/render/figure/picture.h"
 
@@ -8,7 +8,7 @@ namespace clench {
 /// are multiples of it.
 Picture reduced(const Picture& large, int scale);
 
-/// Colours that were multiplied by alpha become those of what covers.
+/// Colors that were multiplied by alpha become those of what covers.
 void divide_by_alpha(Picture& picture);
 
 }  // namespace clench

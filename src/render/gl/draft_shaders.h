@@ -10,7 +10,7 @@ layout(location = 1) in vec3 n;
 layout(location = 2) in vec4 own_paint;
 uniform mat4 to_scene;
 uniform mat4 to_clip;        // of the mesh's units
-uniform float painted;       // 1: corners have colours of their own
+uniform float painted;       // 1: corners have colors of their own
 uniform vec4 one_paint;
 out vec3 at;
 out vec3 normal;

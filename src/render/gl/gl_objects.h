@@ -33,7 +33,7 @@ enum class Format { rgba8, rgba16f, rgba32f, depth };
 
 /// Nearest sampling, edges repeated; `data` are floats, red green blue alpha, or null.
 Object make_texture(Format format, int width, int height, const void* data = nullptr);
-/// Layers of depth that are compared when they are read: shares of neighbours that pass.
+/// Layers of depth that are compared when they are read: shares of neighbors that pass.
 Object make_shadow_maps(int size, int layers);
 /// Draws to textures of one size, in the order of a program's outputs; depth 0: none.
 /// throws  Error when the driver cannot

@@ -186,7 +186,7 @@ void main() {
 }
 )";
 
-/// cones: they glow, so that their colour tells in any light
+/// cones: they glow, so that their color tells in any light
 inline constexpr const char* mark_fragment = R"(
 in vec3 at;
 in vec3 normal;
@@ -235,7 +235,7 @@ vec3 backdrop() {
 }
 )";
 
-/// lines around bodies, where the surface seen in one pixel does not go on in its neighbours, and
+/// lines around bodies, where the surface seen in one pixel does not go on in its neighbors, and
 /// along edges
 inline constexpr const char* outline_fragment = R"(
 uniform sampler2D places;

@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Red green blue, as a surface of this colour returns light, and opacity: parts of 65535.
+/// Red green blue, as a surface of this color returns light, and opacity: parts of 65535.
 using Paint = std::array<uint16_t, 4>;
 
 /// One corner of triangles as the shaders read it.
@@ -17,7 +17,7 @@ struct Corner {
 };
 static_assert(sizeof(Corner) == 32);
 
-/// The part of light that a surface returns whose colour on a screen is this, 0..1. Nothing is so
+/// The part of light that a surface returns whose color on a screen is this, 0..1. Nothing is so
 /// black that its shape is lost.
 Eigen::Vector3f linear_rgb(const Eigen::Vector3f& color);
 

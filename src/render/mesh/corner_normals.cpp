@@ -8,8 +8,8 @@
 namespace clench {
 namespace {
 
-// the centre of a fan: smoothing there costs the square of its size and shows nothing
-constexpr int max_neighbours = 128;
+// the center of a fan: smoothing there costs the square of its size and shows nothing
+constexpr int max_neighbors = 128;
 
 Eigen::Vector3d face_normal(const std::vector<Eigen::Vector3d>& vertices, const Triangle& t) {
   const Eigen::Vector3d a = vertices[t[1]] - vertices[t[0]], b = vertices[t[2]] - vertices[t[0]];
@@ -61,7 +61,7 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
     for (int k = 0; k < 3; ++k) {
       const int v = triangles[i][k];
       Eigen::Vector3d sum = faces[i];
-      if (first[v + 1] - first[v] <= max_neighbours) {
+      if (first[v + 1] - first[v] <= max_neighbors) {
         sum.setZero();
         for (int at = first[v]; at < first[v + 1]; ++at) {
           const int j = around[at], corner = triangles[j][0] == v   ? 0

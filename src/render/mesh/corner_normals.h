@@ -11,7 +11,7 @@ namespace clench {
 
 /// Unit normals, zero for triangles without area. Each corner averages the triangles around its
 /// vertex that lean less than the crease angle [rad] from its own, weighted by their angles there;
-/// neighbours that run the other way round are turned over first. Vertices shared by very many
+/// neighbors that run the other way round are turned over first. Vertices shared by very many
 /// triangles stay sharp.
 /// source  Thuermer & Wuethrich (1998), Computing vertex normals from polygonal facets: the weights
 std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(

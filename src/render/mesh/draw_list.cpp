@@ -25,7 +25,7 @@ Extent extent_of_pieces(std::span<const Piece> pieces) {
 }
 
 Batch append(Piece& piece, DrawList& list) {
-  for (auto& p : piece.p_W) p = (p - list.centre) / list.scale;
+  for (auto& p : piece.p_W) p = (p - list.center) / list.scale;
   const auto normals = corner_normals(piece.p_W, piece.triangles);
   std::vector<Paint> paints;
   for (const auto& color : piece.colors) paints.push_back(make_paint(color, piece.opacity));
@@ -42,7 +42,7 @@ Batch append(Piece& piece, DrawList& list) {
   if (const auto ball = ball_around([&](const auto& what) {
         for (const auto& p : piece.p_W) what(p);
       }))
-    batch.centre = ball->centre, batch.radius = ball->scale;
+    batch.center = ball->center, batch.radius = ball->scale;
   batch.first_caster = static_cast<int>(list.indices.size());
   if (piece.mark || piece.background) corners.clear();
   batch.caster_count = static_cast<int>(corners.size());
@@ -112,7 +112,7 @@ DrawList make_draw_list(const Scene& scene) {
   }
   list.floor_corner = list.corners.size();
   if (scene.ground) {
-    list.ground = (*scene.ground - list.centre.z()) / list.scale;
+    list.ground = (*scene.ground - list.center.z()) / list.scale;
     // so far away that it is not in any picture
     if (std::abs(*list.ground) > floor_reach)
       list.ground.reset();

@@ -1,5 +1,5 @@
 // A scene as triangle corners ready for the graphics card, in the scene's own units: moved to its
-// centre and divided by its radius, so that a millimetre and a kilometre make the same picture.
+// center and divided by its radius, so that a millimeter and a kilometer make the same picture.
 #pragma once
 #include <optional>
 #include <vector>
@@ -17,7 +17,7 @@ struct Batch {
   int first_caster = 0, caster_count = 0;
   float opacity = 1;
   bool closed = false;  ///< faces outward, so that its inside is never seen
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of a ball around it [scene units]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of a ball around it [scene units]
   double radius = 0;
 };
 
@@ -40,7 +40,7 @@ inline constexpr int floor_lines = 113;
 inline constexpr float solid_from = 0.999f;
 
 /// throws  Error naming the mesh or cone and what is out of range: numbers not finite, opacity
-///         outside [0, 1], a wrong count of triangle colours, a cone's axis that is not unit, its
+///         outside [0, 1], a wrong count of triangle colors, a cone's axis that is not unit, its
 ///         half angle outside [0, pi/2)
 DrawList make_draw_list(const Scene& scene);
 

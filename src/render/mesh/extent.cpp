@@ -16,12 +16,12 @@ void each_vertex(const DrawMesh& mesh, Use&& use) {
     use(Eigen::Vector3d(R * p + mesh.X_WM.position));
 }
 
-// an upper bound of the distance of its vertices from the centre, in units of the ball: with slack
+// an upper bound of the distance of its vertices from the center, in units of the ball: with slack
 // for the rounding of places far from the origin
 double reach_of(const DrawMesh& mesh, const BallAround& ball) {
-  const Eigen::Vector3d middle = mesh.X_WM * mesh.shape->centre();
-  const double reach = (middle - ball.centre()).norm() + mesh.shape->radius(),
-               far = middle.norm() + ball.centre().norm() + mesh.shape->centre().norm();
+  const Eigen::Vector3d middle = mesh.X_WM * mesh.shape->center();
+  const double reach = (middle - ball.center()).norm() + mesh.shape->radius(),
+               far = middle.norm() + ball.center().norm() + mesh.shape->center().norm();
   return ball.unit() * ((1 + 1e-9) * reach + 1e-13 * far);
 }
 
@@ -29,8 +29,8 @@ double reach_of(const DrawMesh& mesh, const BallAround& ball) {
 
 Eye Extent::to_scene(const Eye& world) const {
   Eye out = world;
-  out.eye = (world.eye - centre) / scale;
-  out.target = (world.target - centre) / scale;
+  out.eye = (world.eye - center) / scale;
+  out.target = (world.target - center) / scale;
   out.ortho_height = world.ortho_height / scale;
   return out;
 }

@@ -13,26 +13,26 @@ namespace clench {
 
 /// A ball [m].
 struct Extent {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;
 
-  /// An eye of the world, moved to the centre and divided by the scale.
+  /// An eye of the world, moved to the center and divided by the scale.
   Eye to_scene(const Eye& world) const;
 };
 
-/// A ball about the centre of bounds, through the point of them that is farthest. Squares of lengths
+/// A ball about the center of bounds, through the point of them that is farthest. Squares of lengths
 /// do not overflow.
 class BallAround {
  public:
   explicit BallAround(const Bounds& bounds)
-      : centre_(0.5 * bounds.low + 0.5 * bounds.high),
+      : center_(0.5 * bounds.low + 0.5 * bounds.high),
         half_((0.5 * bounds.high - 0.5 * bounds.low).maxCoeff()),
         unit_(1 / half_) {}
-  const Eigen::Vector3d& centre() const { return centre_; }
+  const Eigen::Vector3d& center() const { return center_; }
   /// of the bounds, as which distances are measured; infinite where they have no size
   double unit() const { return unit_; }
   void add(const Eigen::Vector3d& p) {
-    if (std::isfinite(unit_)) most_ = std::max(most_, (unit_ * (p - centre_)).squaredNorm());
+    if (std::isfinite(unit_)) most_ = std::max(most_, (unit_ * (p - center_)).squaredNorm());
   }
   /// Square of the distance of the farthest point so far, in such units.
   double farthest() const { return most_; }
@@ -41,11 +41,11 @@ class BallAround {
     const double scale = half_ * std::sqrt(most_);
     if (!std::isfinite(scale)) fail("picture: the scene is larger than numbers can be");
     // a single point is seen from a distance that its coordinates can resolve
-    return {centre_, std::max(scale, 1e-9 * std::max(1.0, centre_.cwiseAbs().maxCoeff()))};
+    return {center_, std::max(scale, 1e-9 * std::max(1.0, center_.cwiseAbs().maxCoeff()))};
   }
 
  private:
-  Eigen::Vector3d centre_;
+  Eigen::Vector3d center_;
   double half_, unit_, most_ = 0;
 };
 
@@ -64,7 +64,7 @@ std::optional<Extent> ball_around(Each&& each) {
 /// Finds the extent of scene after scene; bounds of meshes that stay where they were are kept.
 class ExtentFinder {
  public:
-  /// A ball about the centre of the bounds of every vertex of meshes, cones and arrows, through the
+  /// A ball about the center of the bounds of every vertex of meshes, cones and arrows, through the
   /// farthest of them. Backgrounds do not count unless there is nothing else; world [m].
   /// throws  Error when a mesh is moved beyond all numbers, or the ball is larger than numbers can be
   Extent find(const Scene& scene);

@@ -12,7 +12,7 @@ bool faces_outward(const Shape& shape) {
   DisjointSets parts = connected_vertices(shape.mesh());
   std::vector<double> volumes(vertices.size(), 0);
   for (const Triangle& t : shape.mesh().triangles) {
-    const auto at = [&](int k) -> Eigen::Vector3d { return vertices[t[k]] - shape.centre(); };
+    const auto at = [&](int k) -> Eigen::Vector3d { return vertices[t[k]] - shape.center(); };
     volumes[parts.find(t[0])] += at(0).dot(at(1).cross(at(2)));
   }
   // a part without triangles has none
@@ -21,8 +21,8 @@ bool faces_outward(const Shape& shape) {
   return true;
 }
 
-bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye) {
-  return eye.ortho_height > 0 || (centre - eye.eye).norm() > 1.5 * radius + 0.03;
+bool hides_inside(const Eigen::Vector3d& center, double radius, const Eye& eye) {
+  return eye.ortho_height > 0 || (center - eye.eye).norm() > 1.5 * radius + 0.03;
 }
 
 }  // namespace clench

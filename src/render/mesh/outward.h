@@ -12,6 +12,6 @@ bool faces_outward(const Shape& shape);
 /// Can an eye see only the sides that face outward of such a mesh within a ball, in scene units?
 /// Not from within it, or with the near plane in it, which lies at less than half the way to the
 /// scene.
-bool hides_inside(const Eigen::Vector3d& centre, double radius, const Eye& eye);
+bool hides_inside(const Eigen::Vector3d& center, double radius, const Eye& eye);
 
 }  // namespace clench

@@ -27,19 +27,19 @@ void check(const Scene& scene) {
     if (!m.X_WM.is_finite()) fail("picture: mesh {}: pose must be finite numbers", i + 1);
     if (!(m.opacity >= 0 && m.opacity <= 1))
       fail("picture: mesh {}: opacity must be between 0 and 1, got {}", i + 1, m.opacity);
-    if (!m.color.allFinite()) fail("picture: mesh {}: colour must be finite numbers", i + 1);
+    if (!m.color.allFinite()) fail("picture: mesh {}: color must be finite numbers", i + 1);
     if (!m.shape || m.triangle_colors.empty()) continue;
     if (m.triangle_colors.size() != m.shape->mesh().triangles.size())
-      fail("picture: mesh {}: expected one colour for each of {} triangles, got {}", i + 1,
+      fail("picture: mesh {}: expected one color for each of {} triangles, got {}", i + 1,
            m.shape->mesh().triangles.size(), m.triangle_colors.size());
     for (const auto& color : m.triangle_colors)
       if (!color.allFinite())
-        fail("picture: mesh {}: triangle colours must be finite numbers", i + 1);
+        fail("picture: mesh {}: triangle colors must be finite numbers", i + 1);
   }
   for (size_t i = 0; i < scene.cones.size(); ++i) {
     const DrawCone& c = scene.cones[i];
     if (!c.apex.allFinite() || !c.color.allFinite())
-      fail("picture: cone {}: apex and colour must be finite numbers", i + 1);
+      fail("picture: cone {}: apex and color must be finite numbers", i + 1);
     if (!(std::abs(c.axis.norm() - 1) < 1e-6))
       fail("picture: cone {}: axis must have length 1", i + 1);
     if (!(c.half_angle >= 0 && c.half_angle < std::numbers::pi / 2))
@@ -51,13 +51,13 @@ void check(const Scene& scene) {
   for (size_t i = 0; i < scene.arrows.size(); ++i) {
     const DrawArrow& a = scene.arrows[i];
     if (!a.tail.allFinite() || !a.tip.allFinite() || !a.color.allFinite())
-      fail("picture: arrow {}: tail, tip and colour must be finite numbers", i + 1);
+      fail("picture: arrow {}: tail, tip and color must be finite numbers", i + 1);
     if (!(a.radius > 0 && std::isfinite(a.radius)))
       fail("picture: arrow {}: radius must be > 0, got {} [m]", i + 1, a.radius);
   }
   for (size_t i = 0; i < scene.labels.size(); ++i)
     if (!scene.labels[i].p_W.allFinite() || !scene.labels[i].color.allFinite())
-      fail("picture: label {}: place and colour must be finite numbers", i + 1);
+      fail("picture: label {}: place and color must be finite numbers", i + 1);
   if (scene.ground && !std::isfinite(*scene.ground))
     fail("picture: height of the ground must be a finite number");
 }

@@ -80,7 +80,7 @@ void append_shared(const std::vector<Corner>& corners, std::vector<Corner>& shar
     const int c = compare(a, b);
     return c != 0 ? c < 0 : a < b;
   });
-  // each takes the place of the first of its kind, so that neighbours stay near
+  // each takes the place of the first of its kind, so that neighbors stay near
   std::vector<uint32_t> first(corners.size()), place(corners.size());
   for (size_t i = 0; i < order.size(); ++i)
     first[order[i]] =

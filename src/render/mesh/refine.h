@@ -7,7 +7,7 @@
 namespace clench {
 
 /// Corners, three a triangle: halves every edge longer than `longest` [scene units], and its
-/// neighbour's with it, so that no cracks open. Outside the scene's ball edges may be longer, in
+/// neighbor's with it, so that no cracks open. Outside the scene's ball edges may be longer, in
 /// proportion to the distance. Gives up the length, not the count, when there would be more than
 /// `most` triangles.
 std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,

@@ -26,7 +26,7 @@ struct DraftKept {
   std::optional<DraftTarget> target;
 };
 
-/// Draws one sample a pixel and smooths edges; colours are multiplied by alpha. `eye` is of the
+/// Draws one sample a pixel and smooths edges; colors are multiplied by alpha. `eye` is of the
 /// world.
 /// throws  Stopped; Error when the driver refuses, and as `check(scene)` does
 void draft_to(const Programs& programs, DraftKept& kept, const Scene& scene, const Eye& eye,

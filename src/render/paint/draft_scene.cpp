@@ -14,7 +14,7 @@ namespace {
 Eigen::Matrix4d moved_by(const DrawMesh& mesh, const StoredMesh& stored, const Extent& extent) {
   Eigen::Matrix4d out = Eigen::Matrix4d::Identity();
   out.topLeftCorner<3, 3>() = mesh.X_WM.rotation.toRotationMatrix() * (stored.scale / extent.scale);
-  out.topRightCorner<3, 1>() = (mesh.X_WM * stored.centre - extent.centre) / extent.scale;
+  out.topRightCorner<3, 1>() = (mesh.X_WM * stored.center - extent.center) / extent.scale;
   return out;
 }
 
@@ -23,17 +23,17 @@ PlacedMesh place(const DrawMesh& mesh, const StoredMesh& stored, const DraftScen
                     .shape = mesh.shape,
                     .to_scene = moved_by(mesh, stored, scene.extent),
                     .background = mesh.background};
-  const Eigen::Vector3d centre = placed.to_scene.topRightCorner<3, 1>();
+  const Eigen::Vector3d center = placed.to_scene.topRightCorner<3, 1>();
   placed.paint << linear_rgb(mesh.color), mesh.opacity;
-  placed.distance = (centre - scene.eye.eye).norm();
+  placed.distance = (center - scene.eye.eye).norm();
   placed.one_side =
-      stored.closed && hides_inside(centre, stored.scale / scene.extent.scale, scene.eye);
+      stored.closed && hides_inside(center, stored.scale / scene.extent.scale, scene.eye);
   return placed;
 }
 
 std::optional<StoredMesh> load_floor(const Scene& scene, const Extent& extent, const Eye& eye) {
   if (!scene.ground) return std::nullopt;
-  const double ground = (*scene.ground - extent.centre.z()) / extent.scale;
+  const double ground = (*scene.ground - extent.center.z()) / extent.scale;
   if (std::abs(ground) > floor_reach || shading_eye(eye).z() <= ground) return std::nullopt;
   const auto z = static_cast<float>(ground), r = static_cast<float>(floor_reach);
   std::vector<Corner> corners;
@@ -48,13 +48,13 @@ std::optional<StoredMesh> load_floor(const Scene& scene, const Extent& extent, c
 const StoredMesh* DraftMarks::at(const Scene& scene, const Extent& extent) {
   Scene marks;
   marks.cones = scene.cones, marks.arrows = scene.arrows;
-  const bool same_place = extent.centre == extent_.centre && extent.scale == extent_.scale;
+  const bool same_place = extent.center == extent_.center && extent.scale == extent_.scale;
   if (key_ && same_place && key_->matches(marks)) return mesh_ ? &*mesh_ : nullptr;
   key_.reset(), mesh_.reset();
   std::vector<Corner> corners;
   std::vector<uint32_t> indices;
   const auto add = [&](Piece piece) {
-    for (auto& p : piece.p_W) p = (p - extent.centre) / extent.scale;
+    for (auto& p : piece.p_W) p = (p - extent.center) / extent.scale;
     share_corners(piece.p_W, piece.triangles, piece.colors, corners, indices);
   };
   for (const DrawCone& cone : scene.cones) add(cone_piece(cone));

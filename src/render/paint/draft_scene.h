@@ -18,7 +18,7 @@ struct PlacedMesh {
   Eigen::Matrix4d to_scene = Eigen::Matrix4d::Identity();
   Eigen::Vector4f paint = Eigen::Vector4f(0, 0, 0, 1);
   bool background = false;
-  double distance = 0;    ///< of its centre from the eye [scene units]
+  double distance = 0;    ///< of its center from the eye [scene units]
   bool one_side = false;  ///< is all that can be seen
 };
 

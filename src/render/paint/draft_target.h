@@ -25,7 +25,7 @@ struct DraftTarget {
   std::optional<Lines> lines;
 };
 
-/// A picture on the graphics card: colours multiplied by alpha. Lives inside the life of a
+/// A picture on the graphics card: colors multiplied by alpha. Lives inside the life of a
 /// GlContext.
 struct FrameTarget {
   FrameTarget(int width, int height);

@@ -12,7 +12,7 @@ struct Destination {
 };
 
 /// Mixes pixels at edges with those across, by where along a step of the edge they lie. `program`
-/// is Programs::edges; `colors` holds the picture, with colours multiplied by alpha.
+/// is Programs::edges; `colors` holds the picture, with colors multiplied by alpha.
 /// source  Lottes (2009), FXAA
 void smooth_to(unsigned program, const Cover& cover, unsigned colors, const RenderOptions& options,
                const Destination& destination);

@@ -50,10 +50,10 @@ const StoredMesh& MeshStore::at(const DrawMesh& mesh) {
     return entries_.front().mesh;
   }
   const Mesh& from = mesh.shape->mesh();
-  const Eigen::Vector3d centre = mesh.shape->centre();
+  const Eigen::Vector3d center = mesh.shape->center();
   const double scale = mesh.shape->radius() > 0 ? mesh.shape->radius() : 1;
   std::vector<Eigen::Vector3d> vertices = from.vertices;
-  for (auto& p : vertices) p = (p - centre) / scale;
+  for (auto& p : vertices) p = (p - center) / scale;
   const bool painted = !mesh.triangle_colors.empty();
   std::vector<Corner> corners;
   std::vector<uint32_t> indices;
@@ -62,7 +62,7 @@ const StoredMesh& MeshStore::at(const DrawMesh& mesh) {
                 indices);
   entries_.push_front({mesh.shape, mesh.triangle_colors, StoredMesh(corners, indices), 0});
   Entry& entry = entries_.front();
-  entry.mesh.centre = centre;
+  entry.mesh.center = center;
   entry.mesh.scale = scale;
   entry.mesh.painted = painted;
   entry.mesh.closed = faces_outward(*mesh.shape);

@@ -7,13 +7,13 @@
 
 namespace clench {
 
-/// Corners with smooth normals, about the mesh's centre and divided by its radius.
+/// Corners with smooth normals, about the mesh's center and divided by its radius.
 struct StoredMesh : LoadedCorners {
   using LoadedCorners::LoadedCorners;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;
   bool closed = false;   ///< a solid whose triangles all run counter-clockwise seen from outside
-  bool painted = false;  ///< triangles have colours of their own
+  bool painted = false;  ///< triangles have colors of their own
 };
 
 /// Lives inside the life of a GlContext.

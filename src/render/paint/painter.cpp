@@ -125,7 +125,7 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
   for (const auto* batches : {&list_.solid, &list_.behind})
     for (const Batch& batch : *batches) {
       const bool one_side =
-          heavy_ && batch.closed && hides_inside(batch.centre, batch.radius, eye_);
+          heavy_ && batch.closed && hides_inside(batch.center, batch.radius, eye_);
       (one_side ? glEnable : glDisable)(GL_CULL_FACE);
       draw(batch);
     }

@@ -23,7 +23,7 @@ gl::Object to_buffer(int rows) {
   return out;
 }
 
-// neighbours on the floor share their light, so that no single shadow of the many shows
+// neighbors on the floor share their light, so that no single shadow of the many shows
 gl::Object smooth_floor(const Programs& programs, const DrawList& list, unsigned gathered,
                         int rows) {
   if (!list.ground) return to_buffer(rows);

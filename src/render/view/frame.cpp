@@ -81,13 +81,13 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// of a scene, about the centre of what must be in the frame and divided by its radius
+// of a scene, about the center of what must be in the frame and divided by its radius
 struct Sight {
   Points framed;  // all that must be in the frame, to its last vertex
   Points solid, aside, clear,
       marks;    // some of what hides; of what need not be seen; of what should
   Points held;  // further points that must be in the frame
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;
 };
 
@@ -127,7 +127,7 @@ Points every_so_often(const Points& points, size_t count) {
 }
 
 // about the middle of all, and divided by the largest distance from it
-void normalise(std::vector<Points>& placed, const std::vector<bool>& must, Sight& sight) {
+void normalize(std::vector<Points>& placed, const std::vector<bool>& must, Sight& sight) {
   const auto ball = ball_around([&](const auto& what) {
     for (size_t i = 0; i < placed.size(); ++i)
       if (must[i])
@@ -135,12 +135,12 @@ void normalise(std::vector<Points>& placed, const std::vector<bool>& must, Sight
     for (const auto& p : sight.held) what(p);
   });
   if (!ball) return;
-  sight.centre = ball->centre, sight.scale = ball->scale;
+  sight.center = ball->center, sight.scale = ball->scale;
   const double unit = 1 / sight.scale;
   for (Points& points : placed)
-    for (auto& p : points) p = unit * (p - sight.centre);
+    for (auto& p : points) p = unit * (p - sight.center);
   for (Points* points : {&sight.marks, &sight.held})
-    for (auto& p : *points) p = unit * (p - sight.centre);
+    for (auto& p : *points) p = unit * (p - sight.center);
 }
 
 // cones and arrows, what else must be held, and the places that should be seen
@@ -173,7 +173,7 @@ Sight sight_of(const Scene& scene) {
     placed.push_back(std::move(points));
     must.push_back(only_floor || (!mesh->background && (mesh->framed || !any)));
   }
-  normalise(placed, must, sight);
+  normalize(placed, must, sight);
 
   std::vector<std::vector<double>> areas;
   std::array<double, 2> all = {};
@@ -329,8 +329,8 @@ Eye frame(const Scene& scene, double aspect, bool ortho) {
     if (value > most) best = direction, most = value;
   }
   Eye eye = fit(sight.framed, best, aspect, ortho);
-  eye.eye = sight.centre + sight.scale * eye.eye;
-  eye.target = sight.centre + sight.scale * eye.target;
+  eye.eye = sight.center + sight.scale * eye.eye;
+  eye.target = sight.center + sight.scale * eye.target;
   eye.ortho_height *= sight.scale;
   return eye;
 }

@@ -86,7 +86,7 @@ double depth_of(const Scene& scene, const Eigen::Vector3d& eye) {
     most = std::max(most, (p - eye).norm() + radius);
   };
   for (const DrawMesh& mesh : scene.meshes)
-    if (mesh.shape) add(mesh.X_WM * mesh.shape->centre(), mesh.shape->radius());
+    if (mesh.shape) add(mesh.X_WM * mesh.shape->center(), mesh.shape->radius());
   for (const DrawCone& cone : scene.cones)
     for (const auto& p : cone_piece(cone).p_W) add(p, 0);
   for (const DrawArrow& arrow : scene.arrows)

@@ -33,9 +33,10 @@ namespace clench {
 // --- Libraries whose files say what they are for. ---
 
 extern const Library units_library, vec3_library, pose_library, random_library, progress_library,
-    log_library, parallel_library, job_library, json_library, catalog_library, convert_library, entries_library,
-    files_library, arrays_library, film_library, chart_library, plot_library, render_library,
-    eigengrasps_library, wrench_space_library, grasp_library, grasps_library, measures_library;
+    log_library, parallel_library, job_library, json_library, catalog_library, convert_library,
+    entries_library, files_library, arrays_library, film_library, chart_library, plot_library,
+    render_library, eigengrasps_library, wrench_space_library, grasp_library, grasps_library,
+    measures_library;
 
 // --- clench.random: random numbers that are the same on every machine. ---
 
@@ -93,9 +94,9 @@ bool first_time(lua_State* L, const void* key, const std::string& about);
 /// key  a static thing whose address stands for it
 void warn_once(lua_State* L, const void* key, const std::string& message);
 
-/// Warns once where a distance is beyond 10 m, for which millimetres are a likely cause.
+/// Warns once where a distance is beyond 10 m, for which millimeters are a likely cause.
 /// subject  what lies there
-void suspect_millimetres(lua_State* L, const std::string& subject, double distance);
+void suspect_millimeters(lua_State* L, const std::string& subject, double distance);
 
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
@@ -152,7 +153,7 @@ inline constexpr const Class* script_class<ContactHandle> = &contact_class;
 /// A list of contacts.
 int push_contacts(lua_State* L, const WorldPtr& world, const std::vector<Contact>& contacts);
 
-// --- What bodies and robots have in common: material, mass, surface, colour; a robot has those of
+// --- What bodies and robots have in common: material, mass, surface, color; a robot has those of
 // its base. ---
 
 extern const Class entity_class;

@@ -13,7 +13,7 @@
 
 namespace clench {
 
-// a unit by its name, or by its length in metres
+// a unit by its name, or by its length in meters
 static std::optional<double> read_unit(Table& options) {
   const bool named = options.has("unit"), scaled = options.has("mesh_scale");
   if (named && scaled) fail("{}: expected unit or mesh_scale, got both", options.subject());

@@ -14,7 +14,7 @@ std::filesystem::path read_confine(lua_State* L, Table& options);
 /// Warnings and notes go to the script's log.
 ReadOptions read_options(lua_State* L, Table& options);
 
-/// A body from argument i: a file name, or a mesh in metres, indices from 1,
+/// A body from argument i: a file name, or a mesh in meters, indices from 1,
 /// {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}; the keys name, material, mass or
 /// density, com, elastic_modulus, soft_layer, poisson_ratio, color and transparency of the options
 /// override it.

@@ -32,7 +32,7 @@ local function contacts_of(body)
   return list
 end
 
-local function millimetres(p) return line {p.x * 1e3, p.y * 1e3, p.z * 1e3} end
+local function millimeters(p) return line {p.x * 1e3, p.y * 1e3, p.z * 1e3} end
 
 -- lines of the contacts of one body; kinds: how many data items of each, 1 to 3
 local function report(reply, body, kinds, threshold)
@@ -40,7 +40,7 @@ local function report(reply, body, kinds, threshold)
   reply[#reply + 1] = tostring(#contacts)
   for _, contact in ipairs(contacts) do
     reply[#reply + 1] = line(contact.wrench)
-    if kinds > 1 then reply[#reply + 1] = millimetres(contact.point) end
+    if kinds > 1 then reply[#reply + 1] = millimeters(contact.point) end
     if kinds > 2 then reply[#reply + 1] = units.text(1e3 * math.max(0, threshold / 2 - contact.gap)) end
   end
 end
@@ -66,7 +66,7 @@ function commands.getAverageContacts(world, words)
       for i = 1, 6 do wrench[i] = wrench[i] + contact.wrench[i] / count end
       point = point + contact.point / count
     end
-    reply[#reply + 1], reply[#reply + 2] = line(wrench), millimetres(point)
+    reply[#reply + 1], reply[#reply + 2] = line(wrench), millimeters(point)
   end
   return reply
 end

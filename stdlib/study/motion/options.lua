@@ -21,7 +21,7 @@ return function(read, grip_force)
   job.grip = read:get "grip"
   job.grip_force = read:get("grip_force", grip_force or 10 * 9.81 * job.mass)
   for _, name in ipairs {"grip_seconds", "settle", "friction_share", "max_distance", "max_angle", "surroundings"} do job[name] = read:get(name) end
-  suspect.millimetres(read.subject, "max_distance", job.max_distance)
+  suspect.millimeters(read.subject, "max_distance", job.max_distance)
   suspect.degrees(read.subject, "max_angle", job.max_angle)
   return job
 end

@@ -175,7 +175,7 @@ end
 --- Where the object is in the hand's base.
 function Trial:pose() return self.hand.pose:inverse() * self.object.pose end
 
--- how far its centre of mass has gone, and how far it has turned, since it was held
+-- how far its center of mass has gone, and how far it has turned, since it was held
 function Trial:displacement(from)
   local now = self:pose()
   return (now * self.com - from * self.com):norm(), (from:inverse() * now):angle()
@@ -209,7 +209,7 @@ end
 --- As watch, under forces and targets that do not change.
 function Trial:watch_steady(seconds) return self:watch(seconds, nil, nil, true) end
 
---- Pushes the object at its centre of mass until the handle that it returns is removed.
+--- Pushes the object at its center of mass until the handle that it returns is removed.
 ---@param force fun(time: number): vec3  of the time since then [s], [N]
 function Trial:push(force)
   local world, object, began = self.world, self.object, self.world.time

@@ -35,7 +35,7 @@ Isometry3d from_bullet(const btTransform& X) {
   return out;
 }
 
-// Bullet's bodies are centred in their centre of mass, along their principal axes.
+// Bullet's bodies are centered in their center of mass, along their principal axes.
 struct Principal {
   Isometry3d X_LP = Isometry3d::Identity();  // in the body's frame
   Vector3d moments = Vector3d::Zero();

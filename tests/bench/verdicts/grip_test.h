@@ -18,7 +18,7 @@ class Grip {
  public:
   virtual ~Grip() = default;
   virtual double step_length() const = 0;  // [s]
-  /// share  of the grasp's torques that act; force  at the object's centre of mass [N]
+  /// share  of the grasp's torques that act; force  at the object's center of mass [N]
   virtual void step(double share, const Eigen::Vector3d& force) = 0;
   virtual Eigen::Isometry3d pose() const = 0;  // of the object's frame
   virtual int contacts() = 0;                  // points where it touches the hand
@@ -40,7 +40,7 @@ struct GripVerdict {
 };
 
 /// The grasp's torques are added within grip_seconds, and all comes to rest; then, each time from
-/// there, the scene's force pushes the object's centre of mass along an axis of its frame. It is
+/// there, the scene's force pushes the object's center of mass along an axis of its frame. It is
 /// held where it is never farther from its pose at rest than the options allow.
 GripVerdict shake(Grip& grip, const GripScene& scene, const GripOptions& options);
 

@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-/// Corners, the lowest first, and the colour where the triangles differ in it.
+/// Corners, the lowest first, and the color where the triangles differ in it.
 using Row = std::vector<double>;
 
 std::vector<Row> rows_of(const Geometry& geometry) {
@@ -42,7 +42,7 @@ Geometry geometry_of(const CoinTriangles& triangles) {
   builder.keeps_triangles = true;
   for (const auto& t : triangles.list) {
     std::array<Vector3d, 3> points;
-    for (int i = 0; i < 3; ++i) points[i] = t.corners[i].cast<double>() * units::millimetre;
+    for (int i = 0; i < 3; ++i) points[i] = t.corners[i].cast<double>() * units::millimeter;
     builder.add(points, t.color, t.transparency);
   }
   return builder.finish(true, "coin", {});

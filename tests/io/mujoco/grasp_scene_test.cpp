@@ -46,7 +46,7 @@ class SceneLift {
     REQUIRE(out >= 0);
     return out;
   }
-  // centre of mass of the object in the hand's base
+  // center of mass of the object in the hand's base
   Eigen::Vector3d in_hand() const {
     const double* q = data_->xquat + 4 * base_;
     const Eigen::Vector3d p =

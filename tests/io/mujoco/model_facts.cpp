@@ -51,7 +51,7 @@ void compare_bodies(const BodyFacts& ours, const BodyFacts& theirs, double size,
   if (!ours.weighed || !theirs.weighed) return;
   out.check(subject + ": mass", ours.mass, theirs.mass, massless);
   if (theirs.mass < massless) return;
-  out.check(subject + ": centre of mass", ours.com_W, theirs.com_W, size);
+  out.check(subject + ": center of mass", ours.com_W, theirs.com_W, size);
   out.check(subject + ": inertia", ours.inertia_W, theirs.inertia_W, theirs.inertia_W.trace());
 }
 

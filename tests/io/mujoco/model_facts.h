@@ -17,7 +17,7 @@ struct BodyFacts {
   std::string name;
   Pose X_WB;
   double mass = 0;                                      ///< [kg]
-  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();      ///< centre of mass [m]
+  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();      ///< center of mass [m]
   Eigen::Matrix3d inertia_W = Eigen::Matrix3d::Zero();  ///< about com_W [kg m^2]
   std::optional<std::vector<std::string>> merged = {};  ///< names of the bodies it stands for
   bool weighed = true;                                  ///< false: mass and inertia have no use
@@ -45,7 +45,7 @@ struct ModelFacts {
   const JointFacts* joint(const std::string& name) const;
 };
 
-/// Mass, centre of mass and inertia of several bodies together.
+/// Mass, center of mass and inertia of several bodies together.
 BodyFacts merge(const std::vector<BodyFacts>& parts);
 
 /// Sentences about everything in which our facts differ from theirs.

@@ -94,7 +94,7 @@ static int weld_to(lua_State* L) {
 
 static const Entry motion_fields[] = {
     {"velocity", getter<[](const Entity& x) { return x.world->twist(x.id); }>, R"(
-Of its centre of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
+Of its center of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
 told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest.
 @type {linear: vec3, angular: vec3}  [m/s], [rad/s]
 > flask.velocity = {linear = {0, 0, 1}}
@@ -119,7 +119,7 @@ static const Entry motion_methods[] = {
 Pushes it in the next step, and in that one alone; pushes add up. Neither an obstacle nor the base of a robot that does not
 float can be pushed.
 @param force vec3  in world axes [N]
-@param point? vec3  where, in the world; its centre of mass by default [m]
+@param point? vec3  where, in the world; its center of mass by default [m]
 > flask:apply_force({0, 0, 1})
 > flask:apply_force({0, 0, 0 / 0})  --> error: force)"},
     {"apply_torque", guarded<apply_torque>, R"(

@@ -288,7 +288,7 @@ Of all objects and robots: of motion, and of height above the origin of the worl
 @return {kinetic: number, potential: number}  [J]
 > world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
-What presses on each of some bodies, after the last step: the sum of the forces and their centre. Bodies on which nothing
+What presses on each of some bodies, after the last step: the sum of the forces and their center. Bodies on which nothing
 presses are left out.
 @param links body|body[]  link or links whose contacts are averaged
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]

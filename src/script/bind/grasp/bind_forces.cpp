@@ -203,7 +203,7 @@ static int jacobian_rows(lua_State* L) {
 static const Entry forces_methods[] = {
     {"contact_forces", guarded<forces>, R"(
 Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx,
-fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's centre of mass; its
+fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's center of mass; its
 weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li
 2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single
 answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force
@@ -246,7 +246,7 @@ finger moves; "inaccurate".
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
 > grasp:equilibrium{torques = {1}}  --> error: expected 12, one per DOF)"},
     {"grasp_map", guarded<map_rows>, R"(
-From contact forces to the wrench on the object: six rows, in the object's frame about its centre of mass, unscaled.
+From contact forces to the wrench on the object: six rows, in the object's frame about its center of mass, unscaled.
 Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft
 contacts then the torque about the normal.
 @return number[][]

@@ -288,7 +288,7 @@ static const Entry grasp_functions[] = {
 The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
 @param hand robot  hand that holds the object
 @param object body  object that is held
-@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its centre of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
+@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its center of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
 @return grasp
 > clench.grasp(hand, flask):is_force_closure()  --> true
 > clench.grasp(flask, hand)  --> error: expected the hand first, then the object)"},
@@ -409,7 +409,7 @@ Length that torques are divided by.
 @type number  [m]
 > grasp.rho > 0  --> true)"},
     {"com", getter<[](const GraspHandle& x) { return x.grasp.com; }>, R"(
-The object's centre of mass when the grasp was measured, in the object: torques are about it.
+The object's center of mass when the grasp was measured, in the object: torques are about it.
 @type vec3  [m]
 > grasp.com == flask.com  --> true)"},
     {"edges", guarded<get_grasp_edges>, R"(
@@ -461,7 +461,7 @@ Can it resist every wrench?
 @return boolean
 > grasp:is_force_closure()  --> true)"},
     {"wrench_space", guarded<grasp_space>, R"(
-Its wrench space about the object's centre of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
+Its wrench space about the object's center of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
 in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
 @param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
 @return wrench_space

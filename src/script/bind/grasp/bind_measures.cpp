@@ -115,7 +115,7 @@ too many contacts with too many edges.
     {"resistance", guarded<resist>, R"(
 The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to
 at most one newton (norm "L1") or each at most one ("Linf"); of several wrenches the least multiple; of an ellipsoid the
-largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the centre of mass.
+largest that is resisted whole, by the friction cones of the grasp. World axes, torques about the center of mass.
 @param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: string}  one of the first three; {fx, fy, fz, tx, ty, tz} [N, N m]; ellipsoid: its half axes
 @return number
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}

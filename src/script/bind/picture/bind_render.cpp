@@ -86,7 +86,7 @@ static double read_ortho(lua_State* L, Table& options, const Eye& eye) {
   const bool on = lua_toboolean(L, -1);
   if (type != LUA_TNIL && type != LUA_TBOOLEAN &&
       (type != LUA_TNUMBER || !(height > 0 && std::isfinite(height))))
-    fail_expected(options.what("orthographic"), "true, false, or a height > 0 in metres", -1);
+    fail_expected(options.what("orthographic"), "true, false, or a height > 0 in meters", -1);
   lua_pop(L, 1);
   if (type == LUA_TNUMBER) return height;
   if (!on) return 0;

@@ -86,7 +86,7 @@ static void read_ground(lua_State* L, Table& options, SceneOptions& showing) {
   else if (type == LUA_TBOOLEAN)
     showing.ground = lua_toboolean(L, -1);
   else if (type != LUA_TNIL)
-    fail_expected(options.what("ground"), "true, false, or the height of the floor in metres", -1);
+    fail_expected(options.what("ground"), "true, false, or the height of the floor in meters", -1);
   lua_pop(L, 1);
 }
 

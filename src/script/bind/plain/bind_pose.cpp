@@ -34,7 +34,7 @@ static Quaterniond read_quat(Table& t) {
   return Quaterniond(quat.coeffs() / length);
 }
 
-// beyond these, degrees and millimetres are more likely
+// beyond these, degrees and millimeters are more likely
 static constexpr double max_turn = 2 * std::numbers::pi, max_distance = 10;
 
 static void suspect_degrees(lua_State* L, const Table& t, const char* key, double angle) {
@@ -45,12 +45,12 @@ static void suspect_degrees(lua_State* L, const Table& t, const char* key, doubl
                           key, angle, angle, angle * std::numbers::pi / 180));
 }
 
-void suspect_millimetres(lua_State* L, const std::string& subject, double distance) {
+void suspect_millimeters(lua_State* L, const std::string& subject, double distance) {
   static const char told = 0;
   const double far = std::abs(distance);
   if (far > max_distance)
     warn_once(L, &told,
-              fmt::format("{}: it is {:.6g} m away: metres? clench.mm({:.6g}) is {:.4g}", subject,
+              fmt::format("{}: it is {:.6g} m away: meters? clench.mm({:.6g}) is {:.4g}", subject,
                           far, far, far / 1000));
 }
 
@@ -152,7 +152,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   pose.position = t.vec3("xyz", pose.position);
   t.done();
   check_place(pose, t.subject());
-  suspect_millimetres(L, t.subject(), pose.position.cwiseAbs().maxCoeff());
+  suspect_millimeters(L, t.subject(), pose.position.cwiseAbs().maxCoeff());
   return pose;
 }
 

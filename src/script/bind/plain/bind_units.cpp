@@ -12,7 +12,7 @@ namespace clench {
 static int rad(lua_State* L) { return push(L, check_number(L, 1, "degrees") * units::degree); }
 static int deg(lua_State* L) { return push(L, check_number(L, 1, "radians") / units::degree); }
 static int mm(lua_State* L) {
-  return push(L, check_number(L, 1, "millimetres") * units::millimetre);
+  return push(L, check_number(L, 1, "millimeters") * units::millimeter);
 }
 static int version(lua_State* L) { return push(L, CLENCH_VERSION); }
 
@@ -45,8 +45,8 @@ Radians to degrees.
 @return number  [deg]
 > clench.deg(math.pi)  --> 180.0)"},
     {"mm", guarded<mm>, R"(
-Millimetres to metres.
-@param millimetres number [mm]  length
+Millimeters to meters.
+@param millimeters number [mm]  length
 @return number  [m]
 > clench.mm(25)  --> 0.025)"},
     {"clock", guarded<clock_now>, R"(
@@ -66,7 +66,7 @@ Version of the engine, major.minor.patch.
 const Library units_library{.name = "clench",
                             .doc =
                                 "Closes robot hands on objects and judges the grasps. Lengths are "
-                                "metres, angles radians, masses kilograms, forces newtons; poses "
+                                "meters, angles radians, masses kilograms, forces newtons; poses "
                                 "and vectors are in the world frame unless a text says otherwise.",
                             .functions = units_functions,
                             .fields = units_fields};

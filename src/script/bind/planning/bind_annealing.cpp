@@ -22,11 +22,11 @@ AnnealingSchedule read_schedule(lua_State* L, Table& options) {
   if (type != LUA_TTABLE) fail_expected(options.what("schedule"), "a name or a table", at);
   Table of(L, at, options.what("schedule").text());
   AnnealingSchedule s = annealing_schedule(of.string("like", "default"));
-  s.neighbour_decay = of.number("neighbour_decay", s.neighbour_decay);
+  s.neighbor_decay = of.number("neighbor_decay", s.neighbor_decay);
   s.error_decay = of.number("error_decay", s.error_decay);
-  s.neighbour_dimensions = of.number("neighbour_dimensions", s.neighbour_dimensions);
+  s.neighbor_dimensions = of.number("neighbor_dimensions", s.neighbor_dimensions);
   s.error_dimensions = of.number("error_dimensions", s.error_dimensions);
-  s.neighbour_scale = of.number("neighbour_scale", s.neighbour_scale);
+  s.neighbor_scale = of.number("neighbor_scale", s.neighbor_scale);
   s.error_scale = of.number("error_scale", s.error_scale);
   s.t0 = of.number("t0", s.t0);
   s.first_step = of.integer("first_step", s.first_step);
@@ -219,14 +219,14 @@ A chain of simulated annealing, to be run by hand: what `clench.plan` is made of
 @option limits? table  ranges by names of variables, {Tx = {min, max}}
 @option jumps? table  longest jumps by names of variables
 @option values? table  where variables begin, by their names, and stay when they are `fixed`
-@option targets? table  {Tx = {value, confidence}} draw neighbours near them
+@option targets? table  {Tx = {value, confidence}} draw neighbors near them
 @option fixed? string[]  names of variables that do not change
 @option start? "default"|"hand" = "default"  hand: from where the hand is
 @option variables? table  more variables, {name = {min =, max =, value =, jump =, circular =}}
 @option schedule? string|table = "default"  "default", "loop", "modified", "strict" or "online", or {like =, t0 =, first_step =, ...}
 @option seed? integer = 0  seed of the random numbers
 @option collisions? boolean = true  false: states that collide are legal
-@option max_tries? integer [>= 1] = 11  tries to find a legal neighbour
+@option max_tries? integer [>= 1] = 11  tries to find a legal neighbor
 @option best? table  {size = 20, distance = 0.2, posture = true, max_energy =}
 @return annealing
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}, seed = 1}
@@ -239,7 +239,7 @@ Runs several chains at once, each in a world of its own; what they find does not
 @param searches annealing[]  searches to advance
 @param steps integer[]  one per chain
 @param threads? integer  1 by default
-@return integer[] taken  fewer than asked where no legal neighbour was found
+@return integer[] taken  fewer than asked where no legal neighbor was found
 > energy = clench.energy.contact {hand = hand, object = flask}
 > a = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
 > b = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
@@ -275,7 +275,7 @@ Of the state that it began with.
 @type number
 > clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.first_energy  --> 2.0)"},
     {"counts", guarded<get_counts>, R"(
-What became of its steps: `steps`, `accepted`, `improved`; and of neighbours that were none: `in_collision`, `avoided`, `outside`
+What became of its steps: `steps`, `accepted`, `improved`; and of neighbors that were none: `in_collision`, `avoided`, `outside`
 their ranges; `stuck`: how often all tries of a step failed.
 @type table
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
@@ -285,9 +285,9 @@ their ranges; `stuck`: how often all tries of a step failed.
 
 static const Entry annealing_methods[] = {
     {"run", guarded<run_search>, R"(
-Takes steps, each to a legal neighbour that is accepted or not.
+Takes steps, each to a legal neighbor that is accepted or not.
 @param steps integer [>= 0]  steps to take at most
-@return integer taken  fewer where 10,000 tries in a row found no legal neighbour
+@return integer taken  fewer where 10,000 tries in a row found no legal neighbor
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:run(3)  --> 3
 > search:run(-1)  --> error: steps must be >= 0, got -1)"},

@@ -321,7 +321,7 @@ Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_wei
 @option object body  object that is grasped
 @option volume_weight? number [>= 0] = 30  weight of the volume
 @option epsilon_weight? number [>= 0] = 100  weight of epsilon
-@option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its centre of mass
+@option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its center of mass
 @option task_weight? number [>= 0]  weight of the tasks, 1 by default
 @option edges? integer|string  of the friction pyramids, as of clench.grasp
 @return energy
@@ -349,7 +349,7 @@ where it was. 1e8 where the grasp is worth nothing.
 @option object body  object that is grasped
 @option volume_weight? number [>= 0] = 30  weight of the volume
 @option epsilon_weight? number [>= 0] = 100  weight of epsilon
-@option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its centre of mass
+@option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its center of mass
 @option task_weight? number [>= 0]  weight of the tasks, 1 by default
 @option edges? integer|string  of the friction pyramids, as of clench.grasp
 @return energy
@@ -444,7 +444,7 @@ const Library energy_library{
     .doc =
         "What searches make small. Each function makes an energy of a hand and an object: called, "
         "`e()`, it gives its number for how they stand now. Energies are added and weighted, `a + "
-        "0.3 * b`, functions of a script among them. Distances count in millimetres, so that the "
+        "0.3 * b`, functions of a script among them. Distances count in millimeters, so that the "
         "numbers are those of GraspIt!.",
     .functions = energy_functions};
 

@@ -37,7 +37,7 @@ static int push_patch(lua_State* L, const Contact& c, std::shared_ptr<const Soft
 
 static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& patch) {
   if (!patch.at_edge) return;
-  const Eigen::Vector3d p = c.contact.X_WA * patch.centre_A;
+  const Eigen::Vector3d p = c.contact.X_WA * patch.center_A;
   log_warning(L, fmt::format("soft contact of {} on {} at ({:.6g}, {:.6g}, {:.6g}): there is a "
                              "corner or an edge, whose patch is a guess",
                              c.world->body(c.contact.other).name,
@@ -163,7 +163,7 @@ Kinetic Coulomb coefficient of the two materials.
 > world:contacts(hand, flask)[1].kind  --> soft)"},
     {"patch", guarded<get_patch>, R"(
 The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies
-whose neighbourhoods overlap have one patch. A corner or an edge is logged as a warning.
+whose neighborhoods overlap have one patch. A corner or an edge is logged as a warning.
 @type patch?
 > world:contacts(hand, flask)[1].patch  --> nil
 > flask.elastic_modulus = 1.5e6

@@ -229,7 +229,7 @@ The same values by the names of dof_names; a table of its own, set as by set_dof
 > hand.dofs[2]  --> 0.1)",
      guarded<set_dofs>},
     {"dof_limits", getter<dof_limits>, R"(
-Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a metre on
+Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a meter on
 either side of where it is, only says how far it closes, and what searches try.
 @type number[][]  [rad or m]
 > #hand.dof_limits[1]  --> 2)"},

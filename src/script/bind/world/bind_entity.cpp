@@ -62,7 +62,7 @@ static std::array<double, 3> color_of(const Entity& body) {
   return {color.x(), color.y(), color.z()};
 }
 
-// one {red, green, blue} per triangle; nil where the body has one colour
+// one {red, green, blue} per triangle; nil where the body has one color
 static int get_triangle_colors(lua_State* L) {
   const auto body = self_body(L);
   const auto& colors = body->appearance.triangle_colors;
@@ -125,7 +125,7 @@ Its mass.
 > flask.mass  --> 0.5)",
      guarded<set_mass>},
     {"com", getter<[](const Entity& x) { return x->com; }>, R"(
-Centre of mass in the body frame. Setting it takes an inertia that comes from its shape to the new centre; one that was
+Center of mass in the body frame. Setting it takes an inertia that comes from its shape to the new center; one that was
 given stays.
 @type vec3  [m]
 > flask.com = {0, 0, 0.01}
@@ -133,7 +133,7 @@ given stays.
      setter<[](const Entity& x, const Eigen::Vector3d& com) { x.world->set_com(x.id, com); }>},
     {"inertia",
      getter<[](const Entity& x) { return Eigen::Matrix3d(x->mass * x->inertia_per_mass); }>, R"(
-Inertia about the centre of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the
+Inertia about the center of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the
 sum of the others: no body has such an inertia.
 @type number[][]  [kg m^2]
 > flask.mass = 1
@@ -163,8 +163,8 @@ The mesh that pictures and pages draw: that for display where the file gives one
 @type mesh?
 > flask.visual_mesh == flask.mesh  --> true)"},
     {"triangle_colors", guarded<get_triangle_colors>, R"(
-Colours of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil
-where the body has one colour.
+Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil
+where the body has one color.
 @type number[][]?
 > flask.triangle_colors  --> nil)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
@@ -232,7 +232,7 @@ Contacts of other bodies with it now.
 @type contact[]
 > #flask.contacts == #world:contacts(hand, flask)  --> true)"},
     {"color", getter<color_of>, R"(
-Colour in pictures: red, green and blue in 0..1.
+Color in pictures: red, green and blue in 0..1.
 @type number[]
 > flask.color = {1, 0.5, 0}
 > flask.color  --> {1.0, 0.5, 0.0})",

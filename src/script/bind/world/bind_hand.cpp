@@ -408,7 +408,7 @@ Takes one out of its list.
 > #hand.virtual_contacts == count - 1  --> true
 > hand:remove_virtual_contact(1000)  --> error: number: expected one of)"},
     {"find_virtual_contacts", guarded<find_sites>, R"(
-Places on its surface where it moves forward when the hand closes: the centre of what each link sweeps, by area and
+Places on its surface where it moves forward when the hand closes: the center of what each link sweeps, by area and
 speed along its normal, and one on the palm. Sets nothing.
 @param options? table  where they are, and of what is grasped
 @option count_per_link? integer [1 to 100] = 1  number of contacts per link, along its length

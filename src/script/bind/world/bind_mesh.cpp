@@ -109,7 +109,7 @@ Volume that the surface bounds; parts that overlap count twice. Meaningful when 
 @type number  [m^3]
 > math.abs(world:add_object(clench.shapes.box {1, 2, 4}).mesh.volume - 8) < 1e-12  --> true)"},
     {"centroid", getter<[](const ShapePtr& x) { return x->solid().centroid; }>, R"(
-Centre of that volume: the centre of mass of a uniform solid. Meaningful when it is watertight.
+Center of that volume: the center of mass of a uniform solid. Meaningful when it is watertight.
 @type vec3  [m]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.centroid:norm() < 1e-12  --> true)"},
     {"area", getter<[](const ShapePtr& x) { return x->mesh().area(); }>, R"(
@@ -159,7 +159,7 @@ Points of the surface at random, each piece of it as likely as its area, with th
 > points = flask.mesh:sample(clench.random(1), 3)
 > #points, flask.mesh:closest_point(points[1].point).distance < 1e-9  --> 3, true)"},
     {"save", guarded<mesh_save>, R"(
-Writes the triangles, in metres. Numbers keep every digit, in .stl seven.
+Writes the triangles, in meters. Numbers keep every digit, in .stl seven.
 @param path string  .obj .off .ply .stl
 > path = os.tmpname() .. ".obj"
 > flask.mesh:save(path)

@@ -111,8 +111,8 @@ Of the relative radii: unit, orthogonal to each other and to the contact's norma
 @type vec3[]
 > math.abs(patch.directions[1]:dot(patch.directions[2])) < 1e-12  --> true)"},
     {"point",
-     getter<[](const PatchHandle& p) { return Eigen::Vector3d(p.X_WA * p.patch->centre_A); }>, R"(
-The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighbourhoods overlap.
+     getter<[](const PatchHandle& p) { return Eigen::Vector3d(p.X_WA * p.patch->center_A); }>, R"(
+The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighborhoods overlap.
 @type vec3  [m]
 > (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},
     {"points", guarded<get_patch_points>, R"(
@@ -140,7 +140,7 @@ Where the bodies press on each other, after the bed-of-springs model (Winkler fo
 `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric
 mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what certainly
 touches, where the gap is no wider than the indentation of flat surfaces; the indentation is the depth at which the
-springs under the actual gap add up to the force, within the neighbourhood. `exceeds_layer` says that it exceeds the
+springs under the actual gap add up to the force, within the neighborhood. `exceeds_layer` says that it exceeds the
 thickness of the soft layers, where the model no longer holds.
 @param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 @return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean}  [m], [m], [Pa], [m]

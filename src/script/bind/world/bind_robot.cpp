@@ -124,8 +124,8 @@ static int place_approach(lua_State* L) {
   const Eigen::Vector3d target = frame ? frame->position : check_vec3(L, 2, "target");
   const Pose X_WA = frame ? *frame : approach_frame(target, check_vec3(L, 3, "direction"));
   const double standoff = given(L, 4) ? check_number(L, 4, "standoff") : 0;
-  suspect_millimetres(L, subject(L) + ": standoff", standoff);
-  if (!frame) suspect_millimetres(L, subject(L) + ": target", target.cwiseAbs().maxCoeff());
+  suspect_millimeters(L, subject(L) + ": standoff", standoff);
+  if (!frame) suspect_millimeters(L, subject(L) + ": target", target.cwiseAbs().maxCoeff());
   robot.world->set_pose(robot.id,
                         X_WA * Pose::translation({0, 0, -standoff}) * robot->X_BA.inverse());
   return 0;

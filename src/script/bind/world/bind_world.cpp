@@ -228,7 +228,7 @@ The robot of a name.
 > world:robot(hand.name) == hand  --> true
 > world:robot "no such thing"  --> error: no robot)"},
     {"add_object", guarded<add_object>, R"(
-Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in metres. What the options
+Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. What the options
 give overrides the file.
 @param body string|mesh|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
 @param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, free_damping?: number, free_friction?: number, free_armature?: number, gravity_compensation?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged

@@ -2,15 +2,15 @@ local closing = require "clench.plan.closing"
 
 --- A start near another one: turned about where the hand grasped, moved, and its DOFs changed.
 ---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}
----@param centre vec3  where the hand grasped, in the object
+---@param center vec3  where the hand grasped, in the object
 ---@param random random
 ---@param size number  1: by some 6 mm, 9 degrees, and 6 % of the DOFs' ranges
 ---@param hand robot  in the world where it may be placed: DOFs that make it collide are changed less
 ---@param object body
-return function(state, centre, random, size, hand, object)
+return function(state, center, random, size, hand, object)
   local turn = clench.pose {axis = random:direction(), angle = random:normal() * 0.15 * size}
   local move = clench.vec3(random:normal(), random:normal(), random:normal()) * (0.006 * size)
-  local about = clench.pose {xyz = centre}
+  local about = clench.pose {xyz = center}
   local pose = clench.pose {xyz = move} * about * turn * about:inverse() * state.pose
   local limits, changes = hand.dof_limits, {}
   for i in ipairs(state.dofs) do changes[i] = random:normal() * 0.06 * size end
