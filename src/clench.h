@@ -7,7 +7,7 @@
 #include "clench/base/watched.h"
 #include "clench/dynamics/control/closing.h"
 #include "clench/dynamics/control/joint_dynamics.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/dynamics/weld.h"
 #include "clench/geometry/query/penetration.h"

@@ -247,7 +247,7 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
   patch.max_radius = options.max_radius;
   const PatchRings rings = patch_rings(sheets[0], sheets[1], reach, shallowest(patch));
   patch.gap = rings.gap;
-  patch.rooms = {patch_room(sheets[0], true), patch_room(sheets[1], false)};
+  patch.widths = {patch_width(sheets[0], true), patch_width(sheets[1], false)};
   const Matrix2d form = fit_surfaces(sheets, rings, frames, reach, options.fit, patch);
   if (options.radius && std::min(rings.shares[0], rings.shares[1]) < min_share)
     fail(
@@ -274,10 +274,10 @@ SoftPatch soft_patch(const SoftSite& site, const PatchOptions& options) {
 static std::array<double, 2> within_room(const SoftPatch& patch,
                                          const std::array<double, 2>& semi_axes) {
   const Matrix2d axes = directions_in_plane(patch);
-  const auto room_on = [&](const PatchRoom& room) {
+  const auto room_on = [&](const PatchWidth& room) {
     return make_room(room, axes, semi_axes, patch.directed);
   };
-  if (room_on(patch.rooms[0] + patch.rooms[1]) == semi_axes) return semi_axes;
+  if (room_on(patch.widths[0] + patch.widths[1]) == semi_axes) return semi_axes;
   // perhaps no more is known: a bound from the opposite side, as no body is wider than its sphere
   const SoftSite& site = patch.site;
   const PatchFrames frames(site);
@@ -285,13 +285,13 @@ static std::array<double, 2> within_room(const SoftPatch& patch,
   const double bodies = 2.1 * std::min(site.a->radius(), site.b->radius());
   const double radius = std::max(patch.radius, std::min(widest, bodies)) + frames.spread;
   const auto wide_room = [&](int body) {
-    return patch_room(sheet_of(site, frames, body, radius), body == 0);
+    return patch_width(sheet_of(site, frames, body, radius), body == 0);
   };
   // the smaller mesh first: if it is the narrower one, the known widths of the other are sufficient
   const int small = site.a->mesh().triangles.size() <= site.b->mesh().triangles.size() ? 0 : 1;
-  const PatchRoom first = wide_room(small);
+  const PatchWidth first = wide_room(small);
   const auto alone = room_on(first);
-  if (room_on(first + patch.rooms[1 - small]) == alone) return alone;
+  if (room_on(first + patch.widths[1 - small]) == alone) return alone;
   return room_on(first + wide_room(1 - small));
 }
 

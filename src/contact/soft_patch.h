@@ -9,7 +9,7 @@
 #include "clench/contact/contact_set.h"
 #include "clench/contact/patch_fit.h"
 #include "clench/contact/patch_rings.h"
-#include "clench/contact/patch_room.h"
+#include "clench/contact/patch_width.h"
 #include "clench/spec/grasp_spec.h"
 
 namespace clench {
@@ -75,8 +75,8 @@ struct SoftPatch {
   bool directed = true;       ///< false if that is also isotropic: the directions are arbitrary
   double max_radius = 0.02;   ///< as requested [m]
   std::vector<GapPlace> gap;  ///< of the contact region; none: given by the radii
-  std::array<PatchRoom, 2> rooms;  ///< half widths of a and b, as far as they are known
-  SoftSite site;                   ///< the bodies: larger patches query them for wider surfaces
+  std::array<PatchWidth, 2> widths;  ///< half widths of a and b, as far as they are known
+  SoftSite site;                     ///< the bodies: larger patches query them for wider surfaces
   /// 0 to 1: is there a crease that the fit does not follow? 0 if the fit is off by 10 % of the
   /// surface's relief, or creases around a contact are as long as 0.2 of the radius; 1 from 20 %
   /// and 0.6 on, and if there is too little surface to fit.

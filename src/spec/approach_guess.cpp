@@ -11,11 +11,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double spacing = 0.5, extent = 2.5;  // of lines beside each other: of the ball's radius
+// distance of adjacent lines, relative to the ball's radius
+constexpr double spacing = 0.5, extent = 2.5;
 constexpr int leaning_sides = 6;
 constexpr double leaning = 0.4;  // [rad]
-constexpr double beside = 0.5;  // deviation of the bell that weighs lines beside one: of the radius
-constexpr double off_middle = 0.02;  // what a line counts less, a radius off the middle
+// standard deviation of the weights of adjacent lines, relative to the radius
+constexpr double beside = 0.5;
+constexpr double off_middle = 0.02;  // penalty of a line one radius away from the middle
 
 struct Attempt {
   Vector3d center;  // of the ball
@@ -24,7 +26,7 @@ struct Attempt {
   double held;
 };
 
-// X  +z along the direction, its origin the middle
+// X  +z along the direction, its origin at the middle
 std::vector<Attempt> try_all(const BallTrial& trial, const Pose& X) {
   std::vector<Attempt> out;
   const int n = static_cast<int>(extent / spacing);

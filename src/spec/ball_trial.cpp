@@ -13,27 +13,29 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double ball_size = 0.25;                // its radius, of the fingers' length
-constexpr double fineness = 0.3;                  // distance of points on a link, of the radius
+constexpr double ball_size = 0.25;  // its radius, relative to the length of the fingers
+constexpr double fineness = 0.3;    // distance of points on a link, relative to the radius
 constexpr int min_points = 20, max_points = 400;  // on a link
 constexpr int closing_steps = 24;
 constexpr double apart = 0.02,
-                 touching = 0.1;         // gaps of a ball that comes, and of contact: of the radius
+                 // gaps of the approaching ball, and of contacts: relative to the radius
+    touching = 0.1;
 constexpr double friction_angle = 0.38;  // [rad]
-constexpr int directions = 100;          // against which contacts are held
-constexpr double first_closing = 0.05;   // share of the way
-constexpr double common = 0.4;           // mean of unit vectors: longer means they agree
-constexpr double nearly_axis = 0.94;  // cosine of 20 degrees: a direction this near an axis is it
-constexpr double max_work = 1e6;      // points that all steps of a closing look at, by DOF
+constexpr int directions = 100;          // assumed friction of contacts
+constexpr double first_closing = 0.05;   // fraction of the range
+constexpr double common = 0.4;           // length of a mean of unit vectors above which they agree
+// cosine of 20 degrees: a direction this near to an axis is snapped to it
+constexpr double nearly_axis = 0.94;
+constexpr double max_work = 1e6;  // points examined in all steps of closing a DOF
 
-// i of n points of a spiral, each for the same area of the unit sphere
+// i of n points of a spiral, each representing the same area of the unit sphere
 Vector3d on_sphere(int i, int n) {
   const double z = 1 - (2 * i + 1.0) / n, r = std::sqrt(1 - z * z);
   const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-// points spread over a mesh, about so far from each other
+// points spread over a mesh, at approximately this distance from each other
 std::vector<Vector3d> points_on(const Mesh& mesh, double distance, uint64_t seed) {
   std::vector<double> sums = {0};  // of areas
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
@@ -62,7 +64,7 @@ Vector3d snapped(const Vector3d& direction) {
   return std::copysign(1.0, direction[axis]) * Vector3d::Unit(axis);
 }
 
-// does a joint of the finger turn?
+// does any joint of the finger turn?
 bool turns(const RobotSpec& robot, const Finger& finger) {
   return std::ranges::any_of(finger.links, [&](int l) {
     return std::ranges::any_of(robot.links[l].joints, [](const JointSpec& joint) {
@@ -84,7 +86,7 @@ BallTrial::BallTrial(const RobotSpec& robot) : hand_(hand_tree(robot)), open_(ha
   if (!closes()) return;
   open_.poses = link_poses(robot, open_.q);
   const Span fingers = span();
-  // of short fingers, as those of grippers that slide, the gap between them counts
+  // for short fingers, such as those of sliding grippers, the gap between them is used
   radius_ = ball_size * std::max(fingers.mean_length, fingers.min_gap);
   if (!(radius_ > 0) || !std::isfinite(radius_)) return;
   for (int l = -1; l < static_cast<int>(robot.links.size()); ++l) add_part(l);
@@ -169,7 +171,7 @@ std::optional<Vector3d> BallTrial::direction() const {
 }
 
 std::optional<Vector3d> BallTrial::touch(const Vector3d& from, const Vector3d& direction) const {
-  // the point of the hand that the ball meets first
+  // the point of the hand that the ball touches first
   double farthest = -std::numeric_limits<double>::infinity();
   for (int l = -1; l < static_cast<int>(hand_.robot.links.size()); ++l) {
     check_stop();
@@ -196,7 +198,7 @@ bool BallTrial::inside(const Posture& at, const std::vector<int>& links,
   return false;
 }
 
-// DOF by DOF, a step each, until its links would enter the ball
+// DOF by DOF, one step each, until its links would enter the ball
 Posture BallTrial::close_on(const Vector3d& center) const {
   Posture at = open_;
   std::vector<bool> stopped(closing_.size());

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-// radius of gyration of things without extent, squared: a millimeter
+// squared radius of gyration of things without extent: a millimeter
 static constexpr double point_inertia = 1e-6;
 
 void check_body(const BodySpec& spec, std::string_view what) {
@@ -41,10 +41,10 @@ Eigen::Vector3d com_of(const BodySpec& spec) {
                                   : surface_centroid(spec.shape->mesh());
 }
 
-// of the solid that the surface bounds; empty when it bounds none
+// of the solid bounded by the surface; empty if there is none
 static std::optional<Eigen::Matrix3d> solid_inertia(const BodySpec& spec) {
   if (!spec.shape->has_volume()) return {};
-  // parallel axes from the centroid to a center that the file may have put elsewhere
+  // parallel axis theorem, from the centroid to a center of mass that the file may have set
   const MassProperties& solid = spec.shape->solid();
   const Eigen::Vector3d off = com_of(spec) - solid.centroid;
   const Eigen::Matrix3d inertia =

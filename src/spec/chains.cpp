@@ -6,10 +6,10 @@
 
 namespace clench {
 
-// of each link the child that goes on in its chain; -1: none
+// for each link the child that continues its chain; -1: none
 static std::vector<int> ways_on(const RobotSpec& robot) {
   const int count = static_cast<int>(robot.links.size());
-  std::vector<char> moves(count);  // is there a joint in the link or beyond it?
+  std::vector<char> moves(count);  // does the link or its subtree have a joint?
   for (int i = count - 1; i >= 0; --i) {
     moves[i] = moves[i] || !robot.links[i].joints.empty();
     if (const int parent = robot.links[i].parent; moves[i] && parent >= 0) moves[parent] = true;
@@ -81,7 +81,7 @@ std::vector<NumberedJoint> joints_of(const RobotSpec& robot) {
   return out;
 }
 
-// of each DOF the joint with its value, its opposite, or else the first
+// for each DOF the joint that has its value, or its negative, otherwise the first
 static std::vector<const JointSpec*> leading_joints(const std::vector<NumberedJoint>& joints,
                                                     size_t dofs) {
   std::vector<const JointSpec*> out(dofs);

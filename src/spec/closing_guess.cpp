@@ -11,16 +11,19 @@ namespace clench {
 
 namespace {
 
-constexpr int samples = 256;       // of all DOFs, for the center
-constexpr int steps = 32;          // of a DOF from end to end
-constexpr double along = 0.8;      // axes or ways whose cosine exceeds this are the same way
-constexpr double hardly = 0.02;    // of the way of the tips: nearer by less is not nearer
+constexpr int samples = 256;   // samples of all DOFs, for the center
+constexpr int steps = 32;      // steps of a DOF from end to end
+constexpr double along = 0.8;  // axes or directions with a larger cosine count as equal
+// relative to the travel of the tips: smaller approaches do not count
+constexpr double hardly = 0.02;
 constexpr double sideways = 0.15;  // the same for a DOF that swings a finger sideways
-constexpr double rolling = 0.02;   // of the tips' distance to the center: a shorter way is a roll
-constexpr double lopsided = 0.1;   // of the range: a middle farther than this from 0 is no swing
+// relative to the tips' distance from the center: a shorter travel is a roll
+constexpr double rolling = 0.02;
+// relative to the range: if its middle is farther from 0, the DOF does not swing
+constexpr double lopsided = 0.1;
 
-/// The tip of a finger alone, as all its joints are now; the palm stands where it does in
-/// `posture`. Long hands would else take the square of their length.
+/// Position of a finger's tip for the present values of its joints; the palm has its pose in
+/// `posture`. Only the finger is updated, since updating long hands would take quadratic time.
 Eigen::Vector3d tip_at(const HandTree& hand, const Posture& posture, const std::vector<double>& q,
                        const Finger& finger) {
   Pose X = posture.at(hand.palm);
@@ -28,7 +31,7 @@ Eigen::Vector3d tip_at(const HandTree& hand, const Posture& posture, const std::
   return posture.at(hand.palm).inverse() * (X * finger.p_tip);
 }
 
-/// Fingers that a DOF moves; none when it moves the palm, too.
+/// Fingers moved by a DOF; empty if it moves the palm, too.
 std::vector<int> moved_fingers(const HandTree& hand, int dof) {
   const auto moves = [&](int from, int to) {
     const auto joints = joints_below(hand.robot, from, to);
@@ -42,9 +45,9 @@ std::vector<int> moved_fingers(const HandTree& hand, int dof) {
   return out;
 }
 
-/// Where the tips are on average, in the palm's frame.
+/// Mean position of the tips, in the palm's frame.
 Eigen::Vector3d grasp_center(const HandTree& hand) {
-  // a single finger closes on what carries it
+  // a single finger closes on its carrier
   if (hand.fingers.size() == 1) {
     const ShapePtr& palm = drawn(body_of(hand.robot, hand.palm));
     return palm ? palm->center() : Eigen::Vector3d(Eigen::Vector3d::Zero());
@@ -56,7 +59,7 @@ Eigen::Vector3d grasp_center(const HandTree& hand) {
     for (const int dof : hand.dofs) {
       const auto [low, high] = hand.ranges[dof];
       const double value = random.uniform(low, high);
-      // what turns without end, turns nothing in on average
+      // the mean of a DOF that turns without end is arbitrary
       if (!hand.turns_without_end(dof)) q[dof] = value;
     }
     for (const auto& p : tips_at(hand, q)) sum += p;
@@ -65,7 +68,7 @@ Eigen::Vector3d grasp_center(const HandTree& hand) {
   return sum / (samples * static_cast<double>(hand.fingers.size()));
 }
 
-/// Does some joint of the DOF turn its finger the way that the finger's last joint does?
+/// Does any joint of the DOF turn its finger in the same direction as the finger's last joint?
 bool flexes(const HandTree& hand, int dof) {
   for (const Finger& finger : hand.fingers) {
     std::vector<std::pair<const JointSpec*, Eigen::Vector3d>> axes;  // in the base
@@ -86,19 +89,19 @@ bool flexes(const HandTree& hand, int dof) {
   return false;
 }
 
-/// What the tips do while one DOF goes from where it is to an end.
-struct Way {
-  double length = 0;      // that the tips go [m]
-  double nearer = 0;      // most that they come nearer to the center [m]
-  double nearest_at = 0;  // the way that they have gone there [m]
-  double end = 0;         // nearer at the end [m]
-  double far = 0;         // from the center at first [m]
+/// Motion of the tips while one DOF moves from its present value to an end.
+struct TipPath {
+  double length = 0;      // length of the tips' paths [m]
+  double nearer = 0;      // maximum decrease of their distance from the center [m]
+  double nearest_at = 0;  // path length at that point [m]
+  double end = 0;         // decrease at the end [m]
+  double far = 0;         // initial distance from the center [m]
 };
 
-/// `fingers`: those that the DOF moves, whose palm it does not
-Way way_to(const HandTree& hand, const Posture& posture, int dof, const std::vector<int>& fingers,
-           const Eigen::Vector3d& center, double end) {
-  Way way;
+/// `fingers`: those moved by the DOF; it does not move their palm
+TipPath trace_tips(const HandTree& hand, const Posture& posture, int dof,
+                   const std::vector<int>& fingers, const Eigen::Vector3d& center, double end) {
+  TipPath path;
   auto q = posture.q;
   const double start = hand.rest.q[dof];
   std::vector<Eigen::Vector3d> before(fingers.size());
@@ -110,17 +113,17 @@ Way way_to(const HandTree& hand, const Posture& posture, int dof, const std::vec
     for (size_t f = 0; f < fingers.size(); ++f) {
       const Eigen::Vector3d tip = tip_at(hand, posture, q, hand.fingers[fingers[f]]);
       distance += (tip - center).norm();
-      if (s > 0) way.length += (tip - before[f]).norm();
+      if (s > 0) path.length += (tip - before[f]).norm();
       before[f] = tip;
     }
-    if (s == 0) first = way.far = distance;
-    way.end = first - distance;
-    if (way.end > way.nearer) way.nearer = way.end, way.nearest_at = way.length;
+    if (s == 0) first = path.far = distance;
+    path.end = first - distance;
+    if (path.end > path.nearer) path.nearer = path.end, path.nearest_at = path.length;
   }
-  return way;
+  return path;
 }
 
-/// Every DOF at half its way, but those that turn without end.
+/// Every DOF at the middle of its range, except those that turn without end.
 Posture half_way(const HandTree& hand) {
   Posture out{hand.rest.q, {}};
   for (const int dof : hand.dofs) {
@@ -131,8 +134,8 @@ Posture half_way(const HandTree& hand) {
   return out;
 }
 
-/// Which way each tip goes, in the palm's frame, as DOFs go a quarter of the way to an end; zero:
-/// it stays.
+/// Direction in which each tip moves, in the palm's frame, as DOFs move a quarter of the way to an
+/// end; zero: it does not move.
 std::vector<Eigen::Vector3d> ways_of_tips(const HandTree& hand, const std::vector<double>& senses) {
   auto q = hand.rest.q;
   for (const int dof : hand.dofs) {
@@ -147,7 +150,7 @@ std::vector<Eigen::Vector3d> ways_of_tips(const HandTree& hand, const std::vecto
   return out;
 }
 
-/// Does a finger that the DOF leaves where it is close the way that one does that it moves?
+/// Does a finger that the DOF does not move close in the same direction as one that it moves?
 bool beside_another(const HandTree& hand, int dof, const std::vector<Eigen::Vector3d>& ways) {
   const auto moved = moved_fingers(hand, dof);
   for (int f = 0; f < static_cast<int>(hand.fingers.size()); ++f) {
@@ -162,23 +165,23 @@ double sense_of(const HandTree& hand, const Posture& bent, int dof, const Eigen:
   const auto fingers = moved_fingers(hand, dof);
   const auto [low, high] = hand.ranges[dof];
   if (fingers.empty() || hand.turns_without_end(dof)) return 0;
-  Way up = way_to(hand, hand.rest, dof, fingers, center, high),
-      down = way_to(hand, hand.rest, dof, fingers, center, low);
+  TipPath up = trace_tips(hand, hand.rest, dof, fingers, center, high),
+          down = trace_tips(hand, hand.rest, dof, fingers, center, low);
   if (up.length + down.length < rolling * up.far) {
-    // a straight finger about its own axis: where it goes shows when it is bent
-    up = way_to(hand, bent, dof, fingers, center, high);
-    down = way_to(hand, bent, dof, fingers, center, low);
+    // a straight finger about its own axis: its direction shows when it is bent
+    up = trace_tips(hand, bent, dof, fingers, center, high);
+    down = trace_tips(hand, bent, dof, fingers, center, low);
   }
   const double length = up.length + down.length;
   if (!(length > 0)) return 0;
-  const Way& better = up.nearer > down.nearer ? up : down;
+  const TipPath& better = up.nearer > down.nearer ? up : down;
   const double sense = &better == &up ? 1 : -1;
   if (!flexes(hand, dof)) {
     if (std::abs(low + high) < lopsided * (high - low)) return 0;
     return better.nearer > sideways * better.nearest_at ? sense : 0;
   }
   if (better.nearer > hardly * length) return sense;
-  // it stands shut: back to there, from the side where it opens
+  // initially closed: back to that position, from the side where it opens
   const double opens = up.end < down.end ? 1 : -1;
   return std::min(up.end, down.end) < -hardly * length ? -opens : 0;
 }
@@ -192,7 +195,8 @@ std::vector<double> guess_closing(const RobotSpec& robot, const std::vector<bool
   const Eigen::Vector3d center = grasp_center(hand);
   if (!center.allFinite()) return senses;
   const Posture bent = half_way(hand);
-  std::vector<int> swings;  // DOFs that swing fingers sideways: the others tell how these close
+  // DOFs that swing fingers sideways: the others determine how these close
+  std::vector<int> swings;
   for (const int dof : hand.dofs) {
     if (passive[dof]) continue;
     senses[dof] = sense_of(hand, bent, dof, center);

@@ -27,14 +27,14 @@ std::vector<JointAxis> axes_of(const RobotSpec& robot) {
   return out;
 }
 
-// is the link the other one, or beyond it?
+// is the link the other one, or in its subtree?
 bool beyond(const RobotSpec& robot, int link, int other) {
   while (link > other) link = robot.links[link].parent;
   return link == other;
 }
 
-// what each joint of the DOF turns or slides by for one unit of the tendon's pull; empty: its
-// ratios stand
+// rotation or displacement of each joint of the DOF per unit of the tendon's pull; empty: its
+// ratios are kept
 std::vector<double> free_motion(const RobotSpec& robot, int dof) {
   std::vector<JointAxis> own;
   for (const JointAxis& axis : axes_of(robot))

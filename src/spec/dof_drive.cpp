@@ -15,7 +15,7 @@ constexpr double none = DriveTerm::none;
 
 EffortRange spanned(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
-// the range times a factor, without infinity times 0
+// the range times a factor, avoiding infinity times 0
 EffortRange scaled(const EffortRange& range, double factor) {
   if (factor == 0) return {};
   return spanned(range.low * factor, range.high * factor);
@@ -34,7 +34,7 @@ double length_of(const DriveTerm& term, const DofDrive::Dofs& q) {
   return length;
 }
 
-// by any control, at rest at the actuator's length
+// over all controls, at rest at the actuator's length
 EffortRange by_control(const DriveTerm& term, double length) {
   EffortRange force = scaled(range_of(term.control), term.gain[0] + term.gain[1] * length);
   const double own = term.bias[0] + term.bias[1] * length;
@@ -42,12 +42,12 @@ EffortRange by_control(const DriveTerm& term, double length) {
   return force;
 }
 
-// does it only brake, beside a constant force?
+// does it only damp, apart from a constant force?
 bool is_damper(const DriveTerm& term) {
   return term.gain[0] == 0 && term.gain[1] == 0 && term.bias[1] == 0;
 }
 
-// forces of a term at any position and velocity
+// range of a term's force at any position and velocity
 EffortRange limits_of(const DriveTerm& term) {
   return term.is_servo() && !is_damper(term) ? range_of(term.force)
                                              : clamped(by_control(term, 0), term.force);
@@ -73,13 +73,13 @@ EffortRange sum(const DofDrive& drive, bool bounded, Range range) {
 
 // --- from a robot ---
 
-// from the smaller to the larger, whatever the order of a spec; without bounds where there are none
+// sorted bounds, whatever the order in a spec; infinite if absent
 std::array<double, 2> bounds_of(const std::optional<std::array<double, 2>>& range) {
   if (!range) return {-none, none};
   return {std::min((*range)[0], (*range)[1]), std::max((*range)[0], (*range)[1])};
 }
 
-// the bounds of a clamp that a second one follows
+// the bounds of two successive clamps
 std::array<double, 2> then(const std::array<double, 2>& first,
                            const std::array<double, 2>& second) {
   return {std::clamp(first[0], second[0], second[1]), std::clamp(first[1], second[0], second[1])};
@@ -134,11 +134,11 @@ class DriveMaker {
   std::vector<const JointSpec*> joints_;  // of the DOF
   std::map<std::string_view, const JointSpec*> by_name_;
   DofDrive out_;
-  std::vector<const JointSpec*> joint_of_sum_;  // null: the sum of a tendon
+  std::vector<const JointSpec*> joint_of_sum_;  // null: the sum over a tendon
   std::vector<std::string> tendon_of_sum_;
 };
 
-// A joint that follows nothing is no joint of the robot: it moves no DOF.
+// A joint that is not one of the robot's: it moves no DOF.
 std::vector<Pulled> DriveMaker::pulled_by(const ActuatorSpec& actuator) const {
   std::vector<Pulled> out;
   if (!actuator.joint.empty())
@@ -165,7 +165,7 @@ int DriveMaker::joint_sum(const JointSpec& joint) {
   return static_cast<int>(out_.sums.size()) - 1;
 }
 
-// Of actuators with one gear: MuJoCo bounds the sum of forces before the gear.
+// Of actuators with one gear: MuJoCo clamps the sum of forces before the gear.
 int DriveMaker::tendon_sum(const ActuatorSpec& actuator, double reach) {
   for (size_t i = 0; i < out_.sums.size(); ++i)
     if (!joint_of_sum_[i] && tendon_of_sum_[i] == actuator.tendon && out_.sums[i].factor == reach)
@@ -197,7 +197,7 @@ void DriveMaker::add(const ActuatorSpec& actuator) {
   std::erase_if(pulled, [&](const Pulled& p) { return p.joint->dof != dof_; });
   const auto limited = [](const Pulled& p) { return p.joint->effort_range.has_value(); };
   const auto with = [&](const Pulled& p) { return p.reach() * pulled.front().reach() > 0; };
-  // joints that pull against each other count by what is left
+  // joints that pull in opposite directions: the remainder is used
   if (std::ranges::any_of(pulled, limited) && std::ranges::all_of(pulled, with)) {
     if (actuator.tendon_force_range)
       term.force = then(bounds_of(actuator.tendon_force_range), term.force);

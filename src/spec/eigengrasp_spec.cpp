@@ -15,7 +15,7 @@ EigengraspSet identity_eigengrasps(int dofs) {
   return set;
 }
 
-// share of a unit vector that its projection on the others may leave
+// minimum relative length of a unit vector after projecting out the others
 static constexpr double independent = 1e-9;
 
 static void check_numbers(const Eigen::VectorXd& x, int dofs, const std::string& subject) {
@@ -34,7 +34,7 @@ static void check_limits(const std::array<double, 2>& limits, const std::string&
 void check_eigengrasps(const EigengraspSet& set, const std::string& subject,
                        const EigengraspPlaces& places) {
   if (set.grasps.empty()) fail("{}: expected at least one eigengrasp, got none", subject);
-  // each against an orthonormal basis of those before it: at most `dofs` can pass
+  // each against an orthonormal basis of those before it: at most `dofs` can be independent
   Eigen::MatrixXd basis(set.dofs, std::min<int>(set.dofs, static_cast<int>(set.grasps.size())));
   for (size_t i = 0; i < set.grasps.size(); ++i) {
     const EigengraspSpec& grasp = set.grasps[i];

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-// a joint may turn this far and more without end [rad]
+// a joint with at least this range turns without end [rad]
 static constexpr double endless_range = 1.5 * 2 * std::numbers::pi;
 
 static int root_distance(const RobotSpec& robot, int link) {
@@ -25,7 +25,7 @@ static int common_ancestor(const RobotSpec& robot, int a, int b) {
   return a;
 }
 
-// Links between an ancestor, which is not among them, and a link, which is; from the ancestor on.
+// Links between an ancestor (excluded) and a link (included), from the ancestor on.
 static std::vector<int> links_below(const RobotSpec& robot, int ancestor, int link) {
   std::vector<int> out;
   for (; link != ancestor && link >= 0; link = robot.links[link].parent) out.push_back(link);
@@ -47,7 +47,7 @@ const ShapePtr& drawn(const BodySpec& body) {
   return body.shape ? body.shape : body.appearance.visual;
 }
 
-// Links that end the tree: the last ones with geometry, or without when none has any.
+// Leaves of the tree: the last links with geometry, or without if none has any.
 static std::vector<int> ends(const RobotSpec& robot) {
   const bool any_shape =
       drawn(robot.base) || std::any_of(robot.links.begin(), robot.links.end(),
@@ -72,7 +72,7 @@ static void find_fingers(HandTree& hand) {
   const RobotSpec& robot = hand.robot;
   std::vector<int> tips = ends(robot);
   std::erase_if(tips, [&](int tip) { return joints_below(robot, -1, tip).empty(); });
-  // what is fixed on the palm is no finger, and without it the palm may lie farther out
+  // parts fixed to the palm are no fingers, and without them the palm may be farther out
   for (size_t before = tips.size() + 1; tips.size() > 1 && tips.size() < before;) {
     before = tips.size();
     hand.palm = tips.front();

@@ -10,7 +10,8 @@ namespace clench {
 static constexpr double min_moment = 1e-24, max_moment = 1e20;
 // of the largest moment: rounding
 static constexpr double rounding = 1e-12;
-// numbers of three digits are off by half a percent, a moment one way, the sum of others the other
+// numbers of three digits have errors of half a percent, in opposite directions for a moment and
+// for the sum of the others
 static constexpr double triangle_rounding = 1.01;
 
 InertiaFault inertia_fault(const Eigen::Matrix3d& per_mass) {

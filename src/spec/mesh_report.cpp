@@ -15,7 +15,7 @@ std::string unit_name(double length) {
   static constexpr std::pair<double, const char*> names[] = {
       {1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {0.0254, "inch"}, {0.3048, "foot"}};
   for (const auto& [meters, name] : names)
-    // files write the factor in a few decimals, or in 32 bits
+    // files give the factor with a few decimals, or in 32 bits
     if (std::abs(length - meters) <= 1e-6 * meters) return name;
   return fmt::format("{:.6g} m", length);
 }
@@ -46,7 +46,7 @@ static std::string repaired_sentence(const MeshReport& report) {
   return text;
 }
 
-// numbers that are rounding beside `scale` become 0
+// numbers at the level of rounding relative to `scale` become 0
 template <class Numbers>
 static Numbers without_rounding(const Numbers& numbers, double scale) {
   return (numbers.array().abs() < 1e-9 * scale).select(Numbers::Zero(), numbers);

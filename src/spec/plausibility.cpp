@@ -26,7 +26,7 @@ static bool has_no_area(const Mesh& mesh) {
   return true;
 }
 
-/// Where its mass may be: its surface, or that which is shown, and as much again around it.
+/// Region that may contain its mass: its surface, or the visible one, enlarged to twice the size.
 static bool within_reach(const BodySpec& body, const Eigen::Vector3d& p) {
   for (const ShapePtr& shape : {body.shape, body.appearance.visual}) {
     if (!shape) continue;
@@ -53,8 +53,8 @@ static bool inertia_is_larger(const BodySpec& body) {
 }
 
 std::string doubt_mass(double mass, const Shape* shape) {
-  // osmium has 22,600, air 1.2; motors that lie elsewhere, and surfaces that are thinner than the
-  // thing, explain less
+  // osmium has 22,600, air 1.2; motors elsewhere, and surfaces thinner than the body, explain
+  // smaller deviations
   constexpr double heaviest = 250'000, lightest = 1;
   if (!shape || !shape->has_volume()) return {};
   const double density = mass / shape->solid().volume;
@@ -64,7 +64,7 @@ std::string doubt_mass(double mass, const Shape* shape) {
 }
 
 std::string doubt_modulus(double modulus) {
-  constexpr double softest = 1e4;  // rubber has some 1e6
+  constexpr double softest = 1e4;  // rubber has about 1e6
   return modulus >= softest
              ? ""
              : fmt::format("{} Pa is softer than any rubber; is it meant in MPa?", modulus);
@@ -78,9 +78,9 @@ std::string doubt_gravity(const Eigen::Vector3d& gravity) {
              : "";
 }
 
-// of a file that gives a mass
+// for a file that gives a mass
 static std::string doubt_given_mass(const BodySpec& body) {
-  // the smallest mass stands for 0
+  // the smallest mass is used for 0
   return (body.mass_from != Origin::assumed || body.assumptions_told) && body.mass > mass_rule.min
              ? doubt_mass(body.mass, body.shape.get())
              : "";

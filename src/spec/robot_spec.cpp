@@ -25,13 +25,13 @@ std::array<double, 2> dof_range(const RobotSpec& robot, int dof) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   const bool endless = dof_is_endless(robot, dof);
   each_joint(robot, [&](const JointSpec& joint) {
-    // what stops nothing leaves the range to the others
+    // joints without stops do not limit the range
     if (joint.dof != dof || joint.endless != endless) return;
     const double a = joint.min / joint.ratio, b = joint.max / joint.ratio;
     low = std::max(low, std::min(a, b));
     high = std::min(high, std::max(a, b));
   });
-  // a DOF without joints stays where it is
+  // a DOF without joints keeps its value
   if (!std::isfinite(low)) return {0, 0};
   return {low, high};
 }

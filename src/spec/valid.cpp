@@ -10,7 +10,7 @@ namespace clench {
 std::string fault(const Quantity& quantity, double x) {
   if (quantity.allows(x)) return "";
   const std::string unit = *quantity.unit ? fmt::format(" [{}]", quantity.unit) : "";
-  // which of the two it is depends on how it was made
+  // singular or plural as required
   return fmt::format("expected a number from {:g} to {:g}{}, got {}", quantity.min, quantity.max,
                      unit, std::isnan(x) ? std::abs(x) : x);
 }
@@ -29,7 +29,7 @@ void check_each(const Quantity& quantity, std::initializer_list<NamedNumber> num
 }
 
 bool is_place(const Pose& X) {
-  // files hold six digits; what is read is made unit, so this is rounding
+  // files have six digits; values read are normalized, so this is rounding
   return (X.position.array().abs() <= largest_coordinate).all() &&
          std::abs(X.rotation.norm() - 1) <= 1e-6;
 }
@@ -43,7 +43,7 @@ void check_place(const Pose& X, std::string_view subject) {
   fail("{}: expected a unit quaternion, got one of length {}", subject, X.rotation.norm());
 }
 
-/// Bytes of the character at i that a name may have; 0: none that it may.
+/// Bytes of the character at i if a name may contain it; 0: it may not.
 static size_t name_character(std::string_view text, size_t i) {
   const size_t size = utf8_size(text, i);
   return control_size(text, i) ? 0 : size;
@@ -67,7 +67,7 @@ void check_name(std::string_view name, std::string_view subject) {
   if (const auto fault = name_fault(name); !fault.empty()) fail("{}: name: {}", subject, fault);
 }
 
-/// Bytes at i that one '?' stands for: a control character, or a sequence that is not UTF-8.
+/// Bytes at i that are replaced by one '?': a control character, or a sequence that is not UTF-8.
 static size_t bad_length(std::string_view text, size_t i) {
   if (const size_t control = control_size(text, i)) return control;
   constexpr auto is_tail = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };

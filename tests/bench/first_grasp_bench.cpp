@@ -57,7 +57,7 @@ void measure(benchmark::State& state, const Scene& scene) {
   World world = load(scene);
   const auto hand = world.robots()[0];
   autograsp(world, hand);
-  const Grasp grasp = measure_grasp(world, hand, world.bodies()[0]);
+  const Grasp grasp = find_grasp(world, hand, world.bodies()[0]);
   for (auto _ : state) benchmark::DoNotOptimize(wrench_space(grasp));
   state.counters["contacts"] = static_cast<double>(grasp.contacts.size());
   state.counters["epsilon"] = wrench_space(grasp).epsilon();
@@ -70,7 +70,7 @@ void fit_patches(benchmark::State& state, const Scene& scene) {
   autograsp(world, hand);
   world.set_elastic_modulus(world.bodies()[0], 1.5e6);
   std::vector<SoftSitePtr> sites;
-  for (const Contact& contact : measure_grasp(world, hand, world.bodies()[0]).contacts)
+  for (const Contact& contact : find_grasp(world, hand, world.bodies()[0]).contacts)
     if (std::find(sites.begin(), sites.end(), contact.site) == sites.end())
       sites.push_back(contact.site);
   for (auto _ : state)

@@ -86,7 +86,7 @@ std::vector<Named> real_sets(bool brief) {
       autograsp(world, hand);
       const auto object = world.bodies()[0];
       if (soft) world.set_elastic_modulus(object, 1e5);
-      const Grasp grasp = measure_grasp(world, hand, object);
+      const Grasp grasp = find_grasp(world, hand, object);
       Set set;
       for (const PointContact& point : grasp.points)
         set.push_back(cone_wrenches(point, {.rho = grasp.rho, .p_OM = grasp.com}));

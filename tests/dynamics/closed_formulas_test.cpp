@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/model/find.h"
 #include "support/meshes.h"
 #include "support/pendulums.h"

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "clench/base/random.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/dynamics/solve/friction_residual.h"
 #include "clench/dynamics/solve/solve_friction.h"
 #include "clench/dynamics/solve/solve_trees.h"

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "clench/base/error.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "support/pendulums.h"
 
 using namespace clench;

@@ -3,7 +3,7 @@
 
 #include "clench/base/error.h"
 #include "clench/dynamics/control/closing.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/model/find.h"
 #include "support/pendulums.h"
 

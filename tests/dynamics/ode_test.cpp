@@ -2,7 +2,7 @@
 
 #include "clench/base/error.h"
 #include "clench/dynamics/control/closing.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/io/read.h"
 #include "clench/model/build.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "clench/base/random.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/dynamics/weld.h"
 #include "clench/model/jacobian.h"
 #include "support/cases.h"

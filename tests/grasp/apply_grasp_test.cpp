@@ -30,7 +30,7 @@ Closed closed(const char* file) {
   for (const auto body : c.world.bodies())
     if (c.world.body(body).kind == BodyKind::object) c.object = body;
   autograsp(c.world, c.hand);
-  c.grasp = measure_grasp(c.world, c.hand, c.object);
+  c.grasp = find_grasp(c.world, c.hand, c.object);
   return c;
 }
 

@@ -65,7 +65,7 @@ void close(Scene& s) { s.world.set_dofs(s.hand, Eigen::Vector2d::Constant(0.1 - 
 
 TEST_CASE("a hand that touches nothing grasps nothing, and that is no error") {
   Scene s = scene();
-  const Grasp grasp = measure_grasp(s.world, s.hand, s.object);
+  const Grasp grasp = find_grasp(s.world, s.hand, s.object);
   CHECK(grasp.contacts.empty());
   const WrenchSpace space = wrench_space(grasp);
   CHECK(space.rank() == 0);
@@ -75,7 +75,7 @@ TEST_CASE("a hand that touches nothing grasps nothing, and that is no error") {
 TEST_CASE("contacts lie on the object and push into it, in its own frame") {
   Scene s = scene();
   close(s);
-  const Grasp grasp = measure_grasp(s.world, s.hand, s.object);
+  const Grasp grasp = find_grasp(s.world, s.hand, s.object);
   REQUIRE(grasp.contacts.size() == 8);  // four corners a finger
   REQUIRE(grasp.points.size() == 8);
   for (size_t i = 0; i < 8; ++i) {
@@ -94,11 +94,11 @@ TEST_CASE("contacts lie on the object and push into it, in its own frame") {
 TEST_CASE("two faces with friction are a force closure, without it they are not") {
   Scene s = scene();
   close(s);
-  const WrenchSpace held = wrench_space(measure_grasp(s.world, s.hand, s.object));
+  const WrenchSpace held = wrench_space(find_grasp(s.world, s.hand, s.object));
   CHECK(held.is_force_closure());
   CHECK(held.rank() == 6);
   s.world.set_friction("rubber", "wood", {.statics = 0, .kinetic = 0});
-  const WrenchSpace slips = wrench_space(measure_grasp(s.world, s.hand, s.object));
+  const WrenchSpace slips = wrench_space(find_grasp(s.world, s.hand, s.object));
   // along the line of the fingers, and two turns across it
   CHECK(slips.rank() == 3);
   CHECK(slips.epsilon() == 0);
@@ -107,20 +107,20 @@ TEST_CASE("two faces with friction are a force closure, without it they are not"
 TEST_CASE("what another hand or the floor does to the object is not this grasp") {
   Scene s = scene();
   close(s);
-  const double before = wrench_space(measure_grasp(s.world, s.hand, s.object)).epsilon();
+  const double before = wrench_space(find_grasp(s.world, s.hand, s.object)).epsilon();
   s.world.add_body(body("block", test::box(0.1, 0.1, 0.1), "wood"), BodyKind::obstacle,
                    Pose::translation({0, 0, 0.2 + thin}));
-  CHECK(wrench_space(measure_grasp(s.world, s.hand, s.object)).epsilon() == before);
+  CHECK(wrench_space(find_grasp(s.world, s.hand, s.object)).epsilon() == before);
 }
 
 TEST_CASE("quality does not depend on where the grasp stands") {
   Scene s = scene();
   close(s);
-  const WrenchSpace here = wrench_space(measure_grasp(s.world, s.hand, s.object));
+  const WrenchSpace here = wrench_space(find_grasp(s.world, s.hand, s.object));
   const Pose X{Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {0.3, -0.2, 0.5}};
   Scene t = scene(X);
   close(t);
-  const WrenchSpace there = wrench_space(measure_grasp(t.world, t.hand, t.object));
+  const WrenchSpace there = wrench_space(find_grasp(t.world, t.hand, t.object));
   // contact points move by rounding over the gap's slope: 1e-15 / 1e-4 in the normals
   CHECK(std::abs(here.epsilon() - there.epsilon()) < 1e-9);
   CHECK(std::abs(here.volume() - there.volume()) < 1e-9);
@@ -130,7 +130,7 @@ TEST_CASE("a longer torque length makes torques count less") {
   Scene s = scene();
   close(s);
   const auto epsilon = [&](double rho) {
-    return wrench_space(measure_grasp(s.world, s.hand, s.object, {.rho = rho})).epsilon();
+    return wrench_space(find_grasp(s.world, s.hand, s.object, {.rho = rho})).epsilon();
   };
   CHECK(epsilon(0.1) > epsilon(0.2));
   CHECK(epsilon(0.2) > epsilon(0.4));
@@ -139,9 +139,9 @@ TEST_CASE("a longer torque length makes torques count less") {
 TEST_CASE("the torque length is the largest radius, or that of gyration, or what is asked for") {
   Scene s = scene();
   close(s);
-  const Grasp grasp = measure_grasp(s.world, s.hand, s.object);
+  const Grasp grasp = find_grasp(s.world, s.hand, s.object);
   const Grasp by_mass =
-      measure_grasp(s.world, s.hand, s.object, {.length = TorqueLength::gyration_radius});
+      find_grasp(s.world, s.hand, s.object, {.length = TorqueLength::gyration_radius});
   // of a cube of side a: a sqrt(3) / 2, and a / 2, as its inertia is m a^2 / 6 about each axis
   CHECK(grasp.rho == doctest::Approx(0.05 * std::sqrt(3.0)));
   CHECK(by_mass.rho == doctest::Approx(0.05));
@@ -156,7 +156,7 @@ TEST_CASE("the torque length is the largest radius, or that of gyration, or what
 TEST_CASE("a grasp that makes no sense is refused by name") {
   Scene s = scene();
   const auto refuse = [&](Id<Body> object, const GraspOptions& options, const char* message) {
-    CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, object, options), message, Error);
+    CHECK_THROWS_WITH_AS(find_grasp(s.world, s.hand, object, options), message, Error);
   };
   refuse(s.object, {.edges = 2, .rho = {}},
          "grasp of cube by gripper: edges must be 3 to 1000, got 2");
@@ -166,20 +166,20 @@ TEST_CASE("a grasp that makes no sense is refused by name") {
   const Id<Body> palm = s.world.robot(s.hand).base;
   const std::string name = s.world.body(palm).name;
   CHECK_THROWS_WITH_AS(
-      measure_grasp(s.world, s.hand, palm),
+      find_grasp(s.world, s.hand, palm),
       ("grasp of " + name + " by gripper: " + name + " is a part of gripper").c_str(), Error);
   const Id<Body> gone = s.object;
   s.world.remove(gone);
-  CHECK_THROWS_AS(measure_grasp(s.world, s.hand, gone), Error);
+  CHECK_THROWS_AS(find_grasp(s.world, s.hand, gone), Error);
 }
 
 TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   Scene s = scene();
   close(s);
-  for (const PointContact& p : measure_grasp(s.world, s.hand, s.object).points)
+  for (const PointContact& p : find_grasp(s.world, s.hand, s.object).points)
     CHECK(p.torsion_radius == 0);
   s.world.set_elastic_modulus(s.object, 1.5e6);
-  const Grasp soft = measure_grasp(s.world, s.hand, s.object);
+  const Grasp soft = find_grasp(s.world, s.hand, s.object);
   REQUIRE(soft.points.size() == 8);
   CHECK(soft.contacts_at_edges == 0);
   for (size_t i = 0; i < soft.points.size(); ++i) {
@@ -189,14 +189,14 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   }
   // the radius grows with the fourth root of force and compliance
   const auto radius = [&](const GraspOptions& options) {
-    return measure_grasp(s.world, s.hand, s.object, options).points[0].torsion_radius;
+    return find_grasp(s.world, s.hand, s.object, options).points[0].torsion_radius;
   };
   CHECK(radius({.normal_force = 80}) == doctest::Approx(2 * radius({})).epsilon(0.01));
   CHECK(radius({.soft = false}) == 0);
   // each at a force of its own; what carries nothing resists nothing
   std::vector<double> forces(soft.points.size());
   for (size_t i = 0; i < forces.size(); ++i) forces[i] = static_cast<double>(i);
-  const Grasp own = measure_grasp(s.world, s.hand, s.object, {.normal_force = forces});
+  const Grasp own = find_grasp(s.world, s.hand, s.object, {.normal_force = forces});
   for (size_t i = 0; i < forces.size(); ++i)
     CHECK(own.points[i].torsion_radius ==
           torsion_radius(soft_patch(*own.contacts[i].site), forces[i]));
@@ -207,14 +207,13 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   CHECK(radius({}) > radius({.modulus = ModulusRule::larger}));
   s.world.set_friction("rubber", "wood", {.statics = 0, .kinetic = 0});
   CHECK(radius({}) == 0);
-  CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = 0}),
+  CHECK_THROWS_WITH_AS(find_grasp(s.world, s.hand, s.object, {.normal_force = 0}),
                        "grasp of cube by gripper: the normal force must be > 0 [N], got 0", Error);
-  CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = {{5, -1}}}),
+  CHECK_THROWS_WITH_AS(find_grasp(s.world, s.hand, s.object, {.normal_force = {{5, -1}}}),
                        "grasp of cube by gripper: the normal force must be > 0 [N], got -1", Error);
-  const std::string count =
-      std::to_string(measure_grasp(s.world, s.hand, s.object).contacts.size());
+  const std::string count = std::to_string(find_grasp(s.world, s.hand, s.object).contacts.size());
   const std::string expected = "grasp of cube by gripper: normal_force: expected one number or " +
                                count + ", one per contact, got 2";
-  CHECK_THROWS_WITH_AS(measure_grasp(s.world, s.hand, s.object, {.normal_force = {{5, 1}}}),
+  CHECK_THROWS_WITH_AS(find_grasp(s.world, s.hand, s.object, {.normal_force = {{5, 1}}}),
                        expected.c_str(), Error);
 }

@@ -14,7 +14,7 @@ TEST_CASE("an arm brings its hand to where a grasp has it, or all stays") {
   const auto arm = world.robots()[0], hand = world.robots()[1];
   const auto glass = world.find_body("glass");
   autograsp(world, hand);
-  const Grasp grasp = measure_grasp(world, hand, glass);
+  const Grasp grasp = find_grasp(world, hand, glass);
   const auto offset = [&] {
     return world.pose(glass).inverse() * world.pose(world.robot(hand).base);
   };

@@ -141,7 +141,7 @@ TEST_CASE(
     CHECK(scene.world.hash() == before);
     World closed = scene.world;
     autograsp(closed, scene.hand);
-    const Grasp grasp = measure_grasp(closed, scene.hand, scene.object);
+    const Grasp grasp = find_grasp(closed, scene.hand, scene.object);
     const double worth = grasp.contacts.empty()
                              ? 0
                              : 100 * space_of(grasp)->epsilon() + 30 * space_of(grasp)->volume();

@@ -99,29 +99,30 @@ void FrictionNewton::find_slides(const ScaledFriction& problem) {
 double FrictionNewton::leaves(const ScaledFriction::ScaledBlock& block, State state,
                               const double* z, const double* by, double most, State& next) const {
   double alpha = most;
-  const auto meets = [&](double value, double change, State other) {
+  const auto leaves_at = [&](double value, double change, State other) {
     // value + alpha change falls below 0
     if (!(change < 0)) return;
     const double at = std::max(value, 0.0) / -change;
     if (at < alpha) alpha = at, next = other;
   };
   if (!block.is_contact()) {
-    if (state == State::low) meets(block.low - z[0], -by[0], State::free);
-    if (state == State::high) meets(z[0] - block.high, by[0], State::free);
+    if (state == State::low) leaves_at(block.low - z[0], -by[0], State::free);
+    if (state == State::high) leaves_at(z[0] - block.high, by[0], State::free);
     if (state == State::free)
-      meets(z[0] - block.low, by[0], State::low), meets(block.high - z[0], -by[0], State::high);
+      leaves_at(z[0] - block.low, by[0], State::low),
+          leaves_at(block.high - z[0], -by[0], State::high);
     return alpha;
   }
   const bool frictional = block.mu > 0 && block.tangents > 0;
   if (state == State::fixed) {
-    meets(-z[0], -by[0], block.mu > 0 && block.tangents == 0 ? State::sticks : State::slides);
+    leaves_at(-z[0], -by[0], block.mu > 0 && block.tangents == 0 ? State::sticks : State::slides);
     return alpha;
   }
   if (frictional) {
     const double at = meets_cone(block.mu, block.tangents, z, by, state == State::sticks ? 1 : -1);
     if (at < alpha) alpha = at, next = state == State::sticks ? State::slides : State::sticks;
   }
-  meets(z[0], by[0], State::fixed);
+  leaves_at(z[0], by[0], State::fixed);
   return alpha;
 }
 

@@ -21,7 +21,7 @@ class FreeMotion {
 
  private:
   auto velocities() { return problem_.v_free.segment(tree_.first, tree_.size()); }
-  bool whirls();
+  bool is_gyroscopic();
   void add_mean_bias(Eigen::VectorXd& change);
 
   const World& world_;
@@ -35,7 +35,7 @@ class FreeMotion {
 
 // Do joints, or a floating base, turn by more than half a radian in the step? Velocity-dependent
 // forces of such velocities would grow from step to step.
-bool FreeMotion::whirls() {
+bool FreeMotion::is_gyroscopic() {
   constexpr double max_turn = 0.5;  // [rad]
   return !tree_.is_free_body() && velocities().cwiseAbs().maxCoeff() * problem_.h > max_turn;
 }
@@ -47,7 +47,7 @@ bool FreeMotion::whirls() {
 void FreeMotion::add_mean_bias(Eigen::VectorXd& change) {
   auto v = velocities();
   constexpr double slow = 1e-3;  // below it the correction is negligible [m/s, rad/s]
-  if (v.cwiseAbs().maxCoeff() < slow || whirls()) return;
+  if (v.cwiseAbs().maxCoeff() < slow || is_gyroscopic()) return;
   const Eigen::VectorXd before = v;
   v = before - change / 2;
   Eigen::VectorXd more = dynamics_.find_bias(problem_.v_free, root_, world_.gravity());
@@ -70,7 +70,7 @@ void FreeMotion::solve() {
   if (n == 0) return;
   // velocity-dependent forces are omitted there
   const Eigen::VectorXd still =
-      whirls() ? Eigen::VectorXd::Zero(problem_.v_free.size()) : Eigen::VectorXd();
+      is_gyroscopic() ? Eigen::VectorXd::Zero(problem_.v_free.size()) : Eigen::VectorXd();
   Eigen::VectorXd efforts =
       -dynamics_.find_bias(still.size() > 0 ? still : problem_.v_free, root_, world_.gravity());
   problem_.root_accelerations[number_] = dynamics_.root_acceleration();

@@ -27,8 +27,8 @@ struct StepBlock {
   int touch = -1, coordinate_row = -1;  ///< its index there; the other is -1
   std::array<int, 2> tree = {-1, -1};   ///< trees that it acts on; -1: none
   std::array<int, 2> column = {0, 0};   ///< its first column in each tree
-  bool meets = false;  ///< do the bodies approach each other at the start of the step?
-  double time = 0;     ///< duration over which its impulse acts as a force [s]
+  bool approaches = false;  ///< do the bodies approach each other at the start of the step?
+  double time = 0;          ///< duration over which its impulse acts as a force [s]
 };
 
 /// Effect of the rows of a step on one tree.

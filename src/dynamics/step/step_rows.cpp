@@ -224,7 +224,7 @@ void RowBuilder::add_contact(int manifold, int point) {
     const double gain = std::max((before[0] - q_normal) / h, 0.0) * step;
     target = std::max(target, -restitution * q_normal - (1 + restitution) / 2 * gain);
   }
-  block.meets = before[0] < -meeting_speed;
+  block.approaches = before[0] < -meeting_speed;
   q_normal -= target;
   const Eigen::Vector3d force = X_WA.rotation * p.force;
   for (int k = 0; k < size; ++k)
@@ -311,7 +311,7 @@ void find_times(const World& world, StepProblem& problem) {
   for (StepBlock& block : problem.blocks) block.time = h;
   if (h == whole) return;
   for (const Island& island : problem.islands) {
-    if (std::ranges::none_of(island.blocks, [&](int i) { return problem.blocks[i].meets; }))
+    if (std::ranges::none_of(island.blocks, [&](int i) { return problem.blocks[i].approaches; }))
       continue;
     for (const int i : island.blocks) problem.blocks[i].time = whole;
     for (const int t : island.trees) problem.tree_times[t] = whole;

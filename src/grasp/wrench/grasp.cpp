@@ -78,8 +78,7 @@ void check_unmoved(const World& world, const Grasp& grasp) {
                   : "hand and object have moved apart");
 }
 
-Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
-                    const GraspOptions& options) {
+Grasp find_grasp(const World& world, Id<Robot> hand, Id<Body> object, const GraspOptions& options) {
   const Body& held = world.body(object);
   const std::string& hand_name = world.robot(hand).name;
   const auto refuse = [&](const std::string& why) {

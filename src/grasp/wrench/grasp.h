@@ -19,8 +19,8 @@ struct Grasp : GraspSpec {
 /// grasp resists nothing.
 /// throws Error if edges are neither 3 to max_edges nor round_edges, rho <= 0, normal forces are
 /// not > 0 or their number differs from that of the contacts, or the object is a part of a robot
-Grasp measure_grasp(const World& world, Id<Robot> hand, Id<Body> object,
-                    const GraspOptions& options = {});
+Grasp find_grasp(const World& world, Id<Robot> hand, Id<Body> object,
+                 const GraspOptions& options = {});
 
 /// Is the hand's pose relative to the object that of the grasp, to 1e-6 m and rad?
 bool stands_as_grasped(const World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object);

@@ -31,7 +31,7 @@ class ContactPlanner {
  private:
   void read_rules();
   void exclude_pairs();
-  bool meets(int a, int b) const;
+  bool collides(int a, int b) const;
   bool is_object(int body) const {
     const int number = scene_.bodies[static_cast<size_t>(body)].body;
     return number >= 0 && request_.world.bodies[static_cast<size_t>(number)].role == Role::object;
@@ -74,7 +74,7 @@ void ContactPlanner::read_rules() {
                                       rules->pairs_on.size()));
 }
 
-bool ContactPlanner::meets(int a, int b) const {
+bool ContactPlanner::collides(int a, int b) const {
   const auto& one = out_.bits[static_cast<size_t>(a)];
   const auto& other = out_.bits[static_cast<size_t>(b)];
   return ((one[0] & other[1]) || (other[0] & one[1])) && !off_.contains(ordered(a, b)) &&
@@ -89,7 +89,7 @@ void ContactPlanner::exclude_pairs() {
   const int count = static_cast<int>(scene_.bodies.size());
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b)
-      if (meets(a, b)) meeting_.push_back({a, b});
+      if (collides(a, b)) meeting_.push_back({a, b});
 }
 
 /// Tries the smallest coefficients; `all`: of all pairs, else of those with objects.

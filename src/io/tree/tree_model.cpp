@@ -34,7 +34,7 @@ void resolve_leaders(TreeModel& tree) {
 }
 
 /// Numbers of a link's forebears from the root on, and its own.
-static std::vector<int> way_to(const TreeModel& tree, int link) {
+static std::vector<int> path_to(const TreeModel& tree, int link) {
   std::vector<int> way;
   for (; link >= 0; link = tree.links[link].parent) way.push_back(link);
   return {way.rbegin(), way.rend()};
@@ -43,7 +43,7 @@ static std::vector<int> way_to(const TreeModel& tree, int link) {
 /// The order of links, depth first, with the branch that leads to `first` before that to `second`.
 /// Empty when one lies behind the other.
 static std::vector<int> swapped(const TreeModel& tree, int first, int second) {
-  const auto a = way_to(tree, first), b = way_to(tree, second);
+  const auto a = path_to(tree, first), b = path_to(tree, second);
   const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   if (in_a == a.end() || in_b == b.end()) return {};
   std::vector<std::vector<int>> below(tree.links.size());

@@ -71,7 +71,7 @@ ClosingEnergy::ClosingEnergy(const HandAndObject& who, const Options& options)
 }
 
 double ClosingEnergy::worth(const World& world) const {
-  const Grasp grasp = measure_grasp(world, who_.hand, who_.object, options_.grasp);
+  const Grasp grasp = find_grasp(world, who_.hand, who_.object, options_.grasp);
   if (grasp.contacts.empty()) return 0;
   const WrenchSpacePtr& space = space_of(grasp);
   double out = 0;
@@ -123,7 +123,7 @@ double GuidedClosingEnergy::bounded_value(World& world, double) {
   if (near < 2) return out;
   const PutBack back(world);
   autograsp(world, sites.who().hand);
-  const Grasp grasp = measure_grasp(world, sites.who().hand, sites.who().object);
+  const Grasp grasp = find_grasp(world, sites.who().hand, sites.who().object);
   if (static_cast<int>(grasp.contacts.size()) < options_.min_contacts) return out;
   return out - options_.volume_weight * space_of(grasp)->volume();
 }
@@ -134,7 +134,7 @@ double CompliantEnergy::bounded_value(World& world, double) {
   const PutBack back(world);
   if (!find_first_contact(world, who_.hand, options_.approach)) return 1;
   autograsp(world, who_.hand);
-  const Grasp grasp = measure_grasp(world, who_.hand, who_.object);
+  const Grasp grasp = find_grasp(world, who_.hand, who_.object);
   if (grasp.contacts.size() < 2) return 1;
   if (space_of(grasp)->epsilon() < options_.min_epsilon) return 1;
   const Equilibrium balance = equilibrium(world, grasp, {});

@@ -1,6 +1,6 @@
 #include "clench/base/text.h"
 #include "clench/dynamics/contact/overlap.h"
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 #include "clench/dynamics/stepper.h"
 #include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/control.h"

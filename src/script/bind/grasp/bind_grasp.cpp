@@ -42,7 +42,7 @@ static int measure(lua_State* L) {
     grasp.normal_force = forces;
   grasp.modulus = read_modulus_rule(options);
   options.done();
-  Grasp measured = measure_grasp(*hand.world, hand.id, object.id, grasp);
+  Grasp measured = find_grasp(*hand.world, hand.id, object.id, grasp);
   // once, as planners measure thousands
   static const char at_edges = 0;
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
@@ -211,7 +211,7 @@ static int apply(lua_State* L) {
   const GraspDofOptions dofs = dof_options(L, order.order);
   const auto before = pregrasp_of(*world, hand, named, dofs.order);
   apply_by_arm(*world, named, hand, object, dofs);
-  Grasp measured = measure_grasp(*world, hand, object, g.grasp.options);
+  Grasp measured = find_grasp(*world, hand, object, g.grasp.options);
   measured.info = g.grasp.info;
   measured.labels = g.grasp.labels;
   measured.pregrasp = before;

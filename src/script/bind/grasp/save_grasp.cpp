@@ -168,7 +168,7 @@ int save_grasp(lua_State* L) {
   // the posture of the grasp, whatever moved since
   if (!stands_as_grasped(world, handle.grasp, handle.grasp.hand, handle.grasp.object))
     apply_grasp(world, handle.grasp, handle.grasp.hand, handle.grasp.object);
-  Grasp grasp = measure_grasp(world, handle.grasp.hand, handle.grasp.object, handle.grasp.options);
+  Grasp grasp = find_grasp(world, handle.grasp.hand, handle.grasp.object, handle.grasp.options);
   grasp.pregrasp = handle.grasp.pregrasp;
   grasp.squeeze = handle.grasp.squeeze;
   const WorldSpec spec = scene_spec(world);

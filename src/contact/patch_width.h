@@ -6,23 +6,23 @@ namespace clench {
 
 /// Half widths of surfaces along unit directions of the tangent plane, in b's view: across the
 /// sides of the convex hulls, which bound the width in every other direction.
-struct PatchRoom {
+struct PatchWidth {
   std::vector<Eigen::Vector2d> directions;
   std::vector<double> half_widths;  ///< [m]
 };
 
 /// Half widths of one surface, sampled by patch_rings.
 /// is_a  the surface is that of a, for which the tangent plane is mirrored
-PatchRoom patch_room(const PatchSheet& sheet, bool is_a);
+PatchWidth patch_width(const PatchSheet& sheet, bool is_a);
 /// Half widths of both surfaces.
-PatchRoom operator+(PatchRoom one, const PatchRoom& other);
+PatchWidth operator+(PatchWidth one, const PatchWidth& other);
 
 /// The ellipse may lie anywhere on the surfaces, so it is in no direction wider than they are: it
 /// shrinks uniformly until it fits, and then grows again along either axis as far as it fits.
 ///
 /// axes   unit, columns
 /// grows  false if the axes are arbitrary, as of a circle
-std::array<double, 2> make_room(const PatchRoom& room, const Eigen::Matrix2d& axes,
+std::array<double, 2> make_room(const PatchWidth& room, const Eigen::Matrix2d& axes,
                                 const std::array<double, 2>& semi_axes, bool grows);
 
 }  // namespace clench

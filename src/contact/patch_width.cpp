@@ -1,4 +1,4 @@
-#include "clench/contact/patch_room.h"
+#include "clench/contact/patch_width.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ using Eigen::Vector2d;
 // fraction of a width: an angle to an axis that is so small counts as zero
 static constexpr double across_slack = 1e-6;
 
-PatchRoom patch_room(const PatchSheet& sheet, bool is_a) {
-  PatchRoom out;
+PatchWidth patch_width(const PatchSheet& sheet, bool is_a) {
+  PatchWidth out;
   const double mirror = is_a ? -1 : 1;
   std::vector<Vector2d> points;
   for (const int t : sheet.triangles())
@@ -32,13 +32,13 @@ PatchRoom patch_room(const PatchSheet& sheet, bool is_a) {
   return out;
 }
 
-PatchRoom operator+(PatchRoom one, const PatchRoom& other) {
+PatchWidth operator+(PatchWidth one, const PatchWidth& other) {
   one.directions.insert(one.directions.end(), other.directions.begin(), other.directions.end());
   one.half_widths.insert(one.half_widths.end(), other.half_widths.begin(), other.half_widths.end());
   return one;
 }
 
-std::array<double, 2> make_room(const PatchRoom& room, const Eigen::Matrix2d& axes,
+std::array<double, 2> make_room(const PatchWidth& room, const Eigen::Matrix2d& axes,
                                 const std::array<double, 2>& semi_axes, bool grows) {
   double part = 1;
   for (size_t i = 0; i < room.directions.size(); ++i) {

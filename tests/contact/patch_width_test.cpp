@@ -1,4 +1,4 @@
-#include "clench/contact/patch_room.h"
+#include "clench/contact/patch_width.h"
 
 #include <numbers>
 
@@ -10,8 +10,8 @@ using Eigen::Vector2d;
 namespace {
 
 // the sides of a regular polygon or a rectangle, turned
-PatchRoom room_of(const std::vector<double>& half_widths, double step, double turn) {
-  PatchRoom out;
+PatchWidth room_of(const std::vector<double>& half_widths, double step, double turn) {
+  PatchWidth out;
   for (size_t i = 0; i < half_widths.size(); ++i) {
     const double angle = turn + step * static_cast<double>(i);
     out.directions.emplace_back(std::cos(angle), std::sin(angle));
@@ -33,7 +33,7 @@ TEST_CASE("an ellipse with room for it stays as it is, to the bit") {
 
 TEST_CASE("a rectangle bounds each semi-axis by itself") {
   for (const double turn : {0.0, 0.4, 2.0}) {
-    const PatchRoom room = room_of({2, 3}, std::numbers::pi / 2, turn);
+    const PatchWidth room = room_of({2, 3}, std::numbers::pi / 2, turn);
     const auto both = make_room(room, turned_axes(turn), {4, 4}, true);
     CHECK(both[0] == doctest::Approx(2).epsilon(1e-5));
     CHECK(both[1] == doctest::Approx(3).epsilon(1e-5));
@@ -50,7 +50,7 @@ TEST_CASE("a rectangle bounds each semi-axis by itself") {
 TEST_CASE("in a regular polygon a circle is one, whichever way its axes lie") {
   for (const int sides : {2, 3, 4, 6})
     for (const double turn : {0.0, 0.2, 0.5, 1.0}) {
-      const PatchRoom room = room_of(std::vector<double>(sides, 1.0), std::numbers::pi / sides, 0);
+      const PatchWidth room = room_of(std::vector<double>(sides, 1.0), std::numbers::pi / sides, 0);
       const auto circle = make_room(room, turned_axes(turn), {1.5, 1.5}, true);
       for (const double a : circle) CHECK(a == doctest::Approx(1).epsilon(1e-4));
     }

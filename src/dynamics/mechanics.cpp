@@ -1,4 +1,4 @@
-#include "clench/dynamics/measure.h"
+#include "clench/dynamics/mechanics.h"
 
 #include <algorithm>
 
