@@ -92,6 +92,8 @@ struct Said {
   RenderVerbOptions render;
   std::string interactive, test_path, doc_folder, confine;
   bool check_docs = false;
+  std::string described;
+  bool describe_json = false;
 };
 
 static void add_script_verbs(CLI::App& app, Said& said) {
@@ -116,6 +118,12 @@ static void add_script_verbs(CLI::App& app, Said& said) {
   doc->add_flag("--check", said.check_docs,
                 "write nothing; fail when a page is not what it should be");
   doc->footer("Examples:\n  clench doc\n  clench doc --check");
+  auto* describe = app.add_subcommand("describe", "print what a function or field is and takes");
+  describe->add_option("NAME", said.described, "an entry of the Lua API; default: all")
+      ->check(named);
+  describe->add_flag("--json", said.describe_json, "as JSON");
+  describe->footer(
+      "Examples:\n  clench describe clench.plan.sample\n  clench describe --json hand:autograsp");
 }
 
 static void add_check(CLI::App& app, CheckOptions& check) {
@@ -199,7 +207,8 @@ static void add_all(CLI::App& app, Said& said) {
   add_plan(app, said.plan);
   add_render(app, said.render);
   for (CLI::App* verb : app.get_subcommands({})) {
-    if (verb->get_name() != "doc") add_confine(*verb, said.confine);
+    if (verb->get_name() != "doc" && verb->get_name() != "describe")
+      add_confine(*verb, said.confine);
     verb->fallthrough();
   }
 }
@@ -248,6 +257,7 @@ static int run_verb(const CLI::App& app, Said& said) {
   if (app.got_subcommand("convert")) return convert_file(said.convert);
   if (app.got_subcommand("plan")) return plan_grasps(said.plan);
   if (app.got_subcommand("render")) return render_file(said.render);
+  if (app.got_subcommand("describe")) return describe_entry(said.described, said.describe_json);
   if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);
   return run_scripts_of(app, said);
 }
