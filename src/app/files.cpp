@@ -43,6 +43,10 @@ static int run_host(const std::string& verb, const std::vector<std::string>& arg
   return 1;
 }
 
+int describe_entry(const std::string& name, bool json) {
+  return run_host("describe", {json ? "json" : "text", name}, {});
+}
+
 int check_files(const CheckOptions& options) {
   std::vector<std::string> arguments = options.files;
   arguments.insert(arguments.begin(), options.json ? "json" : "text");

@@ -94,6 +94,8 @@ struct Said {
   ViewOptions view;
   std::string interactive, test_path, doc_folder, confine;
   bool check_docs = false;
+  std::string described;
+  bool describe_json = false;
 };
 
 static void add_script_verbs(CLI::App& app, Said& said) {
@@ -118,6 +120,12 @@ static void add_script_verbs(CLI::App& app, Said& said) {
   doc->add_flag("--check", said.check_docs,
                 "write nothing; fail when a page is not what it should be");
   doc->footer("Examples:\n  clench doc\n  clench doc --check");
+  auto* describe = app.add_subcommand("describe", "print what a function or field is and takes");
+  describe->add_option("NAME", said.described, "an entry of the Lua API; default: all")
+      ->check(named);
+  describe->add_flag("--json", said.describe_json, "as JSON");
+  describe->footer(
+      "Examples:\n  clench describe clench.plan.sample\n  clench describe --json hand:autograsp");
 }
 
 static void add_check(CLI::App& app, CheckOptions& check) {
@@ -225,7 +233,8 @@ static void add_all(CLI::App& app, Said& said) {
   add_serve(app, said.serve);
   add_view(app, said.view);
   for (CLI::App* verb : app.get_subcommands({})) {
-    if (verb->get_name() != "doc") add_confine(*verb, said.confine);
+    if (verb->get_name() != "doc" && verb->get_name() != "describe")
+      add_confine(*verb, said.confine);
     verb->fallthrough();
   }
 }
@@ -277,6 +286,7 @@ static int run_verb(const CLI::App& app, Said& said) {
   if (app.got_subcommand("render")) return render_file(said.render);
   if (app.got_subcommand("serve")) return serve_world(said.serve);
   if (app.got_subcommand("view")) return view_world(said.view);
+  if (app.got_subcommand("describe")) return describe_entry(said.described, said.describe_json);
   if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);
   return run_scripts_of(app, said);
 }

@@ -22,6 +22,9 @@ int run_tests(const std::string& path, const std::string& confine, bool quiet);
 /// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
 int write_docs(const std::string& given, bool check);
 
+/// Prints the description of an entry of the API, or of all where the name is empty.
+int describe_entry(const std::string& name, bool json);
+
 /// What is said of the files that are read; empty: nothing.
 struct ReadingOptions {
   std::string root;     ///< where names in them count from

@@ -192,6 +192,19 @@ TEST_CASE("a file of tests that would end the run, or holds none, has failed") {
   CHECK(has(result.out, "2 passed, 3 failed"));
 }
 
+TEST_CASE("describe prints an entry with ranges and defaults, as text and as JSON") {
+  const auto text = run("describe hand:autograsp");
+  CHECK(text.code == 0);
+  CHECK(has(text.out, "speed?: number = 1  of all closing speeds"));
+  const auto json = run("describe --json clench.plan.sample");
+  CHECK(json.code == 0);
+  CHECK(has(json.out, R"("default":100,"max":1000000,"min":1,"name":"count")"));
+  CHECK(has(run("describe").out, "clench.rad "));
+  const auto unknown = run("describe clench.rda");
+  CHECK(unknown.code == 1);
+  CHECK(has(unknown.out, "there is no entry 'clench.rda'; did you mean 'clench.rad'?"));
+}
+
 TEST_CASE("doc writes pages, and --check finds one that is not what the bindings say") {
   const Folder folder;
   const std::string pages = folder / "api";

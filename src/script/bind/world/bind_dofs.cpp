@@ -295,7 +295,7 @@ fingers go on beyond the joint that is stopped. The joints of compliant DOFs fol
 and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
 opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
 @param options? table  how it closes
-@option speed? number [> 0] = 1  of all closing speeds, 1: those of the hand
+@option speed? number = 1  of all closing speeds, 1: those of the hand; negative: opens
 @option stop_at_contact? boolean = false  true: end at the first new contact of any link
 @option dofs? (integer|string)[]  only these, by number or name
 @option stages? (integer|string)[][]  lists of DOFs that close one after the other
