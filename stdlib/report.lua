@@ -1,7 +1,7 @@
 --- What a file holds, as tables: what `clench check` prints, or writes as JSON.
 local blamed = require "clench.blamed"
 local drives = require "clench.drives"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local reading = require "clench.host.reading"
 local report = {}

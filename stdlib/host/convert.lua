@@ -1,5 +1,5 @@
 --- `clench convert`: what a file holds, written as another format.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
 local reading = require "clench.host.reading"

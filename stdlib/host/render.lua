@@ -1,6 +1,6 @@
 --- `clench render`: a file, or grasps of a list, as a picture.
 local assumptions = require "clench.plan.assumptions"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local fail = require "clench.host.usage"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"

@@ -1,7 +1,9 @@
-#include "clench/script/bind/bind.h"
 #include "script_state.h"
 
-using namespace clench;
+using #include "clench/script/bind/log.h"
+#include "clench/script/bind/picture/pictures.h"
+
+namespace clench;
 
 TEST_CASE("a font that is missing is told once a state, by its name") {
   const Font missing("no/such/folder/font.ttf"), font;

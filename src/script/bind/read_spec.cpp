@@ -5,10 +5,14 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/read_mesh_table.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/lua/check.h"
 #include "clench/script/lua/home.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/setting.h"
+#include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {

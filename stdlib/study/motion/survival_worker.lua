@@ -1,9 +1,9 @@
 --- What a thread does with a grasp: its measures, and whether it survives being shaken. For clench.parallel.map.
-local verification = require "clench.plan.verification"
+local held_load = require "clench.study.motion.held_load"
 
 local own = {
   contacts = function(grasp) return #grasp.points end,
-  load_margin = function(grasp, object) return verification.load(object, grasp, verification.defaults.force_ratio) end,
+  load_margin = function(grasp, object) return held_load.of(object, grasp, held_load.force_ratio) end,
 }
 
 ---@param grasp grasp

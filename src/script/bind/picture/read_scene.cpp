@@ -6,7 +6,9 @@
 #include "clench/base/error.h"
 #include "clench/scene/film_scene.h"
 #include "clench/scene/force_arrows.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 

@@ -1,10 +1,12 @@
-#include "clench/script/bind/bind.h"
-
 #include <cstring>
 
 #include "clench/base/hash.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/picture/pictures.h"
 #include "clench/script/bind/picture/read_scene.h"
 #include "clench/script/bind/view/ui.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"

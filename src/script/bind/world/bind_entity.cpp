@@ -1,7 +1,13 @@
 #include <array>
 
 #include "clench/model/fingerprint.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -144,7 +150,7 @@ sum of the others: no body has such an inertia.
        x.world->set_inertia(x.id, inertia);
      }>},
     {"fingerprint",
-     getter<[](const Entity& x) { return fmt::format("{:016x}", fingerprint(*x.world, x.id)); }>,
+     getter<[](const Entity& x) { return fingerprint_text(fingerprint(*x.world, x.id)); }>,
      R"(
 Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses.
 @type string  16 hexadecimal digits
