@@ -273,7 +273,7 @@ Moves the whole robot until it first touches something, as a body's move_to.
     {"approach_object", guarded<approach_object>, R"(
 Moves the hand along its approach direction until it touches something.
 @param options? table  how far
-@option reach? number [m, > 0] = 1  longest travel
+@option reach? number [m, >= 0] = 1  longest travel
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"place_approach", guarded<place_approach>, R"(
