@@ -3,6 +3,7 @@ local base64 = require "clench.base64"
 local meshes = {}
 
 local large = 200000  -- triangles of a mesh that a page is slow with
+local max_image_bytes = 16 << 20  -- of all images of a page; beyond it triangles have colors instead
 
 --- numbers in packs of some hundred: string.pack takes no more at once
 function meshes.packed(format, count, number)
@@ -25,7 +26,31 @@ local function packed_colors(body)
   return base64(meshes.packed("B", 3 * #colors, byte))
 end
 
-local function packed_mesh(body)
+-- images, their numbers in the page's list, and where triangles lie in them; nil where the page has no place for them
+local function packed_textures(self, body)
+  local textures = body.textures
+  if not textures then return nil end
+  local bytes = 0
+  for _, image in ipairs(textures.images) do
+    if not self.number_of_image[image.jpeg] then bytes = bytes + #image.jpeg end
+  end
+  if self.image_bytes + bytes > max_image_bytes then
+    self.notes[#self.notes + 1] = ("the textures of %s are left out: images of a page have at most %d MB"):format(body.name, max_image_bytes >> 20)
+    return nil
+  end
+  self.image_bytes = self.image_bytes + bytes
+  local list = {}
+  for i, image in ipairs(textures.images) do
+    if not self.number_of_image[image.jpeg] then
+      self.images[#self.images + 1] = "data:image/jpeg;base64," .. base64(image.jpeg)
+      self.number_of_image[image.jpeg] = #self.images
+    end
+    list[i] = {image = self.number_of_image[image.jpeg] - 1, tint = image.tint, wrap = {image.wrap_u, image.wrap_v}}
+  end
+  return {list = list, numbers = base64(textures.numbers), places = base64(textures.places)}
+end
+
+local function packed_mesh(self, body)
   local mesh = body.visual_mesh
   local flat = {}
   for _, v in ipairs(mesh.vertices) do
@@ -38,7 +63,7 @@ local function packed_mesh(body)
   local wide = #flat // 3 > 65536
   return {positions = base64(meshes.packed("f", #flat, function(i) return flat[i] end)),
           indices = base64(meshes.packed(wide and "I4" or "I2", #indices, function(i) return indices[i] end)), wide = wide,
-          colors = packed_colors(body)}
+          colors = packed_colors(body), textures = packed_textures(self, body)}
 end
 
 --- to a micrometer
@@ -58,8 +83,14 @@ Meshes.__index = Meshes
 
 --- The number, from 0, of a body's mesh in the list.
 function Meshes:add(body)
-  local mesh = packed_mesh(body)
+  local mesh = packed_mesh(self, body)
   local key = mesh.positions .. mesh.indices .. (mesh.colors or "")
+  if mesh.textures then
+    key = key .. mesh.textures.numbers .. mesh.textures.places
+    for _, texture in ipairs(mesh.textures.list) do
+      key = key .. ("|%d %g %g %g %s %s"):format(texture.image, texture.tint[1], texture.tint[2], texture.tint[3], texture.wrap[1], texture.wrap[2])
+    end
+  end
   if not self.number_of[key] then
     self.list[#self.list + 1] = mesh
     self.number_of[key] = #self.list
@@ -70,7 +101,9 @@ function Meshes:add(body)
   return self.number_of[key] - 1
 end
 
---- A list to fill; `notes`: sentences on meshes that are large.
-function meshes.new() return setmetatable({list = {}, notes = {}, number_of = {}}, Meshes) end
+--- A list to fill; `images`: those of textures, as data URIs; `notes`: sentences on meshes that are large.
+function meshes.new()
+  return setmetatable({list = {}, images = {}, notes = {}, number_of = {}, number_of_image = {}, image_bytes = 0}, Meshes)
+end
 
 return meshes

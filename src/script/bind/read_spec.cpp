@@ -96,6 +96,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   if (options.has("color")) {
     spec.appearance.color = options.vec3("color").cast<float>();
     spec.appearance.triangle_colors.clear();
+    spec.appearance.skin.reset();
     spec.appearance.given = true;
   }
   spec.appearance.transparency =
