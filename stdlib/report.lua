@@ -3,7 +3,7 @@ local blamed = require "clench.blamed"
 local drives = require "clench.drives"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local report = {}
 
 local function numbers(v) return {v.x, v.y, v.z} end

@@ -2,7 +2,7 @@
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local convert = {}
 
 -- "a,b" as a list; nil: nothing is given

@@ -1,5 +1,5 @@
 --- The scene of `clench plan` and `clench render`: a hand, an object and obstacles, as options of the command line give them.
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local fail = require "clench.host.usage"
 local scene = {}
 

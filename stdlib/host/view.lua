@@ -4,7 +4,7 @@ local fail = require "clench.host.usage"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local scene = require "clench.host.scene"
 local view = {}
 

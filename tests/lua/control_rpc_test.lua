@@ -165,6 +165,9 @@ test("queries return the values that scripts read", function(t)
   t.equal(client.get("world.raycast", {origin = {0, 0, 9}, direction = {0, 0, 1}}), nil)
   t.equal(#client.get("robot.jacobian", {link = "barrett/chain1_link2"}), #hand:jacobian(tip))
   t.equal(client.get("world.colliding"), {})
+  local held = clench.grasp(hand, mug):contact_forces {load = {0, 0, -9.81 * mug.mass, 0, 0, 0}}
+  t.equal(client.get("grasp.forces").status, held.status)
+  t.close(client.get("grasp.quality"), clench.grasp(hand, mug):quality "epsilon", 0)
   local state = client.get "world.state"
   t.equal(state.robots[1].dofs, hand.dofs)
   t.equal(state.objects[1].body, "mug")

@@ -8,6 +8,7 @@ namespace clench {
 int open_serial_stream(lua_State* L);
 int open_pty_stream(lua_State* L);
 int open_stream_pair(lua_State* L);
+int open_stdio_stream(lua_State* L);
 int begin_stream(lua_State* L);
 int open_acceptor(lua_State* L);
 int resolve_host(lua_State* L);
