@@ -24,7 +24,7 @@ Gui& open_gui(lua_State* L) {
 }
 
 // for what describes a frame
-Gui& frame_of(lua_State* L) {
+Gui& framed_gui(lua_State* L) {
   Gui& gui = open_gui(L);
   if (!self<UiHandle>(L).in_frame) fail("{}: expected a call within ui:frame", subject(L));
   gui.resume();
@@ -112,7 +112,7 @@ int ui_frame(lua_State* L) {
 }
 
 int ui_show(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const World* world = check_object<WorldHandle>(L, 2, "world").world.get();
   Table options(L, 3);
   Eye eye;
@@ -229,7 +229,7 @@ int ui_set_style(lua_State* L) {
 // --- containers ---
 
 int ui_window(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "name");
   Table options(L, 3);
   WindowOptions window;
@@ -247,7 +247,7 @@ int ui_window(lua_State* L) {
 }
 
 int ui_child(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   Table options(L, 3);
   const double width = options.number("width", 0), height = options.number("height", 0);
@@ -257,17 +257,17 @@ int ui_child(lua_State* L) {
   return 0;
 }
 
-int ui_menu_bar(lua_State* L) { return frame_of(L).menu_bar(BodyOf(L, 2)), 0; }
+int ui_menu_bar(lua_State* L) { return framed_gui(L).menu_bar(BodyOf(L, 2)), 0; }
 
 int ui_menu(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   gui.menu(label, true, BodyOf(L, 3));
   return 0;
 }
 
 int ui_menu_item(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   Table options(L, 3);
   const std::string shortcut = options.string("shortcut", "");
@@ -277,20 +277,22 @@ int ui_menu_item(lua_State* L) {
   return push(L, gui.menu_item(label, shortcut, selected, enabled));
 }
 
-int ui_popup(lua_State* L) { return frame_of(L).popup(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
+int ui_popup(lua_State* L) {
+  return framed_gui(L).popup(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
+}
 int ui_context_menu(lua_State* L) {
-  return frame_of(L).context_menu(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
+  return framed_gui(L).context_menu(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
 }
-int ui_open_popup(lua_State* L) { return frame_of(L).open_popup(check_string(L, 2, "id")), 0; }
-int ui_close_popup(lua_State* L) { return frame_of(L).close_popup(), 0; }
+int ui_open_popup(lua_State* L) { return framed_gui(L).open_popup(check_string(L, 2, "id")), 0; }
+int ui_close_popup(lua_State* L) { return framed_gui(L).close_popup(), 0; }
 int ui_disabled(lua_State* L) {
-  return frame_of(L).disabled(check_boolean(L, 2, "disabled"), BodyOf(L, 3)), 0;
+  return framed_gui(L).disabled(check_boolean(L, 2, "disabled"), BodyOf(L, 3)), 0;
 }
-int ui_id(lua_State* L) { return frame_of(L).id(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
-int ui_group(lua_State* L) { return frame_of(L).group(BodyOf(L, 2)), 0; }
+int ui_id(lua_State* L) { return framed_gui(L).id(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
+int ui_group(lua_State* L) { return framed_gui(L).group(BodyOf(L, 2)), 0; }
 
 int ui_tabs(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   const std::vector<std::string> names = check_names(L, 3, "names");
   const BodyOf checked(L, 4);
@@ -305,7 +307,7 @@ int ui_tabs(lua_State* L) {
 }
 
 int ui_tree(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   Table options(L, 3);
   Gui::TreeOptions tree;
@@ -321,13 +323,13 @@ int ui_tree(lua_State* L) {
 }
 
 int ui_collapsing(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   return push(L, gui.collapsing(label, check_boolean(L, 3, "open"), BodyOf(L, 4)));
 }
 
 int ui_table(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   const std::vector<std::string> columns = check_names(L, 3, "columns");
   if (columns.empty() || columns.size() > 64)
@@ -342,7 +344,7 @@ int ui_table(lua_State* L) {
 // --- widgets ---
 
 int ui_text(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string text = check_string(L, 2, "text");
   Table options(L, 3);
   std::optional<Rgba> color;
@@ -354,7 +356,7 @@ int ui_text(lua_State* L) {
 }
 
 int ui_button(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   Table options(L, 3);
   const double width = options.number("width", 0), height = options.number("height", 0);
@@ -365,18 +367,18 @@ int ui_button(lua_State* L) {
 
 int ui_checkbox(lua_State* L) {
   return push_edited(
-      L, frame_of(L).checkbox(check_string(L, 2, "label"), check_boolean(L, 3, "value")));
+      L, framed_gui(L).checkbox(check_string(L, 2, "label"), check_boolean(L, 3, "value")));
 }
 int ui_radio(lua_State* L) {
-  return push(L, frame_of(L).radio(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
+  return push(L, framed_gui(L).radio(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
 }
 int ui_selectable(lua_State* L) {
-  return push(L,
-              frame_of(L).selectable(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
+  return push(
+      L, framed_gui(L).selectable(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
 }
 
 int ui_slider(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const double value = check_number(L, 3, "value");
   Table options(L, 4);
@@ -387,7 +389,7 @@ int ui_slider(lua_State* L) {
 }
 
 int ui_drag(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const double value = check_number(L, 3, "value");
   Table options(L, 4);
@@ -400,7 +402,7 @@ int ui_drag(lua_State* L) {
 }
 
 int ui_number(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const double value = check_number(L, 3, "value");
   Table options(L, 4);
@@ -411,7 +413,7 @@ int ui_number(lua_State* L) {
 }
 
 int ui_text_input(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const std::string value = check_string(L, 3, "value");
   Table options(L, 4);
@@ -426,7 +428,7 @@ int ui_text_input(lua_State* L) {
 }
 
 int ui_combo(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const int index = lua_isnoneornil(L, 3) ? 0 : check_int(L, 3, "index");
   const std::vector<std::string> choices = check_names(L, 4, "choices");
@@ -437,7 +439,7 @@ int ui_combo(lua_State* L) {
 }
 
 int ui_progress(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const double fraction = check_number(L, 2, "fraction");
   gui.progress(fraction, given(L, 3) ? check_string(L, 3, "text") : "",
                given(L, 4) ? check_number(L, 4, "width") : 0);
@@ -445,7 +447,7 @@ int ui_progress(lua_State* L) {
 }
 
 int ui_plot(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const std::vector<double> values = check_numbers(L, 3, "values");
   Table options(L, 4);
@@ -459,7 +461,7 @@ int ui_plot(lua_State* L) {
 }
 
 int ui_image(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string key = check_string(L, 2, "key");
   const Picture& picture = check_object<Picture>(L, 3, "picture");
   Table options(L, 4);
@@ -471,25 +473,25 @@ int ui_image(lua_State* L) {
 }
 
 int ui_same_line(lua_State* L) {
-  return frame_of(L).same_line(given(L, 2) ? check_number(L, 2, "spacing") : -1), 0;
+  return framed_gui(L).same_line(given(L, 2) ? check_number(L, 2, "spacing") : -1), 0;
 }
-int ui_width(lua_State* L) { return frame_of(L).next_width(check_number(L, 2, "width")), 0; }
-int ui_indent(lua_State* L) { return frame_of(L).indent(check_number(L, 2, "width")), 0; }
-int ui_tooltip(lua_State* L) { return frame_of(L).tooltip(check_string(L, 2, "text")), 0; }
+int ui_width(lua_State* L) { return framed_gui(L).next_width(check_number(L, 2, "width")), 0; }
+int ui_indent(lua_State* L) { return framed_gui(L).indent(check_number(L, 2, "width")), 0; }
+int ui_tooltip(lua_State* L) { return framed_gui(L).tooltip(check_string(L, 2, "text")), 0; }
 int ui_available(lua_State* L) {
-  const auto space = frame_of(L).available();
+  const auto space = framed_gui(L).available();
   push(L, space[0]);
   push(L, space[1]);
   return 2;
 }
-int ui_rect(lua_State* L) { return push_rect(L, frame_of(L).last_rect()); }
-int ui_separator(lua_State* L) { return frame_of(L).separator(), 0; }
-int ui_spacing(lua_State* L) { return frame_of(L).spacing(), 0; }
-int ui_next_column(lua_State* L) { return frame_of(L).next_column(), 0; }
-int ui_focus(lua_State* L) { return frame_of(L).focus_next(), 0; }
-int ui_scroll_to_end(lua_State* L) { return frame_of(L).scroll_to_end(), 0; }
-int ui_hovered(lua_State* L) { return push(L, frame_of(L).hovered()); }
-int ui_active(lua_State* L) { return push(L, frame_of(L).active()); }
+int ui_rect(lua_State* L) { return push_rect(L, framed_gui(L).last_rect()); }
+int ui_separator(lua_State* L) { return framed_gui(L).separator(), 0; }
+int ui_spacing(lua_State* L) { return framed_gui(L).spacing(), 0; }
+int ui_next_column(lua_State* L) { return framed_gui(L).next_column(), 0; }
+int ui_focus(lua_State* L) { return framed_gui(L).focus_next(), 0; }
+int ui_scroll_to_end(lua_State* L) { return framed_gui(L).scroll_to_end(), 0; }
+int ui_hovered(lua_State* L) { return push(L, framed_gui(L).hovered()); }
+int ui_active(lua_State* L) { return push(L, framed_gui(L).active()); }
 
 // --- over the picture ---
 
@@ -504,7 +506,7 @@ std::vector<std::array<double, 2>> check_points(lua_State* L, int i) {
 }
 
 int ui_line(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const auto points = check_points(L, 2);
   Table options(L, 3);
   const Rgba color = read_color(options, "color", {0, 0, 0, 1});
@@ -519,7 +521,7 @@ int ui_line(lua_State* L) {
 }
 
 int ui_circle(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const double x = check_number(L, 2, "x"), y = check_number(L, 3, "y");
   const double radius = check_number(L, 4, "radius");
   Table options(L, 5);
@@ -532,7 +534,7 @@ int ui_circle(lua_State* L) {
 }
 
 int ui_label(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const double x = check_number(L, 2, "x"), y = check_number(L, 3, "y");
   const std::string text = check_string(L, 4, "text");
   Table options(L, 5);
@@ -567,7 +569,7 @@ int ui_keep_open(lua_State* L) { return open_gui(L).close_handled(), 0; }
 int get_wants_mouse(lua_State* L) { return push(L, open_gui(L).wants_mouse()); }
 int get_wants_text(lua_State* L) { return push(L, open_gui(L).wants_text()); }
 int get_close_requested(lua_State* L) { return push(L, open_gui(L).close_requested()); }
-int get_line_height(lua_State* L) { return push(L, frame_of(L).line_height()); }
+int get_line_height(lua_State* L) { return push(L, framed_gui(L).line_height()); }
 int ui_text_of(lua_State* L) {
   const auto& handle = self<UiHandle>(L);
   if (!handle.gui) return push(L, "closed user interface");
