@@ -1,9 +1,8 @@
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/picture/pictures.h"
 #include "script_state.h"
 
-using #include "clench/script/bind/log.h"
-#include "clench/script/bind/picture/pictures.h"
-
-namespace clench;
+using namespace clench;
 
 TEST_CASE("a font that is missing is told once a state, by its name") {
   const Font missing("no/such/folder/font.ttf"), font;

@@ -107,6 +107,7 @@ void add_natives(lua_State* L) {
                                          {"clench.open_acceptor", guarded<open_acceptor>},
                                          {"clench.resolve_host", guarded<resolve_host>},
                                          {"clench.save_secret", guarded<save_secret>},
+                                         {"clench.canonical", guarded<canonical_path>},
                                          {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);

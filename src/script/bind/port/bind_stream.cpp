@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "clench/base/file.h"
@@ -225,6 +227,15 @@ int save_secret(lua_State* L) {
   Draft draft(path, string_at(L, 2), only_owner);
   draft.move_to(path);
   return 0;
+}
+
+// canonical(path): the absolute path without links, as far as it exists
+int canonical_path(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  std::error_code code;
+  const auto found = std::filesystem::weakly_canonical(path, code);
+  if (code) fail(ErrorKind::file, "{}: {}", path, code.message());
+  return push(L, found.string());
 }
 
 }  // namespace clench

@@ -13,5 +13,6 @@ int begin_stream(lua_State* L);
 int open_acceptor(lua_State* L);
 int resolve_host(lua_State* L);
 int save_secret(lua_State* L);
+int canonical_path(lua_State* L);
 
 }  // namespace clench
