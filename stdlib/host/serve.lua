@@ -1,5 +1,5 @@
 --- `clench serve`: a world that other programs command.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"

@@ -1,5 +1,5 @@
 --- Dynamics beside the clock: a coroutine of `clench.loop` steps the world while it plays. One playback is one gesture, thus one step of undo; it is logged as its number of steps.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local script = require "clench.session.script"
 local playback = {}
