@@ -44,8 +44,11 @@ function packed_docs.functions(files)
   local list = {}
   for _, file in ipairs(files) do
     for _, entry in ipairs(file.path:find "^host/" and {} or packed_docs.of(file)) do
-      local module, name = entry.name:match "^([%w_]+)%.?([%w_]*)$"
-      local ok, offered = pcall(function() return name == "" and clench[module] or clench[module][name] end)
+      local ok, offered = pcall(function()
+        local value = clench
+        for name in entry.name:gmatch "[^.]+" do value = value[name] end
+        return value
+      end)
       -- another unit of the folder may have a function of that name, which it does not offer
       if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then
         entry.fn = offered
