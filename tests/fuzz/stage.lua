@@ -17,6 +17,7 @@ local parts = {
     env.flask.elastic_modulus = 1.5e6
     return env.world:contacts(env.hand, env.flask)[4].patch
   end,
+  ui = function() return clench.ui {size = {64, 48}} end,
 }
 
 --- A fresh environment of examples; other names are those of `globals`.

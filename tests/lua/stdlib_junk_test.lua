@@ -26,7 +26,13 @@ local function fault(problem)
   end
 end
 
-local function call(fn, arguments) return pcall(fn, table.unpack(arguments, 1, arguments.n or #arguments)) end
+-- what a call has opened, such as a simulated device, is closed: it would keep the loop running
+local function call(fn, arguments)
+  local ok, result = pcall(fn, table.unpack(arguments, 1, arguments.n or #arguments))
+  local kind = ok and debug.getmetatable(result)
+  if type(result) == "table" and kind and rawget(kind, "close") then pcall(result.close, result) end
+  return ok, result
+end
 
 -- adds what is wrong to a list, once for each function
 local function try(list, name, fn, arguments)

@@ -56,6 +56,8 @@ std::span<const Class* const> all_classes() {
       &joint_dynamics_class, &robot_dynamics_class,
 #ifdef CLENCH_VIEWER
       &ui_class,
+      &ui_widgets_class,
+      &ui_containers_class,
 #endif
   };
   return classes;
