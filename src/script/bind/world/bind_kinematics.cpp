@@ -94,7 +94,7 @@ found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
 > hand.dofs = result.dofs
 > (hand:link("chain0_link2").pose.position - target):norm() < 1e-6  --> true
 > hand:ik("chain0_link2", {xyz = {9, 0, 0}}).reached  --> false
-> hand:ik(flask, {})  --> error: no DOF that may move moves 'flask')"},
+> hand:ik(flask, {})  --> error: none of the selected DOFs moves 'flask')"},
     {"jacobian", guarded<jacobian>, R"(
 How its DOFs move a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world
 axes, and a column for each DOF, with those of its joints that follow it.
