@@ -186,7 +186,7 @@ files are read, nothing is read that does not lie below that folder, links follo
 A scene of MuJoCo becomes one, too: every tree of joints a robot, free bodies objects, what is fixed obstacles. From the file
 of a robot or a body comes a world with that one thing in it.
 @param path string  .wld, .xml, .lua or .mjcf; or any file of a robot or a body
-@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: what would be warned of is an error; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
+@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: treat warnings as errors; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
 @return world
 > #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
 > #clench.load("models/objects/flask.iv", {root = "."}).objects  --> 1
