@@ -1,4 +1,4 @@
-// clench.job: a function of a script that runs in a thread of its own.
+// clench.job: a function of a script that runs in a separate thread.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -42,9 +42,9 @@ namespace {
 struct StartedJobs {
   std::vector<JobPtr> jobs;
 
-  // All at once, as one may wait for what another holds. Programs that they wait for are ended with
-  // them. One that is in a call of C that cannot be stopped is left behind, and ends with the
-  // program.
+  // All at once, because one may wait for another that holds a resource. Programs that they wait
+  // for are ended with them. One that is in a C call that cannot be stopped is left behind, and
+  // ends with the program.
   ~StartedJobs() {
     for (const JobPtr& job : jobs) job->stop();
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(2);
@@ -122,7 +122,7 @@ std::string job_text(const JobPtr& job) {
   return fmt::format("job '{}', {}", job->name(), word_of(job->phase(), phases));
 }
 
-// waits in pieces of 20 ms, between which Ctrl-C is checked
+// waits in intervals of 20 ms, between which Ctrl-C is checked
 int wait_for_job(lua_State* L) {
   const JobPtr job = self<JobPtr>(L);
   const double seconds = given(L, 2) ? check_number(L, 2, "seconds") : INFINITY;

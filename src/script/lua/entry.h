@@ -38,7 +38,7 @@
 
 namespace clench {
 
-/// A function, method or field of a script's world.
+/// A function, method or field that scripts can use.
 struct Entry {
   const char* name;
   lua_CFunction function;  ///< of a field: its getter, called with (self)
@@ -54,26 +54,27 @@ struct Library {
   std::span<const Entry> fields = {};
 };
 
-/// What a userdata of one kind can do. Its address is its identity.
+/// Operations on userdata of one kind. Its address is its identity.
 struct Class {
   const char* name;      ///< "robot"
-  const char* variable;  ///< what messages and examples call one: "hand"
+  const char* variable;  ///< name in messages and examples: "hand"
   const char* doc;
   std::span<const Entry> fields = {};
   std::span<const Entry> methods = {};
   /// "__add", "__tostring"; "__index", "__newindex": keys that are no string
   std::span<const Entry> operators = {};
-  const Class* parent = nullptr;  ///< its fields and methods are had too
+  const Class* parent = nullptr;  ///< class whose fields and methods are inherited
 };
 
-/// Upvalues of every closure of an entry: the entry, its class or library, and how many arguments
-/// it takes; -1: any.
+/// Upvalues of every closure of an entry: the entry, its class or library, and the number of
+/// arguments that it takes; -1: any.
 enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3, at_max_arguments = 4 };
 
-/// Of a function or method: its `@param` lines, self not among them; -1 where one of them is `...`.
+/// Number of `@param` lines of a function or method, self not included; -1 if one of them is `...`.
 int max_arguments(const Entry& entry);
 
-/// Name of the entry that runs, as messages begin: "clench.rad", "hand:autograsp", "hand.dofs".
+/// Name of the running entry, with which messages begin: "clench.rad", "hand:autograsp",
+/// "hand.dofs".
 std::string subject(lua_State* L);
 
 /// The running method's class; null in a library's function.

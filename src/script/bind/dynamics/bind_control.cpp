@@ -16,8 +16,7 @@ static int call_hooks_module(lua_State* L) {
   return 1;
 }
 
-// the arguments of a method, with the world's hooks in place of the world, and the world behind
-// them
+// the arguments of a method, with the world's hooks in place of the world, and the world after them
 static int add_hook(lua_State* L, const char* name) {
   const auto& world = self<WorldHandle>(L).world;
   lua_settop(L, 3);

@@ -37,7 +37,7 @@ static int get_gains(lua_State* L) {
   });
 }
 
-// of the value on top of the stack; false: those of the file
+// settings in the value on top of the stack; false: those of the file
 static std::optional<Gains> read_gain(lua_State* L, const std::string& what) {
   if (!lua_toboolean(L, -1)) return {};
   Table table(L, lua_gettop(L), what);

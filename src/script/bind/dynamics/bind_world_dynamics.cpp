@@ -26,7 +26,7 @@ static double check_time(lua_State* L, int i, const char* name, double least) {
 
 // --- time ---
 
-// What happened in a run that its user does not expect: told once.
+// Warns of unexpected events of a run, once each.
 static void tell_trouble(lua_State* L, const World& world, const StepReport& before) {
   static const char overlaps = 0, failures = 0;
   if (!world.dynamics()) return;
@@ -50,7 +50,7 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
                     subject(L)));
 }
 
-// Parts of the world that ODE does not simulate; empty: none.
+// Parts of the world that ODE does not simulate; empty if there are none.
 static std::vector<std::string> lost_by_ode(const World& world) {
   std::vector<std::string> out;
   const auto add = [&](bool lost, const char* what, const std::string& name) {
@@ -89,7 +89,7 @@ static int run(lua_State* L) {
   return 0;
 }
 
-// halves of a step within a run would be steps that it does not know of
+// steps made within a run would be unknown to it
 static void check_not_running(lua_State* L) {
   if (!push_hooks(L, self<WorldHandle>(L).world, false)) return;
   lua_getfield(L, -1, "runs");
@@ -101,7 +101,7 @@ static void check_not_running(lua_State* L) {
 static int move_bodies(lua_State* L) {
   check_not_running(L);
   const double dt = check_time(L, 2, "dt", time_step_rule.min);
-  call_observers(L, self<WorldHandle>(L).world);  // of the start, before the first step
+  call_observers(L, self<WorldHandle>(L).world);  // at the start, before the first step
   return push(L, Stepper(world_of(L)).move(dt));
 }
 
@@ -143,7 +143,7 @@ static int get_energy(lua_State* L) {
   return push_record(L, {{"kinetic", e.kinetic}, {"potential", e.potential}});
 }
 
-// what bodies do to links, as a table by link
+// average contacts of bodies on links, as a table by link
 static int average_contacts(lua_State* L) {
   const World& world = world_of(L);
   const auto bodies = check_bodies(L, 2, "links", self<WorldHandle>(L).world);
@@ -181,7 +181,7 @@ static int average_contacts(lua_State* L) {
   });
 }
 
-// --- how it is solved ---
+// --- solver settings ---
 
 static constexpr Word<DynamicsEngine> engines[] = {{"clench", DynamicsEngine::clench},
                                                    {"ode", DynamicsEngine::ode}};

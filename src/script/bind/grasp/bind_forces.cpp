@@ -12,7 +12,7 @@
 
 namespace clench {
 
-// --- what is asked ---
+// --- options ---
 
 static std::optional<double> positive_if(Table& options, const char* key) {
   if (!options.has(key)) return {};
@@ -38,7 +38,7 @@ static void read_caps(Table& options, ForceOptions& forces) {
   forces.total_force = positive_if(options, "total_force");
 }
 
-// limits and totals of joints; those that are not asked for leave forces.joints empty
+// limits and totals of joints; forces.joints stays empty if they are not requested
 static void read_joints(Table& options, ForceOptions& forces) {
   JointDemand joints;
   bool asked = read_limits(options, false, joints);
@@ -61,7 +61,7 @@ static ForceObjective read_objective(Table& options) {
                         ForceObjective::min_sum);
 }
 
-// --- what is answered ---
+// --- results ---
 
 static const char* status_name(ForceStatus status) {
   return word_of(status, {{"optimal", ForceStatus::optimal},
@@ -99,7 +99,7 @@ static void push_certificate(lua_State* L, const GraspHandle& g, const ForceCert
   if (c.contact >= 0) set_field(L, "contact", ContactHandle{g.world, g.grasp.contacts[c.contact]});
 }
 
-// leaves the result on the stack
+// pushes the result
 static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r,
                         const char* status) {
   push_record(L, {{"status", status}});
@@ -117,7 +117,7 @@ static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r
   if (r.certificate) set_field(L, "certificate", [&] { push_certificate(L, g, *r.certificate); });
 }
 
-// names of the motors whose limits count here but that have none
+// names of the motors whose limits matter here but are unknown
 static void push_unlimited(lua_State* L, const GraspHandle& g,
                            const std::optional<JointDemand>& joints) {
   if (!joints || joints->unlimited || joints->limits || joints->efforts || joints->springs_only)

@@ -50,7 +50,7 @@ static int measure(lua_State* L) {
   options.done();
   Grasp measured = find_grasp(*hand.world, hand.id, object.id, grasp);
   note_identity(L, *hand.world, measured);
-  // once, as planners measure thousands
+  // once, because planners measure thousands
   static const char at_edges = 0;
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
   if (measured.contacts_at_edges > 0 && first_time(L, &at_edges, about))
@@ -162,12 +162,12 @@ static int get_epsilon(lua_State* L) {
   const auto& [world, g] = self<GraspHandle>(L);
   if (const auto known = g.measures.find("epsilon"); known != g.measures.end())
     return push(L, known->second);
-  // a line of a file without points tells nothing of contacts
+  // a line of a file without points has no information on contacts
   if (!world && g.points.empty()) return push_nil(L);
   return push(L, space_of(g)->epsilon());
 }
 
-// what it is in a file
+// value in a file
 static int grasp_as_json(lua_State* L) {
   read_json(L, grasp_line(self<GraspHandle>(L).grasp));
   return 1;

@@ -26,8 +26,8 @@ static int quality(lua_State* L) {
   return push_unbounded(L, value);
 }
 
-// empty: infinite, or not to be had, as the volume of a hull of millions of facets or one that
-// rounding broke
+// empty: infinite or not available, such as the volume of a hull of millions of facets or of one
+// that rounding broke
 static std::optional<double> value_if(const Measure& measure, MeasuredGrasp& grasp) {
   try {
     const double value = measure.of(grasp);

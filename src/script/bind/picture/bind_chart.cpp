@@ -12,7 +12,7 @@
 
 namespace clench {
 
-static constexpr size_t max_named = 8;  // of letters that are boxes
+static constexpr size_t max_named = 8;  // number of characters drawn as boxes
 
 static ChartSeries read_series(lua_State* L, int index, const What& what) {
   if (!lua_istable(L, index)) fail_expected(what, "{name = ..., values = ...}", index);
@@ -28,7 +28,7 @@ static ChartSeries read_series(lua_State* L, int index, const What& what) {
   return series;
 }
 
-// once a chart, by their numbers
+// once per chart, by their code points
 static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
   std::string all = chart.title;
   for (const std::string& label : chart.labels) all += ' ' + label;

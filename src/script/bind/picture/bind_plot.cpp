@@ -18,7 +18,7 @@
 
 namespace clench {
 
-// numbers, or false where one is missing
+// numbers, or false for missing ones
 static std::vector<double> read_gappy(lua_State* L, Table& series, const char* key) {
   std::vector<double> out;
   series.each(key, "a list of numbers", [&](int i, const What& what) {
@@ -29,7 +29,7 @@ static std::vector<double> read_gappy(lua_State* L, Table& series, const char* k
   return out;
 }
 
-// a list of texts; empty: absent
+// a list of texts; empty if absent
 static std::vector<std::string> read_texts(lua_State* L, Table& options, const char* key) {
   std::vector<std::string> out;
   if (!options.has(key)) return out;
@@ -46,7 +46,7 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what, bo
   PlotSeries series;
   series.name = one.string("name", "");
   if (one.has("edges")) {
-    // what clench.stats.histogram gives
+    // the result of clench.stats.histogram
     series.kind = PlotKind::bars;
     series.x = one.numbers("edges");
     series.y = one.numbers("counts");

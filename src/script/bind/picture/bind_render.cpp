@@ -29,7 +29,7 @@ static Eye read_eye(Table& options, const Eye& from) {
   eye.up = options.vec3("up", from.up);
   eye.field_of_view = options.positive("field_of_view", from.field_of_view);
   const Eigen::Vector3d back = eye.eye - eye.target;
-  // an up that one does not ask for gives way
+  // a default up vector along the view is replaced
   if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
     fail("{}: expected eye and target apart, and up not along the view", options.subject());
   return eye;
@@ -81,7 +81,7 @@ static RenderOptions read_rendering(Table& options) {
   return rendering;
 }
 
-// height of an orthographic view [m]: true keeps what is framed, or what a camera shows at its
+// height of an orthographic view [m]: true keeps the framed height, or that of a camera at its
 // target
 static double read_ortho(lua_State* L, Table& options, const Eye& eye) {
   const int type = options.push("orthographic");
@@ -106,7 +106,7 @@ struct View {
 
 constexpr const char* camera_keys[] = {"eye", "target", "up", "field_of_view", "orthographic"};
 
-// a camera that is given in part begins from the one that frames everything
+// a partly specified camera is completed from the one that frames everything
 Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOptions& rendering) {
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
@@ -116,14 +116,14 @@ Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOp
   const double aspect = static_cast<double>(rendering.width) / rendering.height;
   const Eye framed = parts == 4 ? Eye{} : kept<Renderer>(L).frame_all(scene, aspect, ortho);
   Eye eye = read_eye(options, framed);
-  // where something else is looked at, the height is that at the target
+  // with another target, the height is that at the target
   if (options.has("eye") || options.has("target") || options.has("field_of_view"))
     eye.ortho_height = 0;
   eye.ortho_height = read_ortho(L, options, eye);
   return eye;
 }
 
-// size, quality and the camera, in a table of its own or not, which must be all that is left of the
+// reads size, quality and the camera, in a separate table or not, which must be all remaining
 // options
 View read_view(lua_State* L, Table& options, const Scene& scene) {
   View view{read_rendering(options), {}};
@@ -175,7 +175,7 @@ static int render_draw(lua_State* L) {
   const World* world = check_object<WorldHandle>(L, 1, "world").world.get();
   Table options(L, 2);
   Scene scene = read_scene(L, options, {&world, 1});
-  // whose bodies are picked in the picture
+  // the bodies that can be picked in the picture
   push_object(L, draw_scene(L, options, std::move(scene)), 1);
   lua_pushvalue(L, 1);
   lua_setiuservalue(L, -2, 1);
@@ -220,7 +220,7 @@ static int render_save(lua_State* L) {
   return 0;
 }
 
-// the pixel that arguments 2 and 3 name, from 0, row by row
+// the pixel given by arguments 2 and 3, from 0, row by row
 static size_t check_pixel(lua_State* L, const Picture& p) {
   const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
   if (x < 1 || x > p.width || y < 1 || y > p.height)
@@ -261,7 +261,7 @@ static const char* kind_word(Shown::Kind kind) {
   return "other";
 }
 
-// a field of the table on top of the stack: a body that is still in the world
+// a field of the table on top of the stack: a body that still exists in the world
 static void set_picked_body(lua_State* L, const char* key, const WorldHandle* world, Id<Body> id) {
   if (!world || !id || !world->world->alive(id)) return;
   push_object(L, BodyHandle{world->world, id});

@@ -36,8 +36,8 @@ static constexpr Shelf shelves[] = {
     {"worlds", "worlds", FileKind::world},
 };
 
-// parts of robots, planners' stand-ins for objects, and what was saved beside a world are no models
-// of their own
+// parts of robots, planners' substitutes for objects, and files saved with a world are not separate
+// models
 static bool holds_parts(const fs::path& folder) {
   const std::string name = folder.filename().string();
   return name == "iv" || name == "primitives" || name.ends_with("_files");
@@ -45,7 +45,7 @@ static bool holds_parts(const fs::path& folder) {
 
 static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine) {
   if (!lies_within(path, confine)) return false;
-  // a surface that lies beside its body's XML file belongs to that
+  // a surface next to its body's XML file belongs to that
   if (path.extension() != ".xml" && kind == FileKind::body &&
       fs::exists(fs::path(path).replace_extension(".xml")))
     return false;
@@ -57,7 +57,7 @@ static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine
   }
 }
 
-// below the current folder as seen from there, else absolute
+// relative if below the current folder, otherwise absolute
 static std::string plain_path(const fs::path& path) {
   std::error_code error;
   const fs::path near = fs::proximate(path, error);

@@ -51,7 +51,7 @@ static int convert(lua_State* L) {
     fail("{}: expected a robot to .urdf, or its world to .xml, .mjcf, .lua or .wld, got {}", to,
          in_quotes(ending));
   if (kind == FileKind::world ||
-      as_world)  // built on the way, which tells what the new file does not hold
+      as_world)  // intermediate world, which reports contents that the new file cannot represent
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine, .format = format});
   else

@@ -26,7 +26,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// what a reader makes of the file named by argument 1, with the options of argument 2
+// applies a reader to the file named by argument 1, with the options of argument 2
 template <class Value>
 static Value read_with(lua_State* L, Value (*read)(const fs::path&, const ReadOptions&)) {
   const std::string path = check_string(L, 1, "path");

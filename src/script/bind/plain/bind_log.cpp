@@ -21,7 +21,7 @@ namespace clench {
 
 static const char* const level_names[] = {"debug", "info", "warning", "error", "quiet"};
 
-// addresses name the places of the state's level and sink, and of what was told
+// addresses are the registry keys of the state's level and sink, and of logged messages
 static const char level_key = 0, sink_key = 0, of_file_key = 0;
 
 LogLevel log_level(lua_State* L) {
@@ -50,14 +50,14 @@ void log(lua_State* L, LogLevel level, const std::string& message, const char* a
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &sink_key) == LUA_TFUNCTION) {
     lua_pushstring(L, name);
     lua_pushlstring(L, message.data(), message.size());
-    lua_pushstring(L, about);  // nil when null
+    lua_pushstring(L, about);  // nil if null
     call_script(L, 3, 0, "clench.log.sink");
     return;
   }
   lua_pop(L, 1);
   // a message about a file is logged once, even if the file is read several times
   if (about && !first_time(L, &of_file_key, message + argument_text(L))) return;
-  // a message about a file is one line, whatever names it quotes
+  // a message about a file is a single line, even if it quotes names with line ends
   write_above_bar(fmt::format("clench: {}: {}\n", name, printable(message, about ? "" : "\n\t")));
 }
 
@@ -78,7 +78,7 @@ void warn_once(lua_State* L, const void* key, const std::string& message) {
   log_warning(L, place + message);
 }
 
-// the arguments as text, a space between two
+// the arguments as text, separated by spaces
 static std::string joined(lua_State* L) {
   std::string text;
   const int count = lua_gettop(L);
@@ -125,8 +125,8 @@ static int sink(lua_State* L) {
   return 0;
 }
 
-// the script's sink and level as long as it lives; then those that were there before, of which the
-// sink is at an index of the stack
+// the script's sink and level during its lifetime; then the previous ones, of which the sink is at
+// an index of the stack
 class OtherSink {
  public:
   OtherSink(lua_State* L, int before) : L_(L), before_(before), level_(log_level(L)) {

@@ -30,7 +30,7 @@ static Quaterniond read_quat(Table& t) {
   const auto q = t.numbers("quat", 4);
   const Quaterniond quat(q[0], q[1], q[2], q[3]);
   const double length = quat.coeffs().stableNorm();
-  // files hold six digits or so; what is already unit to the last bits stays as it is
+  // files hold about six digits; a vector that is unit up to rounding is not changed
   if (!(std::abs(length - 1) < 1e-3))
     fail("{}: quat: expected a unit quaternion {{w, x, y, z}}, got one of length {:.6g}",
          t.subject(), length);
@@ -82,14 +82,14 @@ static int count_axes(Table& t) {
   return count;
 }
 
-// the smallest rotation that turns the one given axis to its direction
+// the smallest rotation that turns the single given axis to its direction
 static Quaterniond axis_of(Table& t) {
   const int i = t.has("z_axis") ? 2 : t.has("y_axis") ? 1 : 0;
   const Vector3d direction = t.vec3(axis_names[i]);
   const double length = direction.stableNorm();
   if (!(length > 1e-9)) fail("{}: {}: expected a direction, got zero", t.subject(), axis_names[i]);
   const Vector3d unit = direction / length, axis = Vector3d::Unit(i);
-  // half a turn about the next axis, where every axis at a right angle would do
+  // half a turn about the next axis, although any axis at a right angle is possible
   if (unit.dot(axis) < -1 + 1e-14) {
     const Vector3d next = Vector3d::Unit((i + 1) % 3);
     return Quaterniond(0, next.x(), next.y(), next.z());
@@ -160,7 +160,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   return pose;
 }
 
-// --- what scripts call ---
+// --- entries ---
 
 static int make_pose(lua_State* L) {
   if (const Pose* pose = to<Pose>(L, 1)) return push(L, *pose);

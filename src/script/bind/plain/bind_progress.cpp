@@ -59,7 +59,7 @@ static int progress_step(lua_State* L) {
   return 0;
 }
 
-// as the iterator of a loop: (self, nothing, what came last)
+// as the iterator of a loop: (self, nil, previous item)
 static int next(lua_State* L) {
   auto& progress = self<ProgressHandle>(L);
   const lua_Integer i = (lua_isinteger(L, 3) ? lua_tointeger(L, 3) : 0) + 1;

@@ -53,8 +53,7 @@ BestListOptions read_best(lua_State* L, Table& options, const World& world, Id<B
   return out;
 }
 
-// the hand and the object of the options in the world that the search moves, theirs or a clone of
-// it
+// the hand and the object of the options, in the world that the search moves: theirs or its clone
 HandAndObject read_who(Table& options, WorldPtr& world) {
   const auto* hand = options.object<RobotHandle>("hand");
   const auto* object = options.object<BodyHandle>("object");
@@ -183,7 +182,7 @@ HandState read_search_state(lua_State* L, int i, const Annealing& search) {
   Table of(L, i, subject(L) + ": state");
   const int count = static_cast<int>(search.world().dofs(search.who().hand).size());
   const HandState out{of.pose("pose"), of.vector("dofs", count)};
-  of.has("energy"), of.has("step"), of.has("values");  // what `best` says besides
+  of.has("energy"), of.has("step"), of.has("values");  // other fields of `best`
   of.done();
   return out;
 }

@@ -221,7 +221,7 @@ int penetration(lua_State* L) {
 
 }  // namespace
 
-// a term, or a function as one; the world of the first term found is theirs
+// a term, or a function used as one; all share the world of the first term
 EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world) {
   if (lua_type(L, index) == LUA_TFUNCTION)
     return std::make_unique<EnergyFunction>(script_number(L, index));

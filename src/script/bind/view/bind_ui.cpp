@@ -23,7 +23,7 @@ Gui& open_gui(lua_State* L) {
   return *handle.gui;
 }
 
-// for what describes a frame
+// for functions that describe a frame
 Gui& frame_of(lua_State* L) {
   Gui& gui = open_gui(L);
   if (!self<UiHandle>(L).in_frame) fail("{}: expected a call within ui:frame", subject(L));

@@ -84,7 +84,7 @@ Number of the position sensor that is to move it; nil when its file names none.
 > flask.tracker  --> nil)"},
 };
 
-// the body of that id in a clone of its world
+// the body with that id in a clone of its world
 static int body_in_world(lua_State* L) {
   const BodyHandle& body = self<BodyHandle>(L);
   const WorldPtr world = check_object<WorldHandle>(L, 2, "world").world;

@@ -82,7 +82,7 @@ static std::string contact_text(const ContactHandle& c) {
                      p.y(), p.z());
 }
 
-// vertices and triangles count from 1, as those of meshes
+// indices of vertices and triangles from 1, as in meshes
 static int push(lua_State* L, const Feature& feature) {
   if (feature.kind == Feature::triangle)
     return push_record(L, {{"kind", "triangle"}, {"triangle", feature.first + 1}});

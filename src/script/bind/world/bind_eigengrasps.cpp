@@ -35,7 +35,7 @@ static VectorXd check_posture(const std::vector<double>& values, const std::stri
   return vector_of(values);
 }
 
-// --- making ---
+// --- construction ---
 
 static std::vector<std::optional<Range>> read_limits(Table& options) {
   std::vector<std::optional<Range>> limits;
@@ -91,7 +91,7 @@ static std::vector<Range> amplitude_limits(const EigengraspsHandle& x) {
   return grasps.limits(x.robot.world ? x.robot.world->dofs(x.robot.id) : grasps.origin());
 }
 
-// --- verbs ---
+// --- methods ---
 
 static int amplitudes(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);

@@ -69,7 +69,7 @@ static std::array<double, 3> color_of(const Entity& body) {
   return {color.x(), color.y(), color.z()};
 }
 
-// one {red, green, blue} per triangle; nil where the body has one color
+// one {red, green, blue} per triangle; nil if the body has a single color
 static int get_triangle_colors(lua_State* L) {
   const auto body = self_body(L);
   const auto& colors = body->appearance.triangle_colors;
@@ -107,7 +107,7 @@ static void push_texture(lua_State* L, const Texture& texture) {
   lua_setfield(L, -2, "tint");
 }
 
-// images as bytes of files, numbers and places of triangles packed
+// images as bytes of files, numbers and image coordinates of triangles packed
 static int get_textures(lua_State* L) {
   const auto body = self_body(L);
   const SkinPtr& skin = body->appearance.skin;

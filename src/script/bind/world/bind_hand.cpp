@@ -38,7 +38,7 @@ static int set_eigengrasps(lua_State* L) {
   return 0;
 }
 
-// the posture that amplitudes stand for, each DOF brought to its nearest limit
+// the posture of the amplitudes, each DOF clamped to its limits
 struct Expected {
   VectorXd dofs;
   std::vector<int> clamped;
@@ -49,7 +49,7 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
   VectorXd amplitudes = check_amplitudes(L, 2, grasps);
   const bool keep = options.boolean("keep", false);
   if (options.has("fixed")) {
-    // these stay as they are, whatever is asked for
+    // fixed amplitudes keep their present values
     const VectorXd now = grasps.amplitudes(robot.world->dofs(robot.id));
     for (const double x : options.numbers("fixed")) {
       if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
@@ -65,7 +65,7 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
   for (int d = 0; d < out.dofs.size(); ++d) {
     const auto [low, high] = range_around(*robot, d, out.dofs[d]);
     const double inside = std::clamp(out.dofs[d], low, high);
-    // rounding is no limit in the way
+    // rounding errors do not count as limits
     if (std::abs(inside - out.dofs[d]) > 1e-12 * std::max(1.0, std::abs(inside)))
       out.clamped.push_back(d + 1);
     out.dofs[d] = inside;
@@ -113,7 +113,7 @@ static std::string source_stem(const Robot& robot) {
   return std::filesystem::path(robot.source).stem().string();
 }
 
-// tells when contacts were made for a hand of another file than this one
+// warns if contacts were made for a hand of another file
 static void warn_of_other_hand(lua_State* L, const RobotHandle& robot,
                                const std::string& made_for) {
   if (made_for.empty() || made_for == robot->name || made_for == source_stem(*robot)) return;
@@ -139,7 +139,7 @@ static int set_virtual_contacts(lua_State* L) {
   };
   each_item(L, 2, {L, {}, "virtual_contacts"}, "a list of virtual contacts", read, "robot");
   lua_pushstring(L, "robot");
-  const bool told = lua_rawget(L, 2) == LUA_TSTRING;  // as lists from files say it
+  const bool told = lua_rawget(L, 2) == LUA_TSTRING;  // in the format of lists from files
   const std::string made_for = told ? std::string(string_at(L, -1)) : other_hand;
   lua_pop(L, 1);
   give(robot, std::move(contacts));
@@ -196,10 +196,10 @@ static int push(lua_State* L, const TrackerSpec& tracker) {
   return push_record(L, {{"number", tracker.number}, {"pose", tracker.X_BS}});
 }
 
-// --- parts that are kept as their file describes them ---
+// --- parts that are stored as their file describes them ---
 
-// a list of what push_part(part, link) makes of each of the robot's, with the base or link that a
-// number stands for
+// a list of the results of push_part(part, link) for all parts of the robot, with the base or link
+// of each
 template <class Part, class PushPart>
 static int push_parts(lua_State* L, std::vector<Part> PassiveParts::*list, PushPart push_part) {
   const auto& robot = self<RobotHandle>(L);

@@ -56,7 +56,7 @@ static int sample(lua_State* L) {
   constexpr int most = 1'000'000;
   if (count < 0 || count > most)
     fail("{}: count: expected 0 to {}, got {}", subject(L), most, count);
-  // of each triangle, the area of all up to its end
+  // cumulative area of the triangles, including each
   std::vector<double> areas;
   double sum = 0;
   for (int t = 0; t < std::ssize(shape.mesh().triangles); ++t) {

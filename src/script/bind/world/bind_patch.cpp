@@ -20,7 +20,7 @@ const char* modulus_name(ModulusRule rule) { return word_of(rule, modulus_rules)
 
 static const SoftPatch& patch_of(lua_State* L) { return *self<PatchHandle>(L).patch; }
 
-// {body = ..., other = ...}: what push_one(side) leaves of each
+// {body = ..., other = ...}: the values that push_one(side) pushes for each
 template <class PushOne>
 static int push_sides(lua_State* L, PushOne push_one) {
   const bool body_is_b = self<PatchHandle>(L).body_is_b;

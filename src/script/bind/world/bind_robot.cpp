@@ -102,7 +102,7 @@ static int get_files(lua_State* L) {
   return 1;
 }
 
-// --- verbs ---
+// --- methods ---
 
 static int link(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
@@ -242,7 +242,7 @@ Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration
 > type(hand.files)  --> table)"},
 };
 
-// the robot of that id in a clone of its world
+// the robot with that id in a clone of its world
 static int robot_in_world(lua_State* L) {
   const RobotHandle& robot = self<RobotHandle>(L);
   const WorldPtr world = check_object<WorldHandle>(L, 2, "world").world;

@@ -49,7 +49,7 @@ static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
   } else if (type == LUA_TSTRING) {
     link = robot.world->body(find_link(robot, read_string(L, -1, what), what.text())).link;
   } else if (type == LUA_TNUMBER && table.has("chain")) {
-    // numbers as lists from files have them
+    // numbers in the format of lists from files
     const int chain = table.integer("chain", 0), number = read_int(L, -1, what);
     if (chain < 0) fail("{}: chain: expected 0 or more, got {}", what.text(), chain);
     link = number_on(robot, {chain - 1, std::max(number, 0) - 1}, what);
@@ -95,7 +95,7 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
   Table table(L, i, what.text());
   VirtualContactSpec contact;
   contact.link = read_link(L, table, robot);
-  table.integer("chain", 0);  // known, though a link given otherwise does not ask for it
+  table.integer("chain", 0);  // a valid key, even if read_link does not read it
   contact.X_LC = read_frame(table);
   contact.mu = table.number("mu", 1);
   contact.edges = read_friction_edges(table);

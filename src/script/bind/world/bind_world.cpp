@@ -20,7 +20,7 @@
 
 namespace clench {
 
-// --- making ---
+// --- construction ---
 
 static int new_world(lua_State* L) {
   Table options(L, 1);
@@ -43,7 +43,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   const std::string file = std::filesystem::path(spec.file).filename().string();
   const std::string place = file.empty() ? subject(L) + ": mesh" : file;
   Listeners told = reading.listeners();
-  // a script knows what it leaves open
+  // no notes: a script knows which values it omits
   if (file.empty()) told.note = {};
   if (const std::string doubt =
           options.has("elastic_modulus") ? doubt_modulus(*spec.elastic_modulus) : "";
@@ -117,7 +117,7 @@ static int get_robots(lua_State* L) {
   return set_finder(L, "world:robot", robot_class);
 }
 
-// the one of a name that `find` found, or an error that tells the names of all
+// the result of `find` for a name, or an error that lists all names
 template <class Handle, class Thing>
 static int push_found(lua_State* L, const char* kind,
                       Id<Thing> (World::*find)(std::string_view) const,
@@ -138,11 +138,11 @@ static int robot(lua_State* L) {
   return push_found<RobotHandle>(L, "robot", &World::find_robot, world_of(L).robots());
 }
 
-// --- time machine ---
+// --- saved states ---
 
 static int clone(lua_State* L) { return push_world(L, std::make_shared<World>(world_of(L))); }
 
-// bodies and robots that were removed since are back under their old handles
+// bodies and robots removed since then are restored with their old handles
 static int become(lua_State* L) {
   const WorldPtr& world = self<WorldHandle>(L).world;
   const WorldPtr other = check_object<WorldHandle>(L, 2, "clone").world;

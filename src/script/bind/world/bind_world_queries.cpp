@@ -15,7 +15,7 @@
 
 namespace clench {
 
-// --- who touches whom ---
+// --- contacts ---
 
 static int cast(lua_State* L) {
   const WorldPtr& world = self<WorldHandle>(L).world;

@@ -18,7 +18,7 @@
 
 namespace clench {
 
-// --- what may collide ---
+// --- collision filters ---
 
 static int set_collision(lua_State* L) {
   const auto& world = self<WorldHandle>(L).world;
@@ -39,7 +39,7 @@ static int set_collision(lua_State* L) {
   return 0;
 }
 
-// bodies of the argument, or all bodies of the world without it
+// bodies of the argument, or all bodies of the world without one
 static std::vector<Id<Body>> bodies_or_all(lua_State* L, int index, const char* name,
                                            const WorldPtr& world) {
   return given(L, index) ? check_bodies(L, index, name, world) : world->bodies();
@@ -71,7 +71,7 @@ static int set_collision_bits(lua_State* L) {
 
 // --- friction ---
 
-// a slip makes a new material, too; numbered ones are meant
+// a misspelt name would create a new material; numbered ones are intended
 static void tell_near_material(lua_State* L, const std::string& name) {
   static const char told = 0;
   const std::vector<std::string>& known = world_of(L).materials().names();
@@ -143,7 +143,7 @@ static int set_keyframe(lua_State* L) {
   return 0;
 }
 
-// of the list's table on top of the stack
+// reads state i of a list from its table on top of the stack
 static void read_state(lua_State* L, int i, const WorldPtr& world, Keyframe& into) {
   const std::string what = fmt::format("{}: state {}", subject(L), i);
   if (!lua_istable(L, -1)) fail("{}: expected a table, got {}", what, described(L, -1));
