@@ -221,7 +221,7 @@ static int grasp_space(lua_State* L) {
 
 static const Entry grasp_functions[] = {
     {"grasp", guarded<measure>, R"(
-The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
+The present grasp of a hand on an object. A grasp without contacts is not an error: it resists nothing.
 @param hand robot  hand that holds the object
 @param object body  object that is held
 @param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its center of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
@@ -241,7 +241,7 @@ The body that is grasped.
 > grasp.object == flask  --> true)"},
     {"hand_name", getter<[](const GraspHandle& x) { return x.grasp.hand_name; }>,
      R"(
-Name of the robot that grasps; a grasp that stands in no world has it, too.
+Name of the robot that grasps; a grasp outside any world has it, too.
 @type string
 > grasp.hand_name == hand.name  --> true)"},
     {"object_name", getter<[](const GraspHandle& x) { return x.grasp.object_name; }>, R"(
@@ -276,7 +276,7 @@ Version of Clench that measured the grasp; "" in a list from a file without it.
 @type string
 > grasp.engine_version == clench.version  --> true)"},
     {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
-Where the hand's base stood in the object's frame when the grasp was measured.
+Pose of the hand's base in the object's frame when the grasp was measured.
 @type pose
 > (flask.pose * grasp.pose).position == hand.pose.position  --> true)"},
     {"dofs", getter<[](const GraspHandle& x) { return x.grasp.dofs; }>, R"(
@@ -321,7 +321,7 @@ Words that a script notes, by name: its planner, its script. They are kept in fi
 > grasp.labels = {planner = 3}  --> error: planner: expected a string, got 3)",
      guarded<set_labels>},
     {"pregrasp", getter<[](const GraspHandle& x) { return x.grasp.pregrasp; }>, R"(
-How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
+The hand before it approaches the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
 known. Planners set it; files keep it.
 @type {pose: pose, dofs: number[]}?
 > grasp.pregrasp  --> nil
@@ -337,7 +337,7 @@ Targets of the motors that press on the object, one per DOF, perhaps beyond its 
 > grasp.squeeze = {1}  --> error: numbers, one per DOF, got 1)",
      guarded<set_squeeze>},
     {"collision_free", getter<[](const GraspHandle& x) { return x.grasp.collision_free; }>, R"(
-Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
+Was the grasp free of collisions? nil: not checked. Planners set it; files store it.
 @type boolean?
 > grasp.collision_free = not world:collides()
 > grasp.collision_free  --> true)",
@@ -356,7 +356,7 @@ The same contacts in the object's frame, as clench.wrench_space takes them; tors
 > again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
 > again:epsilon() == grasp:quality "epsilon"  --> true)"},
     {"links", getter<[](const GraspHandle& x) { return x.grasp.links; }>, R"(
-Names of what touches at each of the points.
+Names of the touching bodies at each of the points.
 @type string[]
 > #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
     {"rho", getter<[](const GraspHandle& x) { return x.grasp.rho; }>, R"(
@@ -394,7 +394,7 @@ A warning names a hand whose shapes or joints, or an object whose surface differ
 > #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true
 > grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
     {"dofs_for", guarded<grasp_dofs_for>, R"(
-Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
+Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, if it has one.
 @param hand robot  hand whose DOFs are wanted
 @param options? {dof_order?: string|string[]}  as `apply` takes it
 @return number[] dofs, number[]? pregrasp  [rad or m]

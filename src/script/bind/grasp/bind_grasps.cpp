@@ -128,9 +128,9 @@ Adds a grasp at the end: its value as it is now, measures included.
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<grasps_save>, R"(
-Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
+Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers.
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
-`format`; a warning names what a format does not hold. The same list gives the same bytes.
+`format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
 @param path string  file to write; its ending selects the format
 @param options? {format?: string, notes?: table, compress?: boolean}  format: as clench.grasps takes it; compress: the arrays of an .npz; notes: plain data about the list as such, for the head of JSON lines
 > list = clench.grasps()

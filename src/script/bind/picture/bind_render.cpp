@@ -297,7 +297,7 @@ static const Entry render_functions[] = {
 Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
 all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the
 links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes.
-It needs EGL and OpenGL, but no display. What a picture needs is kept for the next one, which is drawn faster.
+It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 @param world world  world to draw
 @param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: table, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; camera: these five in a table, such as the camera of a picture; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 @return picture
@@ -347,7 +347,7 @@ Its height.
 
 static const Entry render_methods[] = {
     {"save", guarded<render_save>, R"(
-Writes a PNG file, with alpha where the background is transparent.
+Writes a PNG file, with alpha if the background is transparent.
 @param path string  file to write, .png
 > clench.render(world, {size = {64, 48}, quality = "draft"}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
 > clench.render(world, {size = {64, 48}, quality = "draft"}):save("a.jpg")  --> error: .png)"},
@@ -360,14 +360,14 @@ Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
 @return integer blue
 > select("#", clench.render(world, {size = {64, 48}, quality = "draft"}):pixel(1, 1))  --> 3)"},
     {"alpha", guarded<alpha>, R"(
-How much a pixel covers, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
+Opacity of a pixel, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
 @param x integer  column, from the left
 @param y integer  row, from the top
 @return integer alpha
 > clench.render(world, {size = {64, 48}, quality = "draft"}):alpha(1, 1)  --> 255
 > clench.render(world, {size = {64, 48}, quality = "draft", background = "transparent"}):alpha(1, 1)  --> 0)"},
     {"pick", guarded<pick_pixel>, R"(
-The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; bodies that one sees through count. nil where
+The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; transparent bodies count. nil if
 there is none. `body` and `other` are nil if they were removed since.
 @param x integer  column, from the left
 @param y integer  row, from the top

@@ -108,8 +108,8 @@ static int kind_of_file(lua_State* L) {
 
 static const Entry catalog_functions[] = {
     {"file_kind", guarded<kind_of_file>, R"(
-What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
-stand.
+Kind of a file's contents, by its ending, or by its outermost element in XML; if the ending does not define it, by the layout of its
+numbers.
 @param path string  file to inspect
 @param options? {confine?: string}
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"

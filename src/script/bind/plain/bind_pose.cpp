@@ -220,7 +220,7 @@ static int pose_as_json(lua_State* L) {
 
 static const Entry pose_functions[] = {
     {"pose", guarded<make_pose>, R"(
-A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
+A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given in at most one form.
 @param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where one or two of the frame's axes point; of two, z_axis, else x_axis, exactly, the other as nearly as a right angle allows; one: by the smallest rotation (by half a turn about the next axis if it points backward)
 @return pose
 > clench.deg(clench.pose{axis = {0, 0, 2}, angle = clench.rad(90)}:angle())  --> 90.0
@@ -242,7 +242,7 @@ The pose of a camera at `eye` that sees `target`: it looks along its -z, with y 
 
 static const Entry pose_fields[] = {
     {"position", getter<[](const Pose& x) { return x.position; }>, R"(
-Where the frame's origin is.
+Position of the frame's origin.
 @type vec3  [m]
 > clench.pose{xyz = {1, 2, 3}}.position  --> (1, 2, 3))"},
     {"quat", getter<quat_of>, R"(
@@ -269,7 +269,7 @@ The homogeneous matrix.
 @return number[][]  4 rows of 4
 > clench.pose{xyz = {1, 2, 3}}:matrix()[1]  --> {1.0, 0.0, 0.0, 1.0})"},
     {"rotate", guarded<rotate>, R"(
-A direction turned by the rotation alone.
+A direction transformed by the rotation only.
 @param direction vec3  direction in the frame of the pose
 @return vec3
 > clench.pose{xyz = {1, 2, 3}, quat = {0, 0, 0, 1}}:rotate{1, 0, 0}  --> (-1, 0, 0))"},

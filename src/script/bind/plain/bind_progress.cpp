@@ -108,7 +108,7 @@ Counts so many more steps as done.
 > p:close()
 > p.done, p.total  --> 4.0, 10.0)"},
     {"close", method<[](ProgressHandle& x) { x.close(); }>, R"(
-Removes the bar; a variable declared <close> does so by itself.
+Removes the bar; a variable declared <close> does so automatically.
 > p = clench.progress(10)
 > p:close()
 > p  --> progress: 0 of 10)"},

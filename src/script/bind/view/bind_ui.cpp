@@ -643,7 +643,7 @@ A window with contents.
 @param draw fun(ui: ui)  describes the contents
 @return boolean open  false: the user has closed it)"},
     {"child", guarded<ui_child>, R"(
-A part of a window that scrolls by itself.
+A part of a window that scrolls separately.
 @param id string  unique name
 @param options {width?: number, height?: number, border?: boolean}  0: all that is left; below 0: less than that
 @param draw fun(ui: ui)  describes the contents)"},

@@ -55,7 +55,7 @@ Unique in its world.
 > world:body("bottle") == flask  --> true)",
      setter<[](const BodyHandle& x, const std::string& name) { x.world->set_name(x.id, name); }>},
     {"pose", getter<[](const BodyHandle& body) { return body.world->pose(body.id); }>, R"(
-Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot
+Its pose in the world frame. Setting it moves the body at once, without collision checks; see move_to. The parts of a robot
 move with the robot.
 @type pose
 > flask.pose = {xyz = {0, 0, 1}}

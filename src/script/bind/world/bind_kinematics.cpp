@@ -74,8 +74,8 @@ static int random_posture(lua_State* L) {
 
 static const Entry kinematics_methods[] = {
     {"ik", guarded<ik>, R"(
-Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. Where none are
-found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
+Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. If none are
+found, the nearest ones, with a turn by 1 rad weighted like a displacement of 0.1 m.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param pose pose  where it is to be, in the world
 @param options? table  what is reached, and how it is searched for
@@ -96,8 +96,8 @@ found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
 > hand:ik("chain0_link2", {xyz = {9, 0, 0}}).reached  --> false
 > hand:ik(flask, {})  --> error: none of the selected DOFs moves 'flask')"},
     {"jacobian", guarded<jacobian>, R"(
-How its DOFs move a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world
-axes, and a column for each DOF, with those of its joints that follow it.
+Jacobian of a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world
+axes, and a column for each DOF, including those of its joints that follow it.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param point? vec3  in its frame, its origin by default [m]
 @return number[][]

@@ -97,7 +97,7 @@ for them, or the first radius when that is larger; between 1 m and 2 m the two a
 @type number[]  [m]
 > patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
     {"flat", guarded<get_flat>, R"(
-Is a relative radius the one that stands for a flat direction?
+Is a relative radius the limit used for a flat direction?
 @type boolean[]
 > patch.flat[1]  --> false)"},
     {"curvatures", guarded<get_curvatures>, R"(
@@ -119,15 +119,15 @@ The middle of the patch, in the world frame: the contact's point, or the mean of
 @type vec3  [m]
 > (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},
     {"points", guarded<get_patch_points>, R"(
-What was fitted: points of both surfaces, in the world frame.
+The fitted points of both surfaces, in the world frame.
 @type {body: vec3[], other: vec3[]}  [m]
 > #patch.points.other > 100  --> true)"},
     {"radius", getter<[](const PatchHandle& x) { return x.patch->radius; }>, R"(
-How far around the contact the surfaces were looked at.
+Radius of the neighborhood in which the surfaces were sampled.
 @type number  [m]
 > ("%.5f"):format(patch.radius)  --> 0.00349)"},
     {"residual", getter<[](const PatchHandle& x) { return x.patch->residual; }>, R"(
-How far the points lie from the fit, root of the mean square; of the worse surface.
+Root mean square distance of the points from the fit, of the worse surface.
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
     {"at_edge", getter<[](const PatchHandle& x) { return x.patch->at_edge; }>, R"(

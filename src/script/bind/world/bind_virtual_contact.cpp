@@ -147,12 +147,12 @@ Number of the link's chain; 0 for the base.
 @type integer
 > hand:find_virtual_contacts()[1].chain  --> 1)"},
     {"point", getter<[](const VirtualContactHandle& x) { return frame_of(x).position; }>, R"(
-Where it is, in the world frame; it moves with its link.
+Its position in the world frame; it moves with its link.
 @type vec3  [m]
 > c = hand.virtual_contacts[1]
 > (c.point - c.link.pose * c.frame_in_link.position):norm() < 1e-12  --> true)"},
     {"normal", getter<normal_of>, R"(
-Unit normal out of the link, in the world frame: into what it is to touch.
+Unit normal out of the link, in the world frame: into the body to be touched.
 @type vec3
 > math.abs(hand.virtual_contacts[1].normal:norm() - 1) < 1e-12  --> true)"},
     {"frame", getter<frame_of>, R"(
@@ -173,7 +173,7 @@ Coulomb coefficient that it counts with.
        return Eigen::MatrixXd(x.contact.edges.transpose());
      }>,
      R"(
-What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
+Friction supported by a unit normal force, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
 @type number[][]  torques [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
 > #hand.virtual_contacts[#hand.virtual_contacts].edges  --> 8)"},

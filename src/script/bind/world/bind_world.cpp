@@ -180,11 +180,11 @@ An empty world.
 @return world
 > #clench.world().bodies  --> 0)"},
     {"load", guarded<load_world>, R"(
-A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table
-that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
-files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
-A scene of MuJoCo becomes one, too: every tree of joints a robot, free bodies objects, what is fixed obstacles. From the file
-of a robot or a body comes a world with that one thing in it.
+A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run, with a table
+with the root and the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
+files are read, only files below that folder are read, after resolving links, and no .lua file is run.
+A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. From the file
+of a robot or a body, the result is a world with only that robot or body.
 @param path string  .wld, .xml, .lua or .mjcf; or any file of a robot or a body
 @param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: treat warnings as errors; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
 @return world
@@ -204,7 +204,7 @@ The bodies that can be grasped.
 @type body[]
 > world.objects[1] == flask  --> true)"},
     {"obstacles", guarded<get_obstacles>, R"(
-The bodies that only stand in the way.
+The bodies that are only to be avoided.
 @type body[]
 > #world.obstacles  --> 0)"},
     {"robots", guarded<get_robots>, R"(
@@ -240,7 +240,7 @@ give overrides the file.
 > math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
-Adds a body that only stands in the way; as add_object.
+Adds a body that is only to be avoided; as add_object.
 @param body string|mesh|table  file name, mesh, or vertices and triangles, as world:add_object takes them
 @param options? table  options of world:add_object, apart from those of moving bodies
 @return body
@@ -263,7 +263,7 @@ An independent copy that shares the meshes. Its bodies and robots are found by n
 > copy == world  --> false
 > copy:hash() == world:hash()  --> true)"},
     {"become", guarded<become>, R"(
-Makes the world what a clone of it is: state, bodies, robots and settings. Bodies and robots that were removed after the clone was made are back under their old handles.
+Copies everything from a clone of the world: state, bodies, robots and settings. Bodies and robots removed since the clone was made are restored with their old handles.
 @param clone world  clone of this world whose state is taken
 > before = world:clone()
 > world:remove(flask)
@@ -272,12 +272,12 @@ Makes the world what a clone of it is: state, bodies, robots and settings. Bodie
 > world:become(clench.world())  --> error: expected a clone of the world, or of one of its clones, got another world)"},
     {"snapshot", method<[](const WorldHandle& x) { return SnapshotHandle{x.world->snapshot()}; }>,
      R"(
-The state of the world now, exact to the bit.
+The present state of the world, bit-exactly.
 @return snapshot
 > world:snapshot() ~= nil  --> true)"},
     {"restore", guarded<restore>, R"(
-Goes back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is
-back, what was added since is gone.
+Restores a snapshot of this world, of a clone of it, or of its original: bodies removed since then are
+restored, those added since then are removed.
 @param snapshot snapshot  result of world:snapshot
 > before, moment = world:hash(), world:snapshot()
 > hand:open()
@@ -285,8 +285,8 @@ back, what was added since is gone.
 > world:hash() == before  --> true)"},
     {"save", guarded<save_world>, R"(
 Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder beside it, and its state now as the reference posture
-and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that holds everything. The old file
-stays until the new one has been read again; what the format cannot hold is told in a warning.
+and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that stores everything. The old file
+is kept until the new one has been read back; a warning names everything that the format cannot represent.
 @param path string  .xml, .mjcf, .wld or .lua
 @param options? {format?: string, root?: string, confine?: string}  format: of an .xml "mjcf" or "graspit"; default: "mjcf", unless a robot carries another one, as a scene read again has one robot in place of the two; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 > path = os.tmpname()

@@ -224,7 +224,7 @@ It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_dis
 > world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
      guarded<set_camera>},
     {"gravity", getter<[](const WorldHandle& x) { return x.world->gravity(); }>, R"(
-Acceleration of everything that is free to fall, in the world frame: what weighs on joints and objects.
+Gravitational acceleration of joints and objects, in the world frame.
 @type vec3  [m/s^2]
 > world.gravity  --> (0, 0, -9.81)
 > world.gravity = {0, 0, -1.62}
@@ -281,7 +281,7 @@ The coefficients of a pair of materials.
 @return number? restitution  where the pair has one of its own
 > world:friction("rubber", "stone")  --> 1.5, 1.4)"},
     {"add_keyframe", guarded<add_keyframe>, R"(
-Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
+Gives a name to the present state, or to one given by a list. It replaces a keyframe of the same name.
 @param name string  name of the keyframe
 @param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 > world:add_keyframe "closed"
@@ -293,7 +293,7 @@ Gives a name to a state: to that of now, or to one that a list tells. A keyframe
 > world:add_keyframe("away", {1})  --> error: state 1: expected a table, got 1
 > world:add_keyframe("away", {robot = hand, dofs = hand.dofs})  --> error: expected a list of states)"},
     {"set_keyframe", guarded<set_keyframe>, R"(
-Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a
+Restores the poses and postures of a keyframe, without collision checks. Removed bodies stay removed, and a
 robot that is carried stays on its carrier.
 @param name string  name of the keyframe
 > world:add_keyframe "closed"
