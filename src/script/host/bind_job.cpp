@@ -310,7 +310,7 @@ const Library job_library{
 
 const Class job_class{.name = "job",
                       .variable = "job",
-                      .doc = "A function that runs beside the script, as `clench.job` starts it.",
+                      .doc = "A function that runs concurrently with the script, started by `clench.job`.",
                       .fields = job_fields,
                       .methods = job_methods,
                       .operators = job_operators};

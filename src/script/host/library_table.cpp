@@ -55,7 +55,7 @@ static int refuse_assignment(lua_State* L) {
   }
   if (lua_toboolean(L, 4) || std::find(known.begin(), known.end(), key) != known.end())
     fail("{}.{} cannot be set: it is read only", name, key);
-  fail("{} has no {} to set{}; a script keeps its values in variables of its own", name,
+  fail("{} has no {} to set{}; a script keeps its values in its own variables", name,
        in_quotes(key), did_you_mean(key, known));
 }
 

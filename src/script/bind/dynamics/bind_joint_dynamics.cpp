@@ -80,7 +80,7 @@ static int set_gains(lua_State* L) {
 static const Entry joint_dynamics_fields[] = {
     {"gains", guarded<get_gains>, R"(
 Position gains of its motors, one per DOF: those set by a script; otherwise those of its file; otherwise such that a DOF returns at 60
-rad/s with critical damping, as it stands. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
+rad/s with critical damping at its present posture. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
 @type {kp: number, kd: number}[]  [N m/rad or N/m], [N m s/rad or N s/m]
 > hand.gains[1].kp  --> 1.0
 > gains = hand.gains

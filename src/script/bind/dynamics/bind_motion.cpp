@@ -34,12 +34,12 @@ static int set_velocity(lua_State* L) {
 static BodyHandle pushed_body(lua_State* L) {
   const auto body = self_body(L);
   if (body->kind == BodyKind::obstacle)
-    fail("{}: an obstacle moves as it is told, whatever pushes it", subject(L));
+    fail("{}: an obstacle moves with its set velocity, independent of forces", subject(L));
   if (body->kind != BodyKind::base) return body;
   const World& world = *body.world;
   if (!world.robot(body->robot).mounting && !world.dynamic_settings().robot(body->robot).floating)
     fail(
-        "{}: the base stands or moves as it is told, whatever pushes it, unless `floating` is true",
+        "{}: the base is fixed or moves with its set velocity, independent of forces, unless `floating` is true",
         subject(L));
   return body;
 }

@@ -220,7 +220,7 @@ along x and y of contact.frame, force in the world's axes, margin from the edge 
 wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of
 the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates`
 and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or
-`dof`, whichever gives way. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
+`dof`, whichever yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
 @param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: true, what each motor can exert, as in hand.effort_ranges; or a list of one per DOF, for both directions; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, under the world's gravity; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
@@ -240,7 +240,7 @@ The largest multiple `load` of a wrench on the object that forces at the contact
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
     {"equilibrium", guarded<balance>, R"(
 Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
-couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable", then `unbalanced` is the least
+couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable", then `unbalanced` is the smallest
 wrench that remains and `certificate` names what yields; "moving" if no contact forces balance the joints, so that a
 finger moves; "inaccurate".
 @param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, for both directions, or false for none where a motor exerts anything; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]

@@ -63,7 +63,7 @@ static int measure(lua_State* L) {
 const World& world_of(lua_State* L, const GraspHandle& grasp) {
   if (!grasp.world)
     fail(
-        "{}: the grasp stands in no world, as those of planners and files; grasp:apply(world) "
+        "{}: the grasp belongs to no world, like those of planners and files; grasp:apply(world) "
         "gives one that does",
         subject(L));
   return *grasp.world;
@@ -297,7 +297,7 @@ list from a file that does not name them.
 @type string[]
 > #grasp.joint_names == #grasp.joint_positions  --> true)"},
     {"joint_values", method<joint_values>, R"(
-The same positions as the hand's own file counts them, which other programs expect: they differ where the file's joint has
+The same positions in the convention of the hand's file, which other programs expect: they differ if the file's joint has
 another zero.
 @type number[]  [rad or m]
 > #grasp.joint_values == #grasp.joint_names  --> true)"},
@@ -380,10 +380,10 @@ The options with which clench.grasp measures another grasp in the same way.
 static const Entry grasp_methods[] = {
     {"apply", guarded<apply_by_script>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
-there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
-does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A
+there. Hand and object are found by their names unless they are given, DOFs by theirs if the grasp has them; DOFs that it
+does not have keep their values. Joints that a DOF moves may be listed, too: a warning names one that differs from the value given by its DOF. A
 value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in
-the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
+the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the posture that `ik` finds first from its present one. Nothing else moves, and collisions are not checked: see `world:collides`.
 A warning names a hand whose shapes or joints, or an object whose surface differs from the one that the grasp was measured with; masses, materials, limits and motors may differ.
 @param world? world  default: its own
 @param options? {hand?: robot, object?: body, dof_order?: string|string[]}
@@ -400,7 +400,7 @@ Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, if 
 @return number[] dofs, number[]? pregrasp  [rad or m]
 > #grasp:dofs_for(hand) == #hand.dofs  --> true)"},
     {"save", guarded<save_grasp>, R"(
-Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand stands on slides, named carriage_x, carriage_y
+Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand is on slides, named carriage_x, carriage_y
 and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and
 "lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
 @param path string  .xml or .mjcf
@@ -418,7 +418,7 @@ Can it resist every wrench?
 > grasp:is_force_closure()  --> true)"},
     {"wrench_space", guarded<grasp_space>, R"(
 Its wrench space about the object's center of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
-in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
+in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which caches its results.
 @param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
 @return wrench_space
 > grasp:wrench_space().rank  --> 6

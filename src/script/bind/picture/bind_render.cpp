@@ -296,7 +296,7 @@ static const Entry render_functions[] = {
     {"render", guarded<render_draw>, R"(
 Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
 all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the
-links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes.
+links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes.
 It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 @param world world  world to draw
 @param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: table, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; camera: these five in a table, such as the camera of a picture; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
@@ -315,7 +315,7 @@ It needs EGL and OpenGL, but no display. Data of a picture are cached for the ne
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
     {"camera", guarded<choose_camera>, R"(
 The camera that clench.render chooses with the same options; of several states of a world, one for all of them, as for a film: it
-holds the objects that robots touch in some state, and those robots from the palm outward, where nothing is touched, everything.
+holds the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
 @param worlds world|world[]  a list: states of one world, such as clones of it
 @param options? table  those of clench.render
 @return table camera  {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render

@@ -68,7 +68,7 @@ HandAndObject read_who(Table& options, WorldPtr& world) {
   if (world->body(object->id).robot)
     fail("{}: object: '{}' is a part of a robot", options.subject(), (*object)->name);
   if (world->robot(hand->id).mounting)
-    fail("{}: hand: '{}' is carried by another robot; plan for a hand that stands free",
+    fail("{}: hand: '{}' is carried by another robot; plan for a hand that is not mounted",
          options.subject(), (*hand)->name);
   return {hand->id, object->id};
 }

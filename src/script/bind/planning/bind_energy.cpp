@@ -262,7 +262,7 @@ int within(lua_State* L) {
 
 int call(lua_State* L) {
   const auto& handle = self<EnergyHandle>(L);
-  if (!handle.world) fail("energy: a function alone: call it by itself");
+  if (!handle.world) fail("energy: it consists only of a function: call that directly");
   const CallingState calling(L);
   const auto energy = handle.energy;  // a function may drop the last reference
   const auto world = handle.world;
@@ -455,7 +455,7 @@ const Library energy_library{
 const Class energy_class{
     .name = "energy",
     .variable = "energy",
-    .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
+    .doc = "A function that rates the pose and posture of a hand relative to an object, made by `clench.energy`.",
     .fields = energy_fields,
     .methods = energy_methods,
     .operators = energy_operators};

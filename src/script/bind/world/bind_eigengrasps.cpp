@@ -205,7 +205,7 @@ Amplitudes of the posture of the set that is nearest to DOF values; without them
 > set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
 > set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
     {"dofs", guarded<dofs>, R"(
-DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own
+DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, its component outside its own
 amplitudes is kept.
 @param amplitudes number[]  one amplitude per eigengrasp
 @param options? {from?: number[]}

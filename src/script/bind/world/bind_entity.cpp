@@ -227,7 +227,7 @@ wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a 
 @type table?
 > flask.textures  --> nil)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
-How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m],
+How the triangles of its file were read and repaired: lines of text, and the same data as fields `format`, `unit` [m],
 `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,
 `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped`
 (was it inside out?). Nil when it has no mesh, or none from a file.

@@ -340,7 +340,7 @@ Do its virtual contacts come from a file or a script? Otherwise they are found f
      }>,
      R"(
 Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
-DOF = intercept + slopes * raw. nil when there is none.
+DOF = intercept + slopes * raw. nil if there is none.
 @type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
 > hand.glove  --> nil)"},
     {"tracker", getter<[](const RobotHandle& x) { return x->tracker; }>, R"(
@@ -358,17 +358,17 @@ side of it the others lie. They have no effect.
 > #hand.tendon_wrappers  --> 0)"},
     {"joint_tendons", guarded<get_joint_tendons>, R"(
 Fixed tendons of an MJCF file that have a range, a spring or friction: `length` is the sum of `arms` times `dofs`. In
-simulations the length stays in `range`, a spring acts where it is outside `slack`, and each DOF feels its arm times the
+simulations the length stays in `range`, a spring acts if it is outside `slack`, and each DOF receives its moment arm times the
 force of the tendon. They are ignored by methods that set DOFs without a simulation, and by the engine "ode".
 @type {name: string, dofs: integer[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[]
 > #hand.joint_tendons  --> 0)"},
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon` with the joints that it `pulls`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity. Where the file says so: `gain_slopes`, which times length and velocity add to the gain; `activation_range`, of what the
+bias[2] * length + bias[3] * velocity. If the file defines them: `gain_slopes`, which multiplied by length and velocity are added to the gain; `activation_range`, of what the
 law takes in place of the control; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false
 of one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. From
-them the motors take which DOFs are driven, the largest efforts, and, as kp and kd, what bias[2] and bias[3] say of DOFs
+them the motors take the driven DOFs, the maximum efforts, and, as kp and kd, the values of bias[2] and bias[3] for DOFs
 and of tendons; a script that sets forces may follow their laws.
 @type table[]
 > #hand.actuators  --> 0)"},

@@ -105,8 +105,8 @@ axes, and a column for each DOF, including those of its joints that follow it.
 > {#J, #J[1]}  --> {6, 12}
 > J[1][12]  --> 0.0)"},
     {"random_posture", guarded<random_posture>, R"(
-Values for all its DOFs, any within the limits as likely as any other; an endless DOF gets one
-within dof_limits, about where it is. Moves nothing.
+Values for all its DOFs, uniformly distributed within the limits; an endless DOF gets a value
+within dof_limits around its present value. Moves nothing.
 @param random random  source of the random numbers
 @return number[]  [rad or m]
 > hand.dofs = hand:random_posture(clench.random(1))

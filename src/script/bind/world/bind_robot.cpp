@@ -181,7 +181,7 @@ Identity by content: equal for robots of the same links, joints, limits and moto
        return fingerprint_text(mechanism_fingerprint(*x.world, x.id, shapes));
      }>,
      R"(
-Identity of what a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
+Fingerprint of everything that a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
 differences of frames below 1e-9 m. Grasps keep it, and `grasp:apply` compares it.
 @type string  16 hexadecimal digits
 > hand.mechanism_fingerprint == grasp.hand_fingerprint  --> true)"},
@@ -201,9 +201,9 @@ Its links, chain by chain, without the base.
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
 Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
-where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max,
+where that is fixed, `links`, and `joints` with their present values (name, if its file names it, kind, dof, ratio, min, max,
 value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
-m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg
+m/rad or N/m] and rest, the value at which it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg
 m^2 or kg], of joints that have them).
 @type table[]
 > #hand.chains  --> 4

@@ -252,7 +252,7 @@ Adds a robot from a file.
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
-Removes an object, an obstacle or a whole robot. Using it afterwards is an error that names it.
+Removes an object, an obstacle or a complete robot. Using it afterwards is an error that names it.
 @param entity body|robot  body or robot to remove
 > world:remove(flask)
 > flask.pose  --> error: was removed)"},
@@ -284,7 +284,7 @@ restored, those added since then are removed.
 > world:restore(moment)
 > world:hash() == before  --> true)"},
     {"save", guarded<save_world>, R"(
-Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder beside it, and its state now as the reference posture
+Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder next to it, and its present state as the reference posture
 and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that stores everything. The old file
 is kept until the new one has been read back; a warning names everything that the format cannot represent.
 @param path string  .xml, .mjcf, .wld or .lua
@@ -326,7 +326,7 @@ const Class world_class{
 const Class snapshot_class{
     .name = "snapshot",
     .variable = "snapshot",
-    .doc = "The state of a world at a moment; `world:restore` goes back to it.",
+    .doc = "A saved state of a world, restored by `world:restore`.",
     .operators = snapshot_operators};
 
 }  // namespace clench

@@ -232,7 +232,7 @@ Gravitational acceleration of joints and objects, in the world frame.
 > world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2])",
      guarded<set_gravity>},
     {"keyframes", getter<keyframe_names>, R"(
-Names of its named states, those of its file first; `set_keyframe` goes there.
+Names of its saved states, those of its file first; `set_keyframe` restores them.
 @type string[]
 > #world.keyframes  --> 0)"},
 };

@@ -204,7 +204,7 @@ static void warn_of_settings(lua_State* L, const World& world) {
     if (!world.alive(id) || !world.robot(id).passive || world.robot(id).passive->actuators.empty())
       continue;
     if (!robot.gains.empty() || robot.max_effort)
-      lost.push_back(fmt::format("gains and max_effort of '{}', which has actuators of its own",
+      lost.push_back(fmt::format("gains and max_effort of '{}', which has separate actuators",
                                  world.robot(id).name));
   }
   if (!lost.empty())
