@@ -6,7 +6,7 @@ local put_back = {}
 --- Does a grasp stand in a world? Those of planners and files do not.
 function put_back.stands(grasp) return (pcall(function() return grasp.hand end)) end
 
---- Refuses a grasp that stands in no world.
+--- Rejects a grasp that belongs to no world.
 ---@param subject string  "study.compare: grasps[1]"
 function put_back.check_stands(subject, grasp)
   if put_back.stands(grasp) then return end

@@ -159,7 +159,7 @@ test("an arm brings its hand to where the grasp has it, or stays with all else w
   t.equal(arm.dofs, posture)
 end)
 
-test("a grasp that stands in no world is studied as far as that goes, and else the remedy is told", function(t)
+test("a grasp that belongs to no world is studied as far as possible, otherwise the error names the remedy", function(t)
   local grasp = closed_on_flask()
   local list = clench.grasps()
   list:add(grasp)

@@ -308,12 +308,13 @@ int has_jobs(lua_State* L) {
 const Library job_library{
     .name = "clench", .doc = "", .functions = job_functions, .fields = job_library_fields};
 
-const Class job_class{.name = "job",
-                      .variable = "job",
-                      .doc = "A function that runs concurrently with the script, started by `clench.job`.",
-                      .fields = job_fields,
-                      .methods = job_methods,
-                      .operators = job_operators};
+const Class job_class{
+    .name = "job",
+    .variable = "job",
+    .doc = "A function that runs concurrently with the script, started by `clench.job`.",
+    .fields = job_fields,
+    .methods = job_methods,
+    .operators = job_operators};
 
 const Class this_job_class{.name = "this_job",
                            .variable = "this_job",

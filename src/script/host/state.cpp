@@ -141,7 +141,8 @@ static int explain(lua_State* L) {
   lua_settop(L, 1);
   push_packed(L, "error_text");
   lua_pushvalue(L, 1);
-  if (lua_pcall(L, 1, 1, 0) != LUA_OK) lua_pushliteral(L, "error object that cannot be converted to text");
+  if (lua_pcall(L, 1, 1, 0) != LUA_OK)
+    lua_pushliteral(L, "error object that cannot be converted to text");
   lua_replace(L, 1);
   lua_settop(L, 1);
   // a traceback's own text would end at a zero byte

@@ -95,7 +95,7 @@ class Writer {
     if (luaL_getmetafield(L_, index, "__json") != LUA_TNIL) {
       lua_pushvalue(L_, index);
       call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path_));
-      if (++conversions_ > json_depth) refuse("an end to values that stand for values");
+      if (++conversions_ > json_depth) refuse("a finite chain of __json values");
       value(-1, depth);
       --conversions_;
       lua_pop(L_, 1);

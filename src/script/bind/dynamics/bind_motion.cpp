@@ -39,7 +39,8 @@ static BodyHandle pushed_body(lua_State* L) {
   const World& world = *body.world;
   if (!world.robot(body->robot).mounting && !world.dynamic_settings().robot(body->robot).floating)
     fail(
-        "{}: the base is fixed or moves with its set velocity, independent of forces, unless `floating` is true",
+        "{}: the base is fixed or moves with its set velocity, independent of forces, unless "
+        "`floating` is true",
         subject(L));
   return body;
 }

@@ -452,12 +452,13 @@ const Library energy_library{
         "numbers are those of GraspIt!.",
     .functions = energy_functions};
 
-const Class energy_class{
-    .name = "energy",
-    .variable = "energy",
-    .doc = "A function that rates the pose and posture of a hand relative to an object, made by `clench.energy`.",
-    .fields = energy_fields,
-    .methods = energy_methods,
-    .operators = energy_operators};
+const Class energy_class{.name = "energy",
+                         .variable = "energy",
+                         .doc =
+                             "A function that rates the pose and posture of a hand relative to an "
+                             "object, made by `clench.energy`.",
+                         .fields = energy_fields,
+                         .methods = energy_methods,
+                         .operators = energy_operators};
 
 }  // namespace clench

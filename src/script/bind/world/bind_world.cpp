@@ -323,10 +323,9 @@ const Class world_class{
     .operators = world_operators,
     .parent = &world_queries_class};
 
-const Class snapshot_class{
-    .name = "snapshot",
-    .variable = "snapshot",
-    .doc = "A saved state of a world, restored by `world:restore`.",
-    .operators = snapshot_operators};
+const Class snapshot_class{.name = "snapshot",
+                           .variable = "snapshot",
+                           .doc = "A saved state of a world, restored by `world:restore`.",
+                           .operators = snapshot_operators};
 
 }  // namespace clench

@@ -272,8 +272,8 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
     if (is_script(written) || lies_within(written, saving.confine))
       warn_of_losses(L, world, read_again(L, written, saving), file);
     else
-      log_warning(L, fmt::format("{} lies outside of {}, to which reading is confined: what it "
-                                 "does not hold is not told",
+      log_warning(L, fmt::format("{} lies outside of {}, to which reading is confined: contents "
+                                 "that it cannot represent are not reported",
                                  file, saving.confine.generic_string()));
   };
   DynamicSettings kept;
@@ -282,7 +282,7 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
   for (const auto id : world.robots())
     if (script && world.dynamic_settings().robot(id).floating) kept.robots[id].floating = true;
   if (world.dynamic_settings() != kept)
-    log_warning(L, fmt::format("{}: settings of dynamics beside the time step{} are not saved: "
+    log_warning(L, fmt::format("{}: settings of dynamics other than the time step{} are not saved: "
                                "engine, friction cone, gains, max_effort, {}breakaway, gravity "
                                "compensation, belts, welds",
                                subject(L), script ? " and floating bases" : "",
