@@ -58,7 +58,7 @@ uniform mat3 map_axes;  // rows: across, across, towards the lamp
 uniform vec3 to_lamp;
 uniform float texel;  // of the map, in scene units
 
-// fraction of the lamp that reaches p; 1 unless asked. The loop ends early because a branch would
+// fraction of the lamp that reaches p; 1 unless `asked`. A loop instead of a branch, which would
 // compute both sides
 float lit(vec3 p, vec3 n, bool asked) {
   float facing = dot(n, to_lamp);

@@ -37,8 +37,8 @@ inline constexpr const Class* script_class<ThisJob> = &this_job_class;
 
 namespace {
 
-// Jobs of a state that it has started. Those whose handles are gone run on; when the state closes,
-// all of them are stopped.
+// Jobs started by a state. Those whose handles no longer exist continue; when the state is closed,
+// all are stopped.
 struct StartedJobs {
   std::vector<JobPtr> jobs;
 
@@ -318,7 +318,7 @@ const Class job_class{
 
 const Class this_job_class{.name = "this_job",
                            .variable = "this_job",
-                           .doc = "What a job's function, in its own state, reports by.",
+                           .doc = "Used by a job's function, in its own state, to report.",
                            .fields = this_job_fields,
                            .methods = this_job_methods};
 

@@ -1,10 +1,10 @@
-// The cores of the machine, shared by all threads that run scripts beside their callers.
+// The cores of the machine, shared by all threads that run scripts concurrently with their callers.
 #pragma once
 #include <functional>
 
 namespace clench {
 
-/// The right of the calling thread to compute, during the object's lifetime. There are as many as
+/// Permission of the calling thread to compute, during the object's lifetime. There are as many as
 /// cores, at least two, so that an endless job does not block all others. Threads that wait for
 /// others lend theirs, so that nested levels of work share the cores.
 class CoreSlot {

@@ -1,7 +1,7 @@
-// The one bridge between C++ exceptions and Lua errors. It works with a Lua built as C, whose
+// The only bridge between C++ exceptions and Lua errors. It works with a Lua built as C, whose
 // errors jump over frames without unwinding them, and with one built as C++, whose errors are
-// exceptions of its own: therefore never catch (...) here, and raise only when no C++ object is
-// left alive.
+// exceptions of its own type: therefore never use catch (...) here, and raise errors only when no
+// C++ object is alive.
 #pragma once
 #include <exception>
 #include <lua.hpp>

@@ -12,7 +12,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// the file of the program or shared library whose code holds an address
+// the file of the program or shared library that contains the code at an address
 struct Search {
   uintptr_t address;
   std::string file;

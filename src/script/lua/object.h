@@ -43,7 +43,7 @@ struct Box {
   }
 };
 
-/// of a userdata, whose own place need not be aligned as the box
+/// size of a userdata that can hold an aligned box at any address
 template <class T>
 inline constexpr size_t box_bytes = sizeof(Box<T>) + alignof(Box<T>);
 

@@ -150,7 +150,7 @@ Removes the weld: it continues separately, with its present velocity.
 
 const Class motion_class{.name = "motion",
                          .variable = "body",
-                         .doc = "How bodies and robots move: velocity, and what pushes them.",
+                         .doc = "Motion of bodies and robots: velocity, and applied forces.",
                          .fields = motion_fields,
                          .methods = motion_methods,
                          .parent = &entity_class};

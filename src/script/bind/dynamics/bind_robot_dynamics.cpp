@@ -205,7 +205,7 @@ it was to close?
 
 const Class robot_dynamics_class{.name = "robot_dynamics",
                                  .variable = "hand",
-                                 .doc = "How a robot's motors move it.",
+                                 .doc = "Dynamics of a robot and its motors.",
                                  .fields = robot_dynamics_fields,
                                  .methods = robot_dynamics_methods,
                                  .parent = &joint_dynamics_class};

@@ -302,7 +302,7 @@ presses are left out.
 const Class world_dynamics_class{
     .name = "world_dynamics",
     .variable = "world",
-    .doc = "How a world moves: time, steps, momentum, and what presses on what.",
+    .doc = "Dynamics of a world: time, steps, momentum, and contact forces.",
     .fields = world_dynamics_fields,
     .methods = world_dynamics_methods,
     .parent = &world_control_class};

@@ -11,7 +11,7 @@ namespace clench {
 
 namespace {
 
-// whose hooks they are, and what its listeners have been told
+// owner of the hooks, and events already reported to its listeners
 struct Hooks {
   std::weak_ptr<World> world;
   std::set<std::pair<Id<Body>, Id<Body>>> touching;

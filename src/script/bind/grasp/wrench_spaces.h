@@ -59,7 +59,7 @@ template <>
 inline constexpr const Class* script_class<ProjectionHandle> = &projection_class;
 
 inline size_t owned_bytes(const ProjectionHandle& handle) {
-  // its mesh lies in both
+  // its mesh is included in both
   return sizeof(Projection) + (handle.shape ? 2 * handle.shape->bytes() : 0);
 }
 

@@ -293,9 +293,9 @@ const Library pose_library{.name = "clench", .doc = "", .functions = pose_functi
 const Class pose_class{.name = "pose",
                        .variable = "pose",
                        .doc =
-                           "A rigid transform, which never changes. `a * b` chains two of them, `a "
-                           "* v` takes a point along, `==` compares bit by bit. Wherever a pose is "
-                           "expected, the table that `clench.pose` takes will do.",
+                           "An immutable rigid transform. `a * b` composes two of them, `a * v` "
+                           "transforms a point, `==` compares bit-exactly. Wherever a pose is "
+                           "expected, the table that `clench.pose` takes is accepted.",
                        .fields = pose_fields,
                        .methods = pose_methods,
                        .operators = pose_operators};

@@ -132,7 +132,7 @@ const Library progress_library{.name = "clench", .doc = "", .functions = progres
 
 const Class progress_class{.name = "progress",
                            .variable = "progress",
-                           .doc = "How far a script's loop is, as `clench.progress` shows it.",
+                           .doc = "Progress of a script's loop, as shown by `clench.progress`.",
                            .fields = progress_fields,
                            .methods = progress_methods,
                            .operators = progress_operators};

@@ -446,8 +446,8 @@ static const Entry energy_operators[] = {
 const Library energy_library{
     .name = "clench.energy",
     .doc =
-        "What searches make small. Each function makes an energy of a hand and an object: called, "
-        "`e()`, it gives its number for how they stand now. Energies are added and weighted, `a + "
+        "Objective functions of searches. Each function makes an energy of a hand and an object: "
+        "`e()` returns its value in their present state. Energies are added and weighted, `a + "
         "0.3 * b`, functions of a script among them. Distances count in millimeters, so that the "
         "numbers are those of GraspIt!.",
     .functions = energy_functions};

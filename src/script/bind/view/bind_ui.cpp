@@ -736,7 +736,8 @@ A text that is typed.
 @return boolean changed
 @return boolean finished)"},
     {"combo", guarded<ui_combo>,
-     "A list of which one is chosen.\n@param label string  text beside it\n@param index integer?  "
+     "A list from which one item is chosen.\n@param label string  text beside it\n@param index "
+     "integer?  "
      "chosen one, from 1\n@param choices string[]  texts\n@return integer index\n@return boolean "
      "changed"},
     {"progress", guarded<ui_progress>,

@@ -190,12 +190,11 @@ static const Entry contact_operators[] = {
     {"__tostring", method<contact_text>, ""},
 };
 
-const Class contact_class{
-    .name = "contact",
-    .variable = "contact",
-    .doc = "A point where one body touches another, as it was when it was asked for.",
-    .fields = contact_fields,
-    .methods = contact_methods,
-    .operators = contact_operators};
+const Class contact_class{.name = "contact",
+                          .variable = "contact",
+                          .doc = "A point where one body touches another, as it was when queried.",
+                          .fields = contact_fields,
+                          .methods = contact_methods,
+                          .operators = contact_operators};
 
 }  // namespace clench

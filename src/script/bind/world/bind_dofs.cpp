@@ -320,13 +320,12 @@ Opens the hand as far as possible. One that overlaps something is opened regardl
 > #world:contacts(hand, flask)  --> 0)"},
 };
 
-const Class dofs_class{.name = "dofs",
-                       .variable = "hand",
-                       .doc =
-                           "What every robot can do with its degrees of freedom: set them, drive "
-                           "them, close and open.",
-                       .fields = dofs_fields,
-                       .methods = dofs_methods,
-                       .parent = &kinematics_class};
+const Class dofs_class{
+    .name = "dofs",
+    .variable = "hand",
+    .doc = "Degrees of freedom of a robot: setting, driving, closing and opening.",
+    .fields = dofs_fields,
+    .methods = dofs_methods,
+    .parent = &kinematics_class};
 
 }  // namespace clench

@@ -307,7 +307,7 @@ From 0, opaque, to 1, invisible.
 const Class entity_class{
     .name = "entity",
     .variable = "entity",
-    .doc = "What bodies and robots have in common; a robot has what its base has.",
+    .doc = "Properties common to bodies and robots; a robot has those of its base.",
     .fields = entity_fields};
 
 }  // namespace clench

@@ -431,7 +431,7 @@ Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contac
 const Class hand_class{.name = "hand",
                        .variable = "hand",
                        .doc =
-                           "What every robot has for grasping: eigengrasps, virtual contacts, a "
+                           "Parts of a robot used for grasping: eigengrasps, virtual contacts, a "
                            "glove, a position sensor.",
                        .fields = hand_fields,
                        .methods = hand_methods,

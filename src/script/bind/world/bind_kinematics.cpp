@@ -115,9 +115,7 @@ within dof_limits around its present value. Moves nothing.
 
 const Class kinematics_class{.name = "kinematics",
                              .variable = "hand",
-                             .doc =
-                                 "What every robot knows of where its DOFs take its links: inverse "
-                                 "kinematics and Jacobians.",
+                             .doc = "Kinematics of a robot: inverse kinematics and Jacobians.",
                              .methods = kinematics_methods,
                              .parent = &hand_class};
 

@@ -196,12 +196,13 @@ static const Entry virtual_contact_operators[] = {
     {"__tostring", method<virtual_contact_text>, ""},
 };
 
-const Class virtual_contact_class{.name = "virtual_contact",
-                                  .variable = "virtual_contact",
-                                  .doc =
-                                      "A place on a link where a hand would like to touch what it "
-                                      "grasps; it moves with the link.",
-                                  .fields = virtual_contact_fields,
-                                  .operators = virtual_contact_operators};
+const Class virtual_contact_class{
+    .name = "virtual_contact",
+    .variable = "virtual_contact",
+    .doc =
+        "A desired contact point on a link of a hand; it moves with the "
+        "link.",
+    .fields = virtual_contact_fields,
+    .operators = virtual_contact_operators};
 
 }  // namespace clench

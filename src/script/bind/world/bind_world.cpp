@@ -317,7 +317,7 @@ const Library world_library{.name = "clench", .doc = "", .functions = world_func
 const Class world_class{
     .name = "world",
     .variable = "world",
-    .doc = "Bodies and robots, what may collide with what, friction. Lists are in creation order.",
+    .doc = "Bodies and robots, collision filters, friction. Lists are in creation order.",
     .fields = world_fields,
     .methods = world_methods,
     .operators = world_operators,

@@ -155,12 +155,11 @@ as a sphere, outside its facets.
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
 };
 
-const Class world_queries_class{.name = "world_queries",
-                                .variable = "world",
-                                .doc =
-                                    "What every world answers: what collides, how far things are "
-                                    "apart, where they touch, what a ray meets.",
-                                .methods = world_queries_methods,
-                                .parent = &world_dynamics_class};
+const Class world_queries_class{
+    .name = "world_queries",
+    .variable = "world",
+    .doc = "Queries of a world: collisions, distances, contacts, ray casts.",
+    .methods = world_queries_methods,
+    .parent = &world_dynamics_class};
 
 }  // namespace clench

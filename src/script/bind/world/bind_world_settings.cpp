@@ -303,12 +303,13 @@ robot that is carried stays on its carrier.
 > world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected one of closed)"},
 };
 
-const Class world_settings_class{.name = "world_settings",
-                                 .variable = "world",
-                                 .doc =
-                                     "What holds for all of a world: friction of materials, what "
-                                     "may collide, gravity, its camera, its named states.",
-                                 .fields = world_settings_fields,
-                                 .methods = world_settings_methods};
+const Class world_settings_class{
+    .name = "world_settings",
+    .variable = "world",
+    .doc =
+        "Settings of a world: friction of materials, collision filters, "
+        "gravity, its camera, its named states.",
+    .fields = world_settings_fields,
+    .methods = world_settings_methods};
 
 }  // namespace clench
