@@ -6,9 +6,9 @@ namespace clench {
 
 using Range = std::array<double, 2>;  ///< {low, high}
 
-/// A set prepared for one hand: unit vectors, origin within the limits of the DOFs. dofs = o + n *
-/// (E^T a)   and   a = P ((dofs - o) / n)   with P = (E E^T)^-1 E, so P E^T = I E has one unit
-/// vector per row; * and / are elementwise.
+/// A set prepared for one hand: unit vectors, origin within the limits of the DOFs.
+/// dofs = o + n * (E^T a)   and   a = P ((dofs - o) / n)   with P = (E E^T)^-1 E, so P E^T = I
+/// E has one unit vector per row; * and / are elementwise.
 /// source  Ciocarlie & Allen (2009), Hand posture subspaces for dexterous robotic grasping, sec. 3
 class Eigengrasps {
  public:

@@ -1,33 +1,36 @@
 // Description of the engine for Lua: tables of name, function and doc.
 //
 // How to add a binding
-// 1. A value or handle of scripts is a Class; functions belong to a Library. Each is one constant
-// in a bind_<noun>.cpp, in the folder of its kind, ends in tables of entries, is declared in
-// bind.h, and has one line in library.cpp. Several libraries may share a name: their entries are
-// merged.
-// 2. A function is `static int f(lua_State* L)`, listed in its table as guarded<f> (guard.h). It
-// reads its arguments with check.h (positional) or a Table (options), calls the engine, and returns
-// push...(). Bad input throws clench::Error; guarded adds the script's line. Messages begin with
-// subject(L), "hand:autograsp", which is found automatically. Arguments beyond the doc's `@param`
-// lines have already been rejected. Values that one expression gets or sets use getter<...> or
-// setter<...> (getter.h).
-// 3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). script_class<T>
-// associates a C++ type with its Class; push(L, T{...}) creates a value of it, to<T> and
-// check_object<T> read one.
-// 4. Nothing that can raise a Lua error may run while C++ objects with destructors are alive,
-// because a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with
-// metamethods, lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing
-// raises errors only for lack of memory, and then leaks.)
-// 5. The doc has one or two sentences for the reader, then LuaCATS lines, then running examples. A
-// field has `@type`; text after two spaces is prose, with the unit in brackets: clang-format off
-// Closes the fingers until contact stops them. @param options? {speed?: number, stop_at_contact?:
-// boolean}  speed 1: the hand's own pace @return table result  `moved`, `stops`
-//        > hand:autograsp().moved  --> true
-// clang-format on stdlib/signature/grammar.lua has the grammar of units, ranges, defaults and
-// `@option` lines. `> code` without an arrow prepares the next one. `--> error: text` expects an
-// error that contains text. Examples run with clench, world, hand (closed on the flask), flask,
-// grasp and patch (of a fingertip with the flask as rubber). The tests run every one of them;
-// `clench doc` writes docs/api from the same tables, and the REPL uses them for completion.
+//  1. A value or handle of scripts is a Class; functions belong to a Library. Each is one constant
+//     in a bind_<noun>.cpp, in the folder of its kind, ends in tables of entries, is declared in
+//     bind.h, and has one line in library.cpp. Several libraries may share a name: their entries
+//     are merged.
+//  2. A function is `static int f(lua_State* L)`, listed in its table as guarded<f> (guard.h). It
+//     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
+//     returns push...(). Bad input throws clench::Error; guarded adds the script's line. Messages
+//     begin with subject(L), "hand:autograsp", which is found automatically. Arguments beyond the
+//     doc's `@param` lines have already been rejected. Values that one expression gets or sets use
+//     getter<...> or setter<...> (getter.h).
+//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). script_class<T>
+//     associates a C++ type with its Class; push(L, T{...}) creates a value of it, to<T> and
+//     check_object<T> read one.
+//  4. Nothing that can raise a Lua error may run while C++ objects with destructors are alive,
+//     because a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with
+//     metamethods, lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing
+//     raises errors only for lack of memory, and then leaks.)
+//  5. The doc has one or two sentences for the reader, then LuaCATS lines, then running examples.
+//     A field has `@type`; text after two spaces is prose, with the unit in brackets:
+// clang-format off
+//         Closes the fingers until contact stops them.
+//         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1: the hand's own pace
+//         @return table result  `moved`, `stops`
+//         > hand:autograsp().moved  --> true
+// clang-format on
+//     stdlib/signature/grammar.lua has the grammar of units, ranges, defaults and `@option` lines.
+//     `> code` without an arrow prepares the next one. `--> error: text` expects an error that
+//     contains text. Examples run with clench, world, hand (closed on the flask), flask, grasp and
+//     patch (of a fingertip with the flask as rubber). The tests run every one of them; `clench
+//     doc` writes docs/api from the same tables, and the REPL uses them for completion.
 #pragma once
 #include <lua.hpp>
 #include <span>

@@ -48,7 +48,7 @@ int push_equality(lua_State* L) {
 }
 
 /// The function of an Entry: pushes the result of a function or a lambda for the object, as
-/// {"position", getter<[](const Pose& x) { return x.position; }>, R"(...)"}
+///     {"position", getter<[](const Pose& x) { return x.position; }>, R"(...)"}
 template <auto of>
 inline constexpr lua_CFunction getter = guarded<push_field<of>>;
 
