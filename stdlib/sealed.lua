@@ -24,7 +24,7 @@ return function(name, contents, list)
       raise(("%s.%s cannot be set: %s"):format(name, key, how))
     end
     local near = type(key) == "string" and suggest(key, known) or ""
-    raise(("%s has no '%s' to set%s; a script keeps its values in variables of its own"):format(name, tostring(key), near))
+    raise(("%s has no '%s' to set%s; a script keeps its values in its own variables"):format(name, tostring(key), near))
   end
 
   if not getmetatable(contents) then

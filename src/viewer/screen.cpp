@@ -35,7 +35,7 @@ class Offscreen final : public Screen {
       const GlContext::Entered entered(context_);
       color_ = {}, framebuffer_ = {};
     } catch (const Error&) {
-      // without the context its objects are gone already
+      // without the context its objects no longer exist
     }
   }
 

@@ -1,4 +1,4 @@
-// Where a user interface is drawn: a framebuffer without a display, or a window.
+// Render target of a user interface: an offscreen framebuffer or a window.
 #pragma once
 #include <deque>
 #include <memory>
@@ -22,13 +22,13 @@ class Screen {
   virtual int height() const = 0;  ///< [pixels]
   /// Ratio of the monitor's resolution to 96 dpi.
   virtual double scale() const { return 1; }
-  /// Shows what was drawn; while entered.
+  /// Shows the drawn frame; call while entered.
   virtual void present() {}
   /// Appends events of the window system, without waiting.
   virtual void poll(std::deque<InputEvent>&) {}
   /// Title of the window.
   virtual void set_title(const std::string&) {}
-  /// The pixels drawn last; while entered.
+  /// The pixels drawn last; call while entered.
   Picture read();
 };
 

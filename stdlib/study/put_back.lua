@@ -6,11 +6,11 @@ local put_back = {}
 --- Does a grasp stand in a world? Those of planners and files do not.
 function put_back.stands(grasp) return (pcall(function() return grasp.hand end)) end
 
---- Refuses a grasp that stands in no world.
+--- Rejects a grasp that belongs to no world.
 ---@param subject string  "study.compare: grasps[1]"
 function put_back.check_stands(subject, grasp)
   if put_back.stands(grasp) then return end
-  raise(subject .. ": the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does")
+  raise(subject .. ": the grasp belongs to no world, like those of planners and files; grasp:apply(world) gives one that does")
 end
 
 local same = 1e-6  -- of meters and radians: as the engine compares a grasp with its world

@@ -135,7 +135,7 @@ test("pictures become an animated GIF", function(t)
   clench.files.save_gif("build/test.gif", pictures, {rate = 30})
   t.equal(gif_delays "build/test.gif", "3 4")
   t.fails(function() clench.files.save_gif("build/test.gif", {pictures[1], clench.chart {series = {{name = "a", values = {1}}}, width = 300}.picture}) end,
-          "picture 2: expected 200 x 150 pixels as the first, got 300 x")
+          "picture 2: expected 200 x 150 pixels as in the first, got 300 x")
   t.fails(function() clench.files.save_gif("build/test.gif", {3}) end, "pictures[1]: expected a picture, got 3")
 end)
 

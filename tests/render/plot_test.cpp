@@ -176,7 +176,8 @@ TEST_CASE("a logarithmic axis refuses what it cannot show") {
   plot.y.range.reset();
   plot.series = {{.kind = PlotKind::bars, .x = {0, 1}, .y = {2}}};
   CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
-                       "plot: y_scale: bars stand on 0, which a logarithmic axis has not", Error);
+                       "plot: y_scale: bars begin at 0, which a logarithmic axis does not include",
+                       Error);
   plot.y.logarithmic = false, plot.x.logarithmic = true;
   CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
                        "plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got 0",

@@ -9,7 +9,7 @@ namespace clench {
 class Gui;
 
 struct UiHandle {
-  std::shared_ptr<Gui> gui;  ///< null once it was closed
+  std::shared_ptr<Gui> gui;  ///< null after it is closed
   bool in_frame = false;
 };
 
