@@ -1,4 +1,4 @@
-// What is saved of grasps reads back, or nothing is saved.
+// Every saved list of grasps reads back; data that would not read back are not saved.
 #include <doctest/doctest.h>
 
 #include <algorithm>
