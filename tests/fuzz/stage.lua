@@ -1,4 +1,4 @@
--- What the examples of the API's pages see: the globals of a script, and the parts of a stage that they ask for by name.
+-- Globals of the examples of the API's pages: the globals of a script, and the parts of a stage that the examples use by name.
 
 -- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each example that asks
 local closed
