@@ -1,4 +1,4 @@
-// Every saved list of grasps reads back; data that would not read back are not saved.
+// Saved grasps read back; grasps that would not read back are not saved.
 #include <doctest/doctest.h>
 
 #include <algorithm>
