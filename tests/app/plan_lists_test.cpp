@@ -13,7 +13,7 @@ TEST_CASE(
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
   CHECK(has(end_by("KILL", command + " --threads 1 --count 12", out), "code 137"));
-  // of a line that is cut the rest is read, with a warning
+  // the rest of a truncated line is read, with a warning
   const std::string text = text_of(out);
   folder.file("a.jsonl", text.substr(0, text.size() - 100));
   CHECK(has(epsilons(out) + run("-e 'clench.grasps(\"" + out + "\")'").out,

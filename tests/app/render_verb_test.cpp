@@ -7,7 +7,7 @@ using namespace clench::test;
 
 namespace {
 
-// width and height in the head of a PNG file; {0, 0} if it is none
+// width and height in the head of a PNG file; {0, 0} for other files
 std::pair<int, int> size_of_png(const std::string& path) {
   const std::string bytes = text_of(path);
   if (bytes.size() < 24 || !bytes.starts_with("\x89PNG")) return {0, 0};

@@ -148,7 +148,7 @@ TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line
       "clench.loop.spawn(function() clench.loop.wait(job) print(job:result() * 11) end)");
   terminal.wait_for("121");
   terminal.wait_for("> ");
-  // Ctrl-C ends what runs in the loop, and the session goes on
+  // Ctrl-C ends the code that runs in the loop, and the session continues
   terminal.enter("clench.loop.spawn(function() print('bu' .. 'sy') while true do end end)");
   terminal.wait_for("busy");
   terminal.type("\x03");
@@ -194,7 +194,7 @@ TEST_CASE("Tab completes files, bodies, measures and options") {
   terminal.enter("#'" + (home / "so") + "\twh\tlo\t'");
   terminal.wait_for(fmt::format("{}\r\n", (home / "some/where/long_name.lua").size()));
   terminal.wait_for("> ");
-  // of the catalog, from any folder
+  // files of the catalog, from any folder
   terminal.enter("#'worlds/dlr_\t'");
   terminal.wait_for(fmt::format("{}\r\n", std::string("worlds/dlr_flask.wld").size()));
 }

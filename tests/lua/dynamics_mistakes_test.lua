@@ -1,4 +1,4 @@
--- What simulation makes of worlds that nobody means: a sentence, or steps that say in the report what they did.
+-- Simulation of worlds with mistakes: an error sentence, or steps that the report describes.
 local clench = require "clench"
 local test = require "test"
 
@@ -25,7 +25,7 @@ local function all_finite(t, world)
   end
 end
 
--- each is told once in a script: first of all tests
+-- each warning is logged once per script: so this test is the first
 test("overlaps, and demands that contradict each other, are told after a run, once", function(t)
   local world = room()
   add(world, 0, 0.045)

@@ -1,4 +1,4 @@
--- What a run leaves: logs, states on a stack, films.
+-- Records of a run: logs, states on a stack, films.
 local test, clench = require "test", require "clench"
 local find_three = require "clench.page.three"
 
@@ -121,7 +121,7 @@ local function file_bytes(path)
   return file:read "a"
 end
 
--- of the frames of an animated GIF, in hundredths of a second
+-- delays of the frames of an animated GIF, in hundredths of a second
 local function gif_delays(path)
   local bytes, delays = file_bytes(path), {}
   assert(bytes:sub(1, 6) == "GIF89a")

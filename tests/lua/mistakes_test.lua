@@ -1,4 +1,4 @@
--- What a newcomer gets wrong and the engine could take as it stands: one warning, or one sentence that says what was meant.
+-- Mistakes of newcomers that the engine could accept silently: one warning, or one sentence that suggests the intended call.
 local clench = require "clench"
 local test = require "test"
 
@@ -131,7 +131,7 @@ test("an assignment to a part of a copied table is an error that says what to wr
   t.fails(function() hand.dofs[2] = hand.dofs[2] + 0.1 end, "hand.dofs is a copy")
   t.fails(function() load "local hand = ...; hand.dofs[1] = 1" (hand) end, "hand.dofs is a copy")
   t.equal(hand.dofs, before)
-  -- what only looks like it
+  -- values that only look like a mistake
   local own, list = {dofs = {}}, hand.dofs
   own.dofs[2], list[2] = hand.dofs[1], 0.3
   own.dofs[2] = hand.dofs[2]

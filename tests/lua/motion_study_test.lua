@@ -358,7 +358,7 @@ test("a study leaves joints free that no motor drives, and keeps gains that a sc
   local hand = world:add_robot(path)
   local block = world:add_object(clench.shapes.box {0.06, 0.02, 0.04}, {mass = 0.1, pose = {xyz = {0, 0, 0.08}}})
   hand:set_dofs {0.01499, 0.01499}
-  -- the free finger gives way
+  -- the free finger yields
   t.equal(clench.study.shake({hand = hand, object = block, seconds = 0.2, settle = 0.2}).survived, false)
   hand.gains = {{kp = 7, kd = 0.7}, {kp = 8, kd = 0.8}}
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"

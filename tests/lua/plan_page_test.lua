@@ -109,7 +109,7 @@ test("a mesh that makes the page large is told", function(t)
   t.ok(html:find('"wide":true', 1, true))
 end)
 
--- what a browser makes of a page, as text; nil where there is none
+-- the page as a browser shows it, as text; nil if there is no browser
 local function in_browser(html)
   local found = io.popen "command -v chromium"
   local chromium = found:read "l"
@@ -124,7 +124,7 @@ local function in_browser(html)
   return text
 end
 
--- what a reader does: the load's column is clicked, the second grasp is chosen, and the mouse drags the view
+-- actions of a reader: the load's column is clicked, the second grasp is chosen, and the mouse drags the view
 local reader = [==[<script>
   const tell = document.documentElement.dataset, rows = () => [...document.querySelectorAll("tbody tr")].map(r => r.dataset.grasp).join();
   document.querySelectorAll("th[data-column]")[2].click();

@@ -1,4 +1,4 @@
--- Where the primitive planner takes its primitives from when a script gives none.
+-- Sources of the primitives of the primitive planner if a script gives none.
 local clench = require "clench"
 local test = require "test"
 local primitive_source = require "clench.plan.primitive_source"

@@ -29,7 +29,7 @@ test("every command is described: label, parameters with a text, and a shortcut 
       t.equal(shortcuts[command.shortcut], nil, name)
       shortcuts[command.shortcut] = name
     end
-    -- what changes the world is logged, by lines of its own or by its result
+    -- commands that change the world are logged, by their own lines or by their result
     t.ok(command.reads or command.script or name == "grasp.apply", name)
   end
   t.equal(shortcuts["ctrl+g"], "grasp.autograsp")

@@ -60,7 +60,7 @@ test("the history is a script of plain calls that makes the same world", functio
   t.ok(script:find('clench.load("worlds/barrett_mug.wld", {root = "."})', 1, true), script)
   t.ok(script:find('world:robot("barrett"):autograsp()', 1, true), script)
   t.equal(replayed(session):hash(), session.world:hash())
-  -- what is undone is not in it
+  -- undone commands are not in it
   session:undo()
   session:undo()
   t.ok(not session:script():find "run")

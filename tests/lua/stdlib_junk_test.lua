@@ -17,7 +17,7 @@ local junk = {
   {{1, 2, 3}, 5}, {{1, 2, 3}, {}}, {{1, 2, 3}, {x = 1}}, {{1, 2, 3}, "x"}, {hand, object}, {world, 5}, {5, 5, 5, 5, 5, 5},
 }
 
--- what is wrong with an error; nil when it is a sentence of ours
+-- fault of an error; nil if it is a sentence of ours
 local function fault(problem)
   local text = tostring(problem)
   if type(problem) == "table" and problem.kind == "internal" then return text end

@@ -162,7 +162,7 @@ TEST_CASE(
   CHECK(holds(numbers(1e-30, 1e30), {"1", "1e10"}));
   // large and small ones alike
   CHECK(holds(numbers(1e-4, 1e4), {"1e-4", "1", "1e4"}));
-  // of less than a decade all digits
+  // ranges of less than a decade show all digits
   CHECK(holds(numbers(0.2, 0.7), {"0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}));
 }
 

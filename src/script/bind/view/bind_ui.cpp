@@ -220,7 +220,7 @@ static const Entry ui_fields[] = {
     {"size", guarded<get_size>, R"(
 Width and height.
 @type number[] [pixels]
-> ui.size  --> {64, 48})"},
+> ui.size  --> {320.0, 240.0})"},
     {"items", guarded<get_items>, R"(
 Widgets of the last frame.
 @type table[]  {label, kind, window, x, y, width, height, enabled}  rectangles [pixels]
@@ -257,7 +257,7 @@ static const Entry ui_methods[] = {
 Describes and draws one frame.
 @param dt number [s]  time since the last frame
 @param draw fun(ui: ui)  describes the widgets of the frame
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text "hello" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "hello" end) end)
 > ui:frame(0.01, function() error "no" end)  --> error: no)"},
     {"show", guarded<ui_show>, R"(
 Draws a world behind the panels, as a draft of clench.render.
@@ -269,7 +269,7 @@ Draws a world behind the panels, as a draft of clench.render.
 The pixels of the last frame.
 @return picture
 > ui:frame(0.01, function() end)
-> ui:read()  --> picture of 64 x 48 pixels)"},
+> ui:read()  --> picture of 320 x 240 pixels)"},
     {"hash", guarded<ui_hash>, R"(
 Hash of the pixels of the last frame.
 @return string
@@ -299,7 +299,7 @@ Answers a request to close the window: it stays open.
 Sets the title of the window.
 @param title string  new title
 > ui:set_title "Clench"
-> ui.size[1]  --> 64.0)"},
+> ui.size[1]  --> 320.0)"},
     {"set_style", guarded<ui_set_style>, R"(
 Sets theme and sizes from the next frame on.
 @param options {dark?: boolean, scale?: number, font_size?: number}  font_size [pixels]

@@ -140,7 +140,7 @@ A part of a window that scrolls by itself.
 @param id string  unique name
 @param options {width?: number, height?: number, border?: boolean}  0: all that is left; below 0: less than that
 @param draw fun(ui: ui)  describes the contents
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:child("part", {height = 20}, function() inside = true end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:child("part", {height = 20}, function() inside = true end) end) end)
 > inside  --> true)"},
     {"menu_bar", guarded<ui_menu_bar>, R"(
 The menu bar at the top of the screen.
@@ -158,52 +158,52 @@ An entry of a menu.
 @param label string  text
 @param options? {shortcut?: string, selected?: boolean, enabled?: boolean}  shortcut: shown beside the text
 @return boolean clicked
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() clicked = ui:menu_item("Open", {shortcut = "Ctrl+O"}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:menu_item("Open", {shortcut = "Ctrl+O"}) end) end)
 > clicked  --> false)"},
     {"popup", guarded<ui_popup>, R"(
 A popup that open_popup opens.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the contents
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:popup("more", function() shown = true end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:popup("more", function() shown = true end) end) end)
 > shown  --> nil)"},
     {"context_menu", guarded<ui_context_menu>, R"(
 A popup that a right click on the last widget opens.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the contents
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:button "go" ui:context_menu("more", function() shown = true end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:button "go" ui:context_menu("more", function() shown = true end) end) end)
 > shown  --> nil)"},
     {"open_popup", guarded<ui_open_popup>, R"(
 Opens a popup.
 @param id string  its name
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:open_popup "more" ui:popup("more", function() shown = true end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() shown = true end) end) end)
 > shown  --> true)"},
     {"close_popup", guarded<ui_close_popup>, R"(
 Closes the popup that is being described.
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:open_popup "more" ui:popup("more", function() ui:close_popup() end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() ui:close_popup() end) end) end)
 > #ui.items  --> 1)"},
     {"disabled", guarded<ui_disabled>, R"(
 Widgets that are gray if `disabled` is true.
 @param disabled boolean  are they?
 @param draw fun(ui: ui)  describes the widgets
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:disabled(true, function() ui:button "go" end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:disabled(true, function() ui:button "go" end) end) end)
 > ui.items[#ui.items].enabled  --> false)"},
     {"id", guarded<ui_id>, R"(
 Widgets whose labels may equal others'.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the widgets
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:id("a", function() ui:button "go" end) ui:id("b", function() ui:button "go" end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:id("a", function() ui:button "go" end) ui:id("b", function() ui:button "go" end) end) end)
 > #ui.items  --> 3)"},
     {"group", guarded<ui_group>, R"(
 Widgets that are laid out as one.
 @param draw fun(ui: ui)  describes the widgets
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:group(function() ui:text "a" ui:text "b" end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:group(function() ui:text "a" ui:text "b" end) end) end)
 > #ui.items  --> 3)"},
     {"tabs", guarded<ui_tabs>, R"(
 Tabs.
 @param id string  unique name
 @param names string[]  of the tabs
 @param draw fun(ui: ui, name: string)  describes the open one
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:tabs("t", {"one", "two"}, function(ui, name) chosen = name end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:tabs("t", {"one", "two"}, function(ui, name) chosen = name end) end) end)
 > chosen  --> one)"},
     {"tree", guarded<ui_tree>, R"(
 A node of a tree.
@@ -212,7 +212,7 @@ A node of a tree.
 @param draw? fun(ui: ui)  describes what is below it
 @return boolean clicked
 @return boolean double_clicked
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() clicked = ui:tree("node", {leaf = true}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:tree("node", {leaf = true}) end) end)
 > clicked  --> false)"},
     {"collapsing", guarded<ui_collapsing>, R"(
 A section with a title that folds it.
@@ -220,7 +220,7 @@ A section with a title that folds it.
 @param open boolean  at first
 @param draw fun(ui: ui)  describes the contents
 @return boolean open
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() open = ui:collapsing("more", true, function() end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() open = ui:collapsing("more", true, function() end) end) end)
 > open  --> true)"},
     {"table", guarded<ui_table>, R"(
 A table, filled cell by cell after next_column.
@@ -228,11 +228,11 @@ A table, filled cell by cell after next_column.
 @param columns string[]  titles
 @param options {height?: number}  0: as high as its rows [pixels]
 @param draw fun(ui: ui)  describes the cells
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:table("t", {"a", "b"}, {}, function() ui:next_column() ui:text "1" end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() ui:next_column() ui:text "1" end) end) end)
 > ui:table("t", {"a"}, {}, print)  --> error: expected a call within ui:frame)"},
     {"next_column", guarded<ui_next_column>, R"(
 Goes on to the next cell of a table.
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:table("t", {"a", "b"}, {}, function() for i = 1, 4 do ui:next_column() ui:text(tostring(i)) end end) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() for i = 1, 4 do ui:next_column() ui:text(tostring(i)) end end) end) end)
 > ui:next_column()  --> error: expected a call within ui:frame)"},
 };
 

@@ -229,14 +229,14 @@ static const Entry ui_widget_methods[] = {
 A text.
 @param text string  UTF-8
 @param options? {color?: number[], wrap?: boolean}  color: red, green, blue and perhaps opacity, 0 to 1
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text("hello", {color = {1, 0, 0}}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text("hello", {color = {1, 0, 0}}) end) end)
 > ui.items[#ui.items].label  --> hello)"},
     {"button", guarded<ui_button>, R"(
 A button.
 @param label string  text
 @param options? {width?: number, height?: number, selected?: boolean}  sizes [pixels]
 @return boolean clicked
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() clicked = ui:button "go" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:button "go" end) end)
 > clicked  --> false)"},
     {"checkbox", guarded<ui_checkbox>, R"(
 A check box.
@@ -244,21 +244,21 @@ A check box.
 @param value boolean  is it checked?
 @return boolean value
 @return boolean changed
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() value, changed = ui:checkbox("on", true) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() value, changed = ui:checkbox("on", true) end) end)
 > value, changed  --> true, false)"},
     {"radio", guarded<ui_radio>, R"(
 A radio button.
 @param label string  text
 @param selected boolean  is it selected?
 @return boolean clicked
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() clicked = ui:radio("a", true) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:radio("a", true) end) end)
 > clicked  --> false)"},
     {"selectable", guarded<ui_selectable>, R"(
 A line that can be selected.
 @param label string  text
 @param selected boolean  is it selected?
 @return boolean clicked
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() clicked = ui:selectable("a", false) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:selectable("a", false) end) end)
 > clicked  --> false)"},
     {"slider", guarded<ui_slider>, R"(
 A slider.
@@ -268,7 +268,7 @@ A slider.
 @return number value
 @return boolean changed
 @return boolean finished  was it released?
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() value, changed = ui:slider("x", 0.5, {min = 0, max = 1}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() value, changed = ui:slider("x", 0.5, {min = 0, max = 1}) end) end)
 > value, changed  --> 0.5, false)"},
     {"drag", guarded<ui_drag>, R"(
 A number that is dragged, or typed after a double click.
@@ -278,7 +278,7 @@ A number that is dragged, or typed after a double click.
 @return number value
 @return boolean changed
 @return boolean finished
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() value, changed = ui:drag("x", 0.5, {speed = 0.1}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() value, changed = ui:drag("x", 0.5, {speed = 0.1}) end) end)
 > value, changed  --> 0.5, false)"},
     {"number", guarded<ui_number>, R"(
 A number that is typed.
@@ -288,7 +288,7 @@ A number that is typed.
 @return number value
 @return boolean changed
 @return boolean finished
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() value, changed = ui:number("x", 2) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() value, changed = ui:number("x", 2) end) end)
 > value, changed  --> 2.0, false)"},
     {"text_input", guarded<ui_text_input>, R"(
 A text that is typed.
@@ -298,7 +298,7 @@ A text that is typed.
 @return string value
 @return boolean changed
 @return boolean finished
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() value, changed = ui:text_input("name", "mug") end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() value, changed = ui:text_input("name", "mug") end) end)
 > value, changed  --> mug, false)"},
     {"combo", guarded<ui_combo>, R"(
 A list of which one is chosen.
@@ -307,21 +307,21 @@ A list of which one is chosen.
 @param choices string[]  texts
 @return integer index
 @return boolean changed
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() index, changed = ui:combo("c", 2, {"a", "b"}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() index, changed = ui:combo("c", 2, {"a", "b"}) end) end)
 > index, changed  --> 2, false)"},
     {"progress", guarded<ui_progress>, R"(
 A bar of progress.
 @param fraction number [0 to 1]  part that is done
 @param text? string  on the bar
 @param width? number [pixels]  all that is left by default
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:progress(0.5, "half") end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:progress(0.5, "half") end) end)
 > ui.items[#ui.items].label  --> half)"},
     {"plot", guarded<ui_plot>, R"(
 A curve of numbers.
 @param label string  text beside it
 @param values number[]  at equal distances
 @param options? {min?: number, max?: number, height?: number}  height [pixels]
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:plot("p", {1, 2, 3}, {height = 30}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:plot("p", {1, 2, 3}, {height = 30}) end) end)
 > ui.items[#ui.items].kind  --> plot)"},
     {"image", guarded<ui_image>, R"(
 A picture.
@@ -330,64 +330,64 @@ A picture.
 @param options? {width?: number, height?: number, changed?: boolean}  sizes [pixels]; changed: are its pixels others than in the last frame?
 @return boolean clicked
 > picture = clench.render(world, {size = {32, 32}, quality = "draft"})
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() clicked = ui:image("i", picture) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:image("i", picture) end) end)
 > clicked  --> false)"},
     {"separator", guarded<ui_separator>, R"(
 A line between widgets.
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:separator() ui:text "below" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:separator() ui:text "below" end) end)
 > ui.items[#ui.items].label  --> below)"},
     {"spacing", guarded<ui_spacing>, R"(
 Space between widgets.
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:spacing() ui:text "below" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:spacing() ui:text "below" end) end)
 > ui.items[#ui.items].label  --> below)"},
     {"same_line", guarded<ui_same_line>, R"(
 The next widget stays on the line of the last one.
 @param spacing? number [pixels]  between them
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text "a" ui:same_line() ui:text "b" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" ui:same_line() ui:text "b" end) end)
 > ui.items[2].y == ui.items[3].y  --> true)"},
     {"width", guarded<ui_width>, R"(
 Width of the next widget.
 @param width number [pixels]  below 0: what is left, less that
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:width(100) ui:slider("x", 0, {}) end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:width(100) ui:slider("x", 0, {}) end) end)
 > ui.items[#ui.items].kind  --> slider)"},
     {"indent", guarded<ui_indent>, R"(
 Moves the following widgets to the right.
 @param width number [pixels]  below 0: back
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text "a" ui:indent(10) ui:text "b" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" ui:indent(10) ui:text "b" end) end)
 > ui.items[3].x - ui.items[2].x  --> 10.0)"},
     {"tooltip", guarded<ui_tooltip>, R"(
 A text that appears while the mouse is over the last widget.
 @param text string  UTF-8
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text "a" ui:tooltip "more" end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" ui:tooltip "more" end) end)
 > ui.items[#ui.items].label  --> a)"},
     {"focus", guarded<ui_focus>, R"(
 Gives the keyboard to the next widget.
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:focus() ui:text_input("t", "") end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:focus() ui:text_input("t", "") end) end)
 > ui.items[#ui.items].kind  --> input)"},
     {"scroll_to_end", guarded<ui_scroll_to_end>, R"(
 Scrolls to the last widget.
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text "a" ui:scroll_to_end() end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" ui:scroll_to_end() end) end)
 > ui.items[#ui.items].label  --> a)"},
     {"hovered", guarded<ui_hovered>, R"(
 Is the mouse over the last widget?
 @return boolean
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:text "a" over = ui:hovered() end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" over = ui:hovered() end) end)
 > over  --> false)"},
     {"active", guarded<ui_active>, R"(
 Is the last widget held or edited?
 @return boolean
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:button "a" held = ui:active() end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:button "a" held = ui:active() end) end)
 > held  --> false)"},
     {"available", guarded<ui_available>, R"(
 Space that is left in the container.
 @return number width
 @return number height
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() width, height = ui:available() end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() width, height = ui:available() end) end)
 > width > 0  --> true)"},
     {"rect", guarded<ui_rect>, R"(
 Rectangle of the last widget.
 @return table  {x, y, width, height} [pixels]
-> ui:frame(0.01, function(ui) ui:window("w", {}, function() ui:button "a" rect = ui:rect() end) end)
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:button "a" rect = ui:rect() end) end)
 > rect.width > 0  --> true)"},
     {"line", guarded<ui_line>, R"(
 A line over the picture, under the panels.
