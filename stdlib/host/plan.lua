@@ -95,7 +95,7 @@ local function rescue()
   for _, grasp in ipairs(batch.sort(job.found)) do
     if is_new(grasp) then list:add(grasp) end
   end
-  job.run = {grasps = list, report = "interrupted: these are the grasps until then", is_rescued = true}
+  job.run = {grasps = list, report = "interrupted: the list has the grasps found until then", is_rescued = true}
 end
 
 --- Loads and searches.
@@ -128,8 +128,8 @@ local function print_table(rows)
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end
-  print "load: times the object's weight, in the worst direction; perturbed: least epsilon with the object displaced by 1 mm;"
-  print "azimuth, elevation: where the hand comes from [degrees]"
+  print "load: times the object's weight, in the worst direction; perturbed: minimum epsilon with the object displaced by 1 mm;"
+  print "azimuth, elevation: direction from which the hand comes [degrees]"
   if shaken then print "shaken: held in so many of six directions, when pulled by its weight in simulation" end
 end
 

@@ -1,13 +1,12 @@
---- What the planners that anneal share: running a chain in pieces until its steps or its time are over, and what its report
---- says.
+--- Shared by the planners that anneal: runs a chain in pieces until its steps or its time are used up, and collects the numbers for its report.
 local on_behalf_of = require "clench.on_behalf_of"
 local raise = require "clench.raise"
 local chain = {}
 
-local piece = 1000  -- steps between two looks at the clock
+local piece = 1000  -- steps between two checks of the time
 
 --- Runs a chain.
----@return table told  for plan.report
+---@return table told  statistics for plan.report
 function chain.run(job, search, steps, told)
   told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0, trace = {}}
   local bar <close> = clench.progress(steps, job.subject)
@@ -30,14 +29,14 @@ function chain.run(job, search, steps, told)
   return told
 end
 
---- the best and first energies, into what is told
+--- Stores the best energy and the energy of the start in the statistics.
 function chain.energies(told, search)
   told.first = told.first or search.first_energy
   local best = search.best[1] and search.best[1].energy or search.energy
   told.best = math.min(told.best or math.huge, best)
 end
 
---- how near the hand came to the object in the best states [m]: what a report of nothing tells
+--- Smallest distance of hand and object in the best states [m], for the report of a search without grasps.
 function chain.nearest(job, search, told)
   local here <close> = job.world:snapshot()
   local nearest = math.huge

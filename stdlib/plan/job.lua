@@ -57,7 +57,7 @@ function Job:rest()
   self:begin_deadline()
 end
 
--- From here on, calls of the engine fail as by Ctrl-C once `seconds` have passed.
+-- Starts the deadline: calls of the engine fail as by Ctrl-C once `seconds` have passed.
 function Job:begin_deadline()
   self.deadline = self.seconds and deadline(self.began + self.seconds - clench.clock())
 end
@@ -80,7 +80,7 @@ function Job:in_time(work)
   if not (over and is_timeout(result)) then error(result, 0) end
 end
 
---- Called between two pieces of work: false once the time has run out or Ctrl-C was pressed.
+--- Called between two pieces of work: returns false once the time is over or Ctrl-C was pressed.
 function Job:goes_on()
   if self.in_loop and not self.stopped then self:rest() end
   return not self.stopped and self:has_time()
@@ -94,18 +94,18 @@ function Job:prepare(make, options)
   return self:search_in_time(function() return make(self, options) end)
 end
 
---- The sentence reported if the time ran out before the first candidate; nil: it did not.
+--- The message if the time ended before the first candidate; nil: it did not.
 function Job:late_start()
   if self.stopped or self:has_time() then return end
-  return ("the search ended before its first candidate: for this hand and object its start takes longer than the %.6g s that were given; allow more"):format(self.seconds)
+  return ("the search ended before its first candidate: its start takes longer than the limit of %.6g s with this hand and object; increase the limit"):format(self.seconds)
 end
 
-local patience = 0.25  -- half of the time that a script has left after Ctrl-C [s]
+local patience = 0.25  -- half of the time that a script may run on after Ctrl-C [s]
 
 --- Is there time left to evaluate the grasps found before Ctrl-C?
 function Job:has_patience() return not self.stopped or clench.clock() - self.stopped_at < patience end
 
--- Time left for closing the hand from states that were found [s]; nil: unlimited
+-- Time left to close the hand from the states that were found [s]; nil: unlimited
 function Job:time_to_close()
   if self.stopped then return self.stopped_at + patience - clench.clock() end
   return self.seconds and self.began + 1.1 * self.seconds + 1 - clench.clock()
@@ -124,7 +124,7 @@ function Job:interruptible(search)
   error(result, 0)
 end
 
---- As interruptible; the deadline ends the search, too.
+--- As interruptible; the deadline also ends the search.
 ---@return any result  of the search; nil if it was ended
 function Job:search_in_time(search)
   return self:interruptible(function() return self:in_time(search) end)
@@ -151,12 +151,12 @@ end
 
 function Job:elapsed() return clench.clock() - self.began end
 
---- Restores the given world where the planner moved it.
+--- Restores the given world if the planner moved it.
 function Job:finish()
   if self.before then self.given_world:restore(self.before) end
 end
 
--- Checks the options once, before the search. The number of normal forces is known only once there is a grasp.
+-- Checks the options once, before the search, except a list of normal forces: its length depends on the grasp.
 local function check_grasp_options(job)
   local silence <close> = quiet()
   local options = {}
@@ -183,8 +183,8 @@ local function freed(world, name)
   return free
 end
 
--- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway and supports of an object; false if there
--- are no such pairs.
+-- Names of the pairs in which a body or robot overlaps others, except robots that move in the search and supports of an object; false if there are no such
+-- pairs.
 local function overlaps(world, thing, moved, stands_on)
   local names = {}
   for _, pair in ipairs(world:colliding(thing)) do
@@ -201,7 +201,7 @@ local function warn_of_overlaps(subject, world, hand, object)
   local moved = {[hand.name] = true}
   local of_arm = hand.parent and overlaps(world, hand.parent, {})
   if of_arm then
-    clench.log.warning(script_line() .. ("%s: '%s' collides before anything moves, which is held against no grasp: %s"):format(
+    clench.log.warning(script_line() .. ("%s: '%s' collides before anything moves; grasps are not rejected for these collisions: %s"):format(
       subject, hand.parent.name, of_arm))
   end
   if hand.parent then moved[hand.parent.name] = true end
@@ -209,7 +209,7 @@ local function warn_of_overlaps(subject, world, hand, object)
   for _, body in ipairs(supports.of(hand, object).touched) do stands_on[body.name] = true end
   local of_object = overlaps(world, object, moved, stands_on)
   if of_object then
-    clench.log.warning(script_line() .. ("%s: the object overlaps something before anything moves, which is held against no grasp: %s"):format(
+    clench.log.warning(script_line() .. ("%s: the object overlaps other bodies before anything moves; grasps are not rejected for these overlaps: %s"):format(
       subject, of_object))
   end
 end

@@ -4,13 +4,13 @@ local new_run = require "clench.plan.run"
 local chain = require "clench.plan.chain"
 local closing = require "clench.plan.closing"
 
---- Annealing again and again: what a loop found is avoided by those that follow, so that they look elsewhere.
----@param options table  the hand, the object and how the search goes
+--- Repeated annealing: each loop avoids the states that earlier loops found, so that it searches elsewhere.
+---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
 ---@option energy? string|energy|function = "guided_potential_quality"  objective
----@option steps? integer [1 to 1000000000] = 70000  steps of annealing in all
+---@option steps? integer [1 to 1000000000] = 70000  total number of annealing steps
 ---@option loop_steps? integer [1 to 1000000000] = 5000  steps of each loop
----@option max_energy? number = 10  states above it are not kept
+---@option max_energy? number = 10  states with higher energies are not kept
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
 ---@like clench.plan.anneal  seconds, seed, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables,
 ---  collisions, max_tries, contacts, touch, threads, grasp, world, max_effort

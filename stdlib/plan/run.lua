@@ -1,4 +1,4 @@
---- What a planner gives: grasps, best first, and a report.
+--- The result of a planner: grasps, best first, and a report.
 local assumptions = require "clench.plan.assumptions"
 local class = require "clench.class"
 local report = require "clench.plan.report"
@@ -10,9 +10,9 @@ local Run = class "run"
 function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring(self.report)) end
 
 ---@param job table
----@param found grasp[]  in the order in which they count
+---@param found grasp[]  best first
 ---@param told table  of plan.report
----@param options {count?: integer, distance?: number, spread?: boolean}  spread: of more than `count` grasps, those from different sides are kept first
+---@param options {count?: integer, distance?: number, spread?: boolean}  spread: if there are more than `count` grasps, those from different sides are preferred
 return function(job, found, told, options)
   told.out_of_reach = 0
   if job.arm then found, told.out_of_reach = reach.filter(job, found) end

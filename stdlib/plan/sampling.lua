@@ -1,4 +1,4 @@
---- What plan.sample and plan.random share: random starts, tried over threads.
+--- Shared by plan.sample and plan.random: random starts, tried in several threads.
 local assumptions = require "clench.plan.assumptions"
 local diagnosis = require "clench.plan.diagnosis"
 local drives = require "clench.drives"
@@ -11,7 +11,7 @@ local report = require "clench.plan.report"
 local script_line = require "clench.script_line"
 local starts = require "clench.plan.starts"
 
-local diagnosis_after = 3   -- a search that has found nothing by then is diagnosed [s]
+local diagnosis_after = 3   -- a search without grasps after this time is diagnosed [s]
 local max_diagnosis_time = 1  -- [s]
 
 local function diagnose(job, own, next_state, assumed)
@@ -19,7 +19,7 @@ local function diagnose(job, own, next_state, assumed)
   return diagnosis.text(diagnosis.of(job, next_state, own, seconds), assumed)
 end
 
--- Returns a function that diagnoses the search once if it has found nothing, and returns the result as a hint.
+-- Returns a function that diagnoses the search once if it has found no grasps, and returns the result as a hint.
 local function watch(job, own, next_state, assumed)
   return function(found)
     if own.diagnosis or found > 0 or not own.verify or job:elapsed() < diagnosis_after then return nil end
