@@ -73,7 +73,7 @@ test("a faulty description is refused with its fault", function(t)
   t.fails(function() signature.parse "@param o table\n@option a.b? number" end, "there is no option a before it")
   t.fails(function() signature.parse "@param o table\n@option a? number\n@option a? number" end, "the option a is described twice")
   t.fails(function() signature.parse "@param x number [m, N]" end, "x has two units, 'm' and 'N'")
-  t.fails(function() signature.parse "@param x number = tall" end, "the default of x is no value: tall")
+  t.fails(function() signature.parse "@param x number = tall" end, "the default of x is not a value: tall")
   t.fails(function() signature.parse "@effect writes" end, "reads, edits, files or long, got 'writes'")
 end)
 
