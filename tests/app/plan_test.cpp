@@ -304,7 +304,7 @@ TEST_CASE("a hand without motors has no verified grasps, and plan names its join
         run("plan " + hand + " " + cube + " --unit m --mass 1e6 --count 1 --verify --max-effort 5");
     CHECK(result.code == 1);
     CHECK(has(result.out, "plan.sample: no grasp of"));
-    CHECK(has(result.out, "can be verified, for it exerts no force: no motor drives j1, j2"));
+    CHECK(has(result.out, "can be verified, as it exerts no force: no motor drives j1, j2"));
     CHECK(has(result.out, "0 candidates"));
     CHECK(has(result.out, "\nwhy: no grasp of"));
   }

@@ -129,7 +129,7 @@ test("a search that cannot verify names the joints without a motor", function(t)
     local hand, block = closed(t, hopeless[name])
     local run = clench.plan.sample {hand = hand, object = block, candidates = 10, refine = 0}
     t.equal(#run.grasps, 0)
-    t.ok(tostring(run.report):find("why: no grasp of grip can be verified, for it exerts no force: " .. words, 1, true), tostring(run.report))
+    t.ok(tostring(run.report):find("why: no grasp of grip can be verified, as it exerts no force: " .. words, 1, true), tostring(run.report))
   end
 end)
 

@@ -42,7 +42,7 @@ test("every command is described: label, parameters with a text, and a shortcut 
   t.equal(names["Grasp/EigenGrasp Planner…"], "planner.anneal")
   t.equal(names["File/Save As…"], "world.save_as")
   local function nothing() end
-  t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "ctrl+g"} end, "mine.a: shortcut: 'ctrl+g' is that of grasp.autograsp")
+  t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "ctrl+g"} end, "mine.a: shortcut: 'ctrl+g' belongs to grasp.autograsp")
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "Ctrl+J"} end, "mine.a: shortcut: expected a key in lower case")
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "shift+ctrl+j"} end, "in this order, got 'shift+ctrl+j'")
   session:command {name = "mine.a", run = nothing, shortcut = "ctrl++"}

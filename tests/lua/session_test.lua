@@ -133,7 +133,7 @@ test("a command that fails leaves the session as it was", function(t)
   session:command {name = "mine.closed", run = print, enabled = function() return false end}
   t.fails(function() session:run "mine.closed" end, "mine.closed: the command cannot run now")
   session:command {name = "mine.self", run = function(s) s:run "mine.self" end}
-  t.fails(function() session:run "mine.self" end, "mine.self: commands that run commands are more than 20 deep; does one run itself?")
+  t.fails(function() session:run "mine.self" end, "mine.self: commands that run commands are nested more than 20 deep; does one run itself?")
   t.equal(session.world:hash(), hash)
   session:run("body.mass", {body = "mug", mass = 0.3})  -- the depth is counted anew
   session:undo()

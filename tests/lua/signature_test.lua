@@ -87,7 +87,7 @@ test("functions, methods and fields are described by themselves or by name", fun
   t.equal(clench.describe "hand.pose".settable, true)
   t.equal(clench.describe "hand.bodies".settable, false)
   t.fails(function() clench.describe "clench.rda" end, "there is no entry 'clench.rda'; did you mean 'clench.rad'?")
-  t.fails(function() clench.describe(print) end, "no entry of clench is this function")
+  t.fails(function() clench.describe(print) end, "this function is not an entry of clench")
   t.fails(function() clench.describe(5) end, "expected a function or the name of an entry, got 5")
 end)
 
