@@ -125,7 +125,7 @@ local function of_robot(robot)
 end
 
 -- logs the sets for grasping that were generated instead of read from a file; nothing for a robot that never closes
-local function tell_generated(robot, subject)
+local function report_generated(robot, subject)
   local closes = false
   for _, info in ipairs(robot.dof_info) do closes = closes or info.default_velocity ~= 0 end
   if not closes then return end
@@ -152,7 +152,7 @@ local function overlaps_of(world)
 end
 
 local function of_world(world, path)
-  for _, robot in ipairs(world.robots) do tell_generated(robot, ("%s: '%s'"):format(file_name(path), robot.name)) end
+  for _, robot in ipairs(world.robots) do report_generated(robot, ("%s: '%s'"):format(file_name(path), robot.name)) end
   local objects, obstacles, robots, keyframes = {}, {}, {}, {}
   for i, body in ipairs(world.objects) do objects[i] = of_body(body) end
   for i, body in ipairs(world.obstacles) do obstacles[i] = of_body(body) end
@@ -256,7 +256,7 @@ local readers = {
   end,
   robot = function(path, options)
     local robot = clench.world():add_robot(path, options)
-    tell_generated(robot, file_name(path))
+    report_generated(robot, file_name(path))
     return of_robot(robot)
   end,
   world = function(path, options) return of_world(clench.load(path, options), path) end,
@@ -318,8 +318,8 @@ function report.of(path, options)
     kind = "world"
   end
   -- a world in Lua reports faults of the files that it loads
-  local told = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
-  if told then ok, result = false, told end
+  local fault = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
+  if fault then ok, result = false, fault end
   return {file = path, kind = kind, parsed = ok and result or nil, inferred = heard.inferred, repaired = heard.repaired,
           ignored = heard.ignored, suspicious = heard.suspicious,
           error = not ok and (blamed(result) or error_text(result)) or nil}

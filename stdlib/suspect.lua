@@ -3,11 +3,11 @@ local script_line = require "clench.script_line"
 local suspect = {}
 
 local max_turn, max_distance = 2 * math.pi, 10
-local told = {}
+local warned = {}
 
 local function warn_once(kind, format, ...)
-  if told[kind] then return end
-  told[kind] = true
+  if warned[kind] then return end
+  warned[kind] = true
   clench.log.warning(script_line() .. format:format(...))
 end
 

@@ -1,5 +1,4 @@
---- Search paths of require for modules outside of the script's folder: those of LUA_PATH and LUA_CPATH, else Lua's defaults without the current folder, which
---- nobody has chosen.
+--- Search paths of require for modules outside of the folder of the script: those of LUA_PATH and LUA_CPATH, else the defaults of Lua without the current folder.
 local function without_current_folder(path)
   local kept = {}
   for template in path:gmatch "[^;]+" do

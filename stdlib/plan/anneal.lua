@@ -34,21 +34,21 @@ return function(options)
     job.schedule, job.best = read:checked "schedule", read:checked "best"
   end)
   local search = job:annealing {energy = job:energy_of(job.energy), seed = job.seed, schedule = job.schedule, best = job.best}
-  local told = chain.run(job, search, job.steps)
-  chain.energies(told, search)
-  told.planner = "plan.anneal"
+  local stats = chain.run(job, search, job.steps)
+  chain.energies(stats, search)
+  stats.planner = "plan.anneal"
 
   local found = {}
   job:interruptible(function()
     for _, state in ipairs(search.best) do
       if not job:has_patience() then break end
-      local grasp = job:close(job.hand, job.object, state, told)
+      local grasp = job:close(job.hand, job.object, state, stats)
       if grasp then
         found[#found + 1] = closing.note(grasp, "anneal", {energy = state.energy, step = state.step, seed = job.seed})
       end
     end
   end)
-  if #found == 0 and not job.stopped then chain.nearest(job, search, told) end
+  if #found == 0 and not job.stopped then chain.nearest(job, search, stats) end
   job:finish()
-  return new_run(job, found, told, {})
+  return new_run(job, found, stats, {})
 end

@@ -39,9 +39,9 @@ return function(options)
   if not opposition.thumb(job.hand) then
     require "clench.raise" "plan.antipodal: hand: expected one of two fingers or more"
   end
-  local told = {planner = "plan.antipodal"}
+  local stats = {planner = "plan.antipodal"}
   own.planner, own.kind = "antipodal", "antipodal"
-  local found = batch.try(job, told, job:prepare(starts.random, own), own)
+  local found = batch.try(job, stats, job:prepare(starts.random, own), own)
   job:finish()
-  return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
+  return new_run(job, batch.sort(found), stats, {count = own.count, distance = own.distance})
 end

@@ -59,7 +59,7 @@ function diagnosis.of(job, next_state, options, seconds)
   return counts
 end
 
---- The result of a diagnosis in a sentence; nil if no candidate was looked at.
+--- The result of a diagnosis in a sentence; nil if no candidate was examined.
 ---@param counts table  of diagnosis.of
 ---@param assumed table  of clench.plan.assumptions
 ---@return string?

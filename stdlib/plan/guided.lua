@@ -21,10 +21,10 @@ local function targets_of(state)
 end
 
 -- A new seed of the parent: its best state below the threshold that differs from all earlier seeds.
-local function take_seed(parent, told)
+local function take_seed(parent, stats)
   local best = parent.best[1]
   if best and best.energy < seed_energy then
-    told.seeds = told.seeds + 1
+    stats.seeds = stats.seeds + 1
     parent:avoid(best)
     parent:clear()
     parent:reset()
@@ -62,12 +62,12 @@ return function(options)
   -- without the volume, which is slowest to compute and has the least influence
   local energy_of_child = child_energy and job:energy_of(child_energy) or
                           clench.energy.strict_autograsp {hand = job.hand, object = job.object, volume_weight = 0}
-  local told = {planner = "plan.guided", seeds = 0, threshold = seed_energy, trace = {}, first = parent.first_energy, best = parent.energy}
+  local stats = {planner = "plan.guided", seeds = 0, threshold = seed_energy, trace = {}, first = parent.first_energy, best = parent.energy}
   local found, running, waiting = {}, {}, {}
 
   -- a child begins in a separate world; it is merged after the next piece of the parent's steps
   local function begin_child(seed)
-    local number = told.seeds
+    local number = stats.seeds
     local world = job.world:clone()
     local search = job:annealing {world = world, energy = energy_of_child, seed = job.seed + 7919 * number,
                                   schedule = "strict", targets = targets_of(seed), values = seed.values,
@@ -79,7 +79,7 @@ return function(options)
     local hand, object = child.world:robot(job.hand.name), child.world:body(job.object.name)
     for _, state in ipairs(child.search.best) do
       if state.energy < 0 then
-        local grasp = job:close(hand, object, state, told, 0.03)
+        local grasp = job:close(hand, object, state, stats, 0.03)
         if grasp and grasp.epsilon > 0 then
           found[#found + 1] = closing.note(grasp, "guided", {energy = state.energy, step = state.step, seed = job.seed, child = child.number})
         end
@@ -103,16 +103,16 @@ return function(options)
       if not taken then break end
       done = done + taken[1]
       bar:step(taken[1], ("%d grasps"):format(#found))
-      told.best = math.min(told.best, parent.best[1] and parent.best[1].energy or parent.energy)
-      told.trace[#told.trace + 1] = {done, told.best}
-      if #waiting < max_seeds then waiting[#waiting + 1] = take_seed(parent, told) end
+      stats.best = math.min(stats.best, parent.best[1] and parent.best[1].energy or parent.energy)
+      stats.trace[#stats.trace + 1] = {done, stats.best}
+      if #waiting < max_seeds then waiting[#waiting + 1] = take_seed(parent, stats) end
       if taken[1] < asked then break end
     end
   end)
   local counts = parent.counts
-  for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do told[name] = counts[name] end
+  for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do stats[name] = counts[name] end
   table.sort(found, function(a, b) return a.epsilon > b.epsilon end)
-  if #found == 0 and not job.stopped then chain.nearest(job, parent, told) end
+  if #found == 0 and not job.stopped then chain.nearest(job, parent, stats) end
   job:finish()
-  return new_run(job, found, told, {count = count, distance = 0.1})
+  return new_run(job, found, stats, {count = count, distance = 0.1})
 end

@@ -81,14 +81,14 @@ return function(options)
     end
     return value
   end
-  local told = {planner = "plan.list", candidates = 0, rejected = {}}
+  local stats = {planner = "plan.list", candidates = 0, rejected = {}}
   local found = {}
   job:search_in_time(function()
     for i, state in ipairs(states) do
       if not job:goes_on() then break end
-      told.candidates = told.candidates + 1
+      stats.candidates = stats.candidates + 1
       local value = energy_at(state)
-      local grasp = job:close(job.hand, job.object, state, told, approach_of(state, approach))
+      local grasp = job:close(job.hand, job.object, state, stats, approach_of(state, approach))
       if grasp then found[#found + 1] = closing.note(grasp, "list", {energy = value, number = i}) end
     end
   end)
@@ -97,5 +97,5 @@ return function(options)
     return a.info.number < b.info.number
   end)
   job:finish()
-  return new_run(job, found, told, {count = count, distance = 1e-6})
+  return new_run(job, found, stats, {count = count, distance = 1e-6})
 end

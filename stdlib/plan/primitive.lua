@@ -118,12 +118,12 @@ return function(options)
     if not at then return end
     return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
   end
-  local told = {planner = "plan.primitive", primitives = own.source}
+  local stats = {planner = "plan.primitive", primitives = own.source}
   if #list == 0 then
-    told.no_start = ("no primitive has a size that a hand can grasp: thumb and fingers span at most %g mm"):format(1000 * max_span)
+    stats.no_start = ("no primitive has a size that a hand can grasp: thumb and fingers span at most %g mm"):format(1000 * max_span)
   end
-  local found = batch.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
+  local found = batch.try(job, stats, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
                                                   approach = 1, back = {count = 20, length = 0.004}})
   job:finish()
-  return new_run(job, batch.sort(found), told, {distance = 1e-9})
+  return new_run(job, batch.sort(found), stats, {distance = 1e-9})
 end
