@@ -206,7 +206,7 @@ test("an open or inside-out mesh is told from a solid", function(t)
   first[1], first[2] = first[2], first[1]
   closed, why = shapes.closed(twisted)
   t.equal(closed, false)
-  t.ok(why:find "same way", why)
+  t.ok(why:find "same direction", why)
 end)
 
 test("sizes may be given by place or by name", function(t)
