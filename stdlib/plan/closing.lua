@@ -37,7 +37,7 @@ local function close_behind(hand, object, dofs, steps, options, jaws)
 end
 
 local at_once = {count = 0, length = 0}
-local one_side = "one side alone touched"
+local one_side = "only one side touched"
 
 -- as closing.close, without compliance of hand and object
 -- returns  the grasp, or the reason for its absence; the pose of the hand in the world where it began to close

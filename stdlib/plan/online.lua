@@ -93,7 +93,7 @@ end
 --- the hand. It moves nothing in the user's world.
 ---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
----@option energy? string|energy = "contact"  objective, not a function of the script
+---@option energy? string|energy = "contact"  objective; functions of the script are not allowed
 ---@like clench.plan.anneal  seed, threads, posture, semi_axes, values, targets, fixed, variables, collisions, max_tries,
 ---  contacts, touch, grasp, world, max_effort
 ---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs for the further approach, `tested`, `found`

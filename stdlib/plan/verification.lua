@@ -224,7 +224,7 @@ function verification.check(hand, object, grasp, options)
     return nil, verification.too_slippery
   end
   if options.lift > 0 and not verification.can_be_lifted(hand, object, options.lift) then
-    return nil, "in the way of the lift"
+    return nil, "in collision when lifted"
   end
   local epsilon = verification.perturbed_epsilon(hand, object, grasp, options.displacement, options.min_epsilon, options.grasp)
   if epsilon < options.min_epsilon then return nil, "lost when the object is displaced" end

@@ -6,7 +6,7 @@ local script = require "clench.session.script"
 local playback = {}
 
 local budget = 0.012  -- time for steps in one turn of the loop [s]
-local max_lag = 0.1   -- if the simulation lags by more than this, the excess is skipped [s]
+local max_lag = 0.1   -- a longer lag of the simulation is skipped [s]
 local pause = 0.004   -- pause between turns [s]
 
 function playback.is_on(session) return session.playing ~= nil end

@@ -3,7 +3,7 @@ local read_options = require "clench.shapes.options"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
---- A rod with hemispherical ends along z, centered on the origin, or between the centers of its ends. With two radii it is the hull of two spheres.
+--- A rod with spherical ends along z, centered on the origin, or between the centers of its ends. With two radii it is the hull of two spheres.
 ---@param options table  {radius, length, ...} or by name
 ---@option radius number [m, > 0]  radius of the ends
 ---@option length? number [m, > 0]  distance of the centers of the ends

@@ -8,8 +8,8 @@ local verdict = require "clench.study.motion.verdict"
 local ramp = 0.1  -- time to accelerate, and to decelerate [s]
 
 --- Lifts a grasped object. In a copy of the world the hand presses without gravity and everything comes to rest, as in study.shake; then gravity acts, and the
---- base of the robot that carries the hand moves up, regardless of what its joints could do, and stays there for a while. The object is held while its
---- displacement, in the frame of the hand's base, is less than max_distance and max_angle. All other bodies stay where they are.
+--- base of the hand, or of the robot that carries it, moves along `direction`, regardless of what joints could do, and stops for `hold`. The object is held
+--- while its displacement, in the frame of the hand's base, is less than max_distance and max_angle. All other bodies keep their poses.
 ---@param options table  hand, object and settings of motion and grip
 ---@like clench.study.shake  hand, object, world
 ---@option height? number [m, > 0, <= 1000000] = 0.1  height of the lift

@@ -12,8 +12,8 @@ local verdict = require "clench.study.motion.verdict"
 --- The test is conservative: contacts have three quarters of their friction (`friction_share`), and touch within 0.02 mm, so that a grasp which needs the full
 --- friction, or the full torsion of a contact patch, counts as lost.
 --- The hand presses with "forces": motors hold its posture, and add the torques of contact forces in equilibrium, whose normal forces sum to `grip_force`;
---- compliant DOFs pull at their limits. With "close", or if no such forces exist, the motors close it as autograsp {dynamic = true} does. Motors exert efforts
---- within hand.effort_ranges; joints without motors are free.
+--- compliant DOFs pull with their maximum effort. With "close", or if no such forces exist, the motors close it as autograsp {dynamic = true} does. Motors
+--- exert efforts within hand.effort_ranges; joints without motors are free.
 ---@param options table  hand, object and settings of test and grip
 ---@option hand robot  hand that holds the object
 ---@option object body  object that is held
