@@ -1,5 +1,5 @@
--- Holds the sources against the three tables of docs/architecture.md: which module may include which, in which order
--- the rooms within a module stand, and where each library may be seen. Finds circles of includes, types of one name, and
+-- Holds the sources against the tables of docs/architecture.md: which module may include which, in which order
+-- the rooms within a module and the folders of stdlib stand, and where each library may be seen. Finds circles of includes, types of one name, and
 -- names that unity builds would bring together, too. Runs in a stock interpreter:
 --   lua5.4 scripts/check_layers.lua [ROOT]
 -- One sentence a fault, file:line first; exit code 1 when there is any.
@@ -314,6 +314,143 @@ local function check_types(sources)
   end
 end
 
+-- the text from a line on up to the first ; or {, and which of the two ends it
+local function statement_at(source, line)
+  local text = ""
+  for i = line, math.min(line + 20, #source.lines) do
+    text = text .. source.lines[i] .. " "
+    local stop = text:match "[;{]"
+    if stop then return text:match "^[^;{]*", stop end
+  end
+  return text, nil
+end
+
+-- names of functions and extern constants that a header declares for another file to define, each with its line
+local function declared_names(source)
+  local found = {}
+  for line, piece in ipairs(source.lines) do
+    local text, stop = statement_at(source, line)
+    local constants = stop == ";" and text:match "^extern%s+const%s+[%w_:<>]+%s+(.*)$"
+    for name in (constants or ""):gmatch "[%w_]+" do found[#found + 1] = {name, line} end
+    local is_kept = piece:find "^inline" or piece:find "^static" or piece:find "^constexpr" or piece:find "^extern"
+    local name = stop == ";" and not is_kept and text:match "^[%a_][%w_:<>,&%*%s]-[%s&%*]([%w_]+)%("
+    if name then found[#found + 1] = {name, line} end
+  end
+  return found
+end
+
+-- name -> sources that define a function or constant of it at the beginning of a line
+local function definitions_of(sources)
+  local homes = {}
+  for _, source in ipairs(sources) do
+    if source.path:find "%.cpp$" then
+      for _, text in ipairs(source.lines) do
+        local name = text:match "^const%s+[%w_:<>]+%s+([%w_]+)%s*[{=]" or
+          (not text:find "^static" and not text:find ";%s*$" and text:match "^[%a_][%w_:<>,&%*%s]-[%s&%*]([%w_]+)%(")
+        if name then
+          homes[name] = homes[name] or {}
+          table.insert(homes[name], source)
+        end
+      end
+    end
+  end
+  return homes
+end
+
+--- What a header declares is defined in its room or a lower one: who includes the header links against the definition, so that
+--- one in a higher room would be a reference upwards that no include shows.
+local function check_links(sources, rooms, path)
+  local homes = definitions_of(sources)
+  local excepted = {}  -- by header, then name: the line of the exception; false once it was needed
+  for _, row in ipairs(read_table(path, "declares what lies higher")) do
+    local names = {}
+    for _, name in ipairs(quoted(row["declares what lies higher"])) do names[name] = row.line end
+    excepted[quoted(row.header)[1]] = names
+  end
+  for _, source in ipairs(sources) do
+    local order = rooms[source.module]
+    if source.path:find "%.h$" and source.room and order then
+      for _, declared in ipairs(declared_names(source)) do
+        local name, line = table.unpack(declared)
+        local lowest, home  -- of the definitions in its module; overloads share names
+        for _, other in ipairs(homes[name] or {}) do
+          local place = other.module == source.module and (order[other.room] or math.huge)
+          if place and (not lowest or place < lowest) then lowest, home = place, other end
+        end
+        local exceptions = excepted[source.path] or {}
+        if lowest and lowest > order[source.room] and exceptions[name] ~= nil then
+          exceptions[name] = false
+        elseif lowest and lowest > order[source.room] then
+          fault(at(source, line), "room %s of %s declares '%s', which is defined higher, in src/%s", source.room,
+                source.module, name, home.path)
+        end
+      end
+    end
+  end
+  for header, names in pairs(excepted) do
+    for name, line in pairs(names) do
+      if line then fault(path .. ":" .. line, "%s does not declare '%s' for a higher room", header, name) end
+    end
+  end
+end
+
+--- Folders of stdlib in their order -> their places, and its modules by the names that scripts write: clench.plan.job.
+local function read_stdlib(path)
+  local order, modules = {}, {}
+  for i, row in ipairs(read_table(path, "folder of stdlib")) do order[quoted(row["folder of stdlib"])[1]] = i end
+  local list = assert(io.popen("cd '" .. root:gsub("'", "'\\''") .. "/stdlib' && find . -name '*.lua' | LC_ALL=C sort"))
+  for found in list:lines() do
+    local file = found:match "^%./(.*)$"
+    local module = {path = "stdlib/" .. file, folder = file:match "^([^/]+)/", uses = {}}
+    local name = file:gsub("%.lua$", ""):gsub("/init$", ""):gsub("/", ".")
+    modules[#modules + 1], modules["clench." .. name] = module, module
+  end
+  list:close()
+  return order, modules
+end
+
+-- modules that the code of a file names, in require, as a task of a thread, or as a function of clench; comments apart
+local function find_uses(module, modules)
+  local line = 0
+  for text in (read(module.path) .. "\n"):gmatch "(.-)\r?\n" do
+    line = line + 1
+    for name in text:gsub("%-%-.*$", ""):gmatch "clench%.[%w_.]+" do
+      -- clench.study.shake(...).survived: the longest name that is a module
+      while name and not modules[name] do name = name:match "^(.+)%.[^.]*$" end
+      if name and modules[name] ~= module then table.insert(module.uses, {modules[name], line, name}) end
+    end
+  end
+end
+
+--- A folder of stdlib uses itself, lower ones, and files of stdlib itself; of these, one that uses a folder stands above it.
+local function check_stdlib(path)
+  local order, modules = read_stdlib(path)
+  for _, module in ipairs(modules) do
+    find_uses(module, modules)
+    if module.folder and not order[module.folder] then
+      fault(module.path .. ":1", "folder '%s' of stdlib has no place in docs/architecture.md", module.folder)
+    end
+    module.level = module.folder and order[module.folder] or 0
+  end
+  -- files of stdlib itself rise until they stand no lower than what they use
+  repeat
+    local changed = false
+    for _, module in ipairs(modules) do
+      for _, use in ipairs(module.folder and {} or module.uses) do
+        if use[1].level > module.level then module.level, changed = use[1].level, true end
+      end
+    end
+  until not changed
+  for _, module in ipairs(modules) do
+    for _, use in ipairs(module.folder and module.uses or {}) do
+      local other, line, name = table.unpack(use)
+      if other.level > module.level then
+        fault(module.path .. ":" .. line, "folder %s of stdlib may not use %s: it lies higher", module.folder, name)
+      end
+    end
+  end
+end
+
 -- the constant, type or alias that a line at file scope defines, or nil
 local function local_name(text)
   local plain = text:gsub("^static%s+", ""):gsub("^inline%s+", "")
@@ -344,7 +481,10 @@ end
 
 local modules, libraries = read_modules "docs/architecture.md", read_libraries "docs/architecture.md"
 local sources = read_sources()
-check_modules(sources, modules, read_rooms("docs/architecture.md", modules))
+local rooms = read_rooms("docs/architecture.md", modules)
+check_modules(sources, modules, rooms)
+check_links(sources, rooms, "docs/architecture.md")
+check_stdlib "docs/architecture.md"
 check_circles(sources)
 check_types(sources)
 check_local_names(sources)

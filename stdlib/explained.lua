@@ -1,6 +1,6 @@
 --- The error of a function that Clench calls at a later time, with its traceback. Ctrl-C is returned unchanged.
 local callback_error = require "clench.callback_error"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local error_value = require "clench.error_value"
 local is_stopped = require "clench.is_stopped"
 

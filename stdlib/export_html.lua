@@ -15,14 +15,20 @@ local doc = [[
 @option max_size? number [>= 1, bytes] = 1e9  largest size of the page
 @option three? string[]  files in which three.js may be]]
 
--- contacts of robots with other bodies: point, normal, coefficient of friction
+-- half of the diagonal of a body's bounds [m]
+local function size_of(body)
+  local bounds = body.bounds_in_world
+  return bounds and (bounds.high - bounds.low):norm() / 2 or 0.05
+end
+
+-- contacts of robots with objects: point, normal, coefficient of friction, size of the object
 local function contacts_of(world)
   local list = {}
   for _, robot in ipairs(world.robots) do
     for _, object in ipairs(world.objects) do
       for _, contact in ipairs(world:contacts(robot, object)) do
         local p, n, rounded = contact.point, contact.normal, meshes.rounded
-        list[#list + 1] = {rounded(p.x), rounded(p.y), rounded(p.z), rounded(n.x), rounded(n.y), rounded(n.z), contact.mu, object.radius or 0.05}
+        list[#list + 1] = {rounded(p.x), rounded(p.y), rounded(p.z), rounded(n.x), rounded(n.y), rounded(n.z), contact.mu, size_of(object)}
       end
     end
   end
@@ -44,7 +50,7 @@ local function frames_of(world, grasps, recording)
   end}
 end
 
----@param world world
+---@param world world  what the page shows
 ---@param path string  its name ends in .html
 ---@param options? {title?: string, grasps?: table, recording?: table, max_size?: number, three?: string[]}
 ---@return integer bytes

@@ -1,9 +1,9 @@
 --- The content of a file as tables, which `clench check` prints or writes as JSON.
 local blamed = require "clench.blamed"
 local drives = require "clench.drives"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local report = {}
 
 local function numbers(v) return {v.x, v.y, v.z} end

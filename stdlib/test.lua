@@ -1,7 +1,7 @@
 --- Tests as claims: `test("a ring of contacts balances", function(t) t.close(sum, 0, 1e-12) end)`. Each test runs immediately; `clench test` counts them per
 --- file.
 local described = require "clench.described"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local printable = require "clench.printable"
 local raise = require "clench.raise"
 local show = require "clench.show"

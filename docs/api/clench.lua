@@ -167,6 +167,7 @@ local snapshot = {}
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field visual_mesh mesh? # The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
 ---@field triangle_colors number[][]? # Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil where the body has one color.
+---@field textures table? # Images on the triangles of `visual_mesh`, as its file places them; nil where it has none. `images` is a list of `{jpeg =, width =, height =, wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image goes on beyond its edges ("repeat", "mirror" or "clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: of each triangle the number of its image, `"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
 ---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
 ---@field restitution number # How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says what holds for their materials.
 ---@field free_damping number # Viscous resistance of an object that moves freely, or of the base of a robot that floats: a force on the origin of its frame against that point's velocity, and a torque against its turning. [N s/m and N m s/rad]
@@ -348,6 +349,7 @@ function dofs:open(options) end
 ---A hand or an arm: a base, chains of links, and the degrees of freedom that move them.
 ---@class robot: dofs
 ---@field fingerprint string # Identity by content: equal for robots of the same links, joints, limits and motors, whatever their files, names, poses and postures. 16 hexadecimal digits
+---@field mechanism_fingerprint string # Identity of what a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do differences of frames below 1e-9 m. Grasps keep it, and `grasp:apply` compares it. 16 hexadecimal digits
 ---@field name string # Unique in its world.
 ---@field pose pose # Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
 ---@field links body[] # Its links, chain by chain, without the base.
@@ -538,6 +540,10 @@ function patch:torsion_limit(options) end
 ---@field object_name string # Name of the body that is grasped.
 ---@field hand_file string? # File that the hand was read from, as it was named; nil: not known.
 ---@field object_file string? # File that the object was read from, as it was named; nil: not known.
+---@field hand_fingerprint string # Fingerprint of the hand's shapes and joints when the grasp was measured: its `mechanism_fingerprint`; "" in a list from a file without it.
+---@field object_fingerprint string # Fingerprint of the object's surface when the grasp was measured: that of its mesh; "" in a list from a file without it.
+---@field settings_fingerprint string # Fingerprint of the options of its measures: edges, rho, soft, normal_force and modulus. Measures of grasps with equal ones can be compared.
+---@field engine_version string # Version of Clench that measured the grasp; "" in a list from a file without it.
 ---@field pose pose # Where the hand's base stood in the object's frame when the grasp was measured.
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
 ---@field dof_names string[] # Names of these DOFs; empty in a list from a file that does not name them.
@@ -560,7 +566,7 @@ function patch:torsion_limit(options) end
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
+---Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`. A warning names a hand whose shapes or joints, or an object whose surface differs from the one that the grasp was measured with; masses, materials, limits and motors may differ.
 ---@param world? world # default: its own
 ---@param options? {hand?: robot, object?: body, dof_order?: string|string[]}
 ---@return grasp
@@ -709,7 +715,7 @@ function grasps:add(grasp) end
 
 ---Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names what a format does not hold. The same list gives the same bytes.
 ---@param path string # file to write; its ending selects the format
----@param options? {format?: string, notes?: table} # format: as clench.grasps takes it; notes: plain data about the list as such, for the head of JSON lines
+---@param options? {format?: string, notes?: table, compress?: boolean} # format: as clench.grasps takes it; compress: the arrays of an .npz; notes: plain data about the list as such, for the head of JSON lines
 function grasps:save(path, options) end
 
 ---Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and folder may be written. Changes no file.
@@ -1348,7 +1354,8 @@ function clench.files.glove_poses(path, options) end
 ---Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
 ---@param path string # .npz
 ---@param arrays table<string, number[]|number[][]> # arrays by name, of one or two dimensions
-function clench.files.save_arrays(path, arrays) end
+---@param options? {compress?: boolean} # compress: as numpy.savez_compressed; false
+function clench.files.save_arrays(path, arrays, options) end
 
 ---The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
 ---@param path string # .npz

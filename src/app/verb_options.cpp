@@ -258,6 +258,7 @@ void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
   add("--host", "address to listen on; default: 127.0.0.1, which only this machine reaches")
       ->type_name("ADDRESS");
   add("--socket", "a Unix socket instead of a TCP port")->type_name("PATH")->check(named);
+  add.flag("--stdio", "JSON-RPC over standard input and output instead");
   add("--token-file", "where the token is kept; default: in the folder of the user's session")
       ->type_name("FILE")
       ->check(named);

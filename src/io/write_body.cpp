@@ -117,6 +117,7 @@ std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
   const Appearance& look = body.appearance;
   if (ending != ".iv" && look.given) out.push_back("color");
   if (ending == ".iv" && !look.triangle_colors.empty()) out.push_back("colors of triangles");
+  if (look.skin) out.push_back("textures");
   if (look.visual) out.push_back("surface to be drawn");
   return out;
 }

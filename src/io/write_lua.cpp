@@ -103,8 +103,9 @@ Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   add("free_armature", now.free_armature, was.free_armature);
   add("gravity_compensation", now.gravity_compensation, was.gravity_compensation);
   const Appearance &look = now.appearance, &old = was.appearance;
-  if (look.color != old.color || (look.triangle_colors.empty() && !old.triangle_colors.empty()))
-    out.emplace_back("color", list(look.color));
+  const bool plain =
+      (look.triangle_colors.empty() && !old.triangle_colors.empty()) || (!look.skin && old.skin);
+  if (look.color != old.color || plain) out.emplace_back("color", list(look.color));
   if (look.transparency != old.transparency)
     out.emplace_back("transparency", number(look.transparency));
   return out;
@@ -213,6 +214,8 @@ void LuaWriter::add_body(const PlacedBody& placed) {
   if (!read && !body.appearance.triangle_colors.empty())
     files_.warn(
         fmt::format("the colors of the triangles of '{}' are not saved", excerpt(body.name)));
+  if (!read && body.appearance.skin)
+    files_.warn(fmt::format("the textures of '{}' are not saved", excerpt(body.name)));
   std::string options =
       fmt::format("name = {}, pose = {}{}", as_lua(body.name), pose(placed.X_WB), root_option());
   std::string after;

@@ -32,7 +32,7 @@ bool same_matrix(const Matrix& a, const Matrix& b) {
 
 bool same_look(const Appearance& a, const Appearance& b) {
   return a.color == b.color && a.transparency == b.transparency &&
-         a.triangle_colors == b.triangle_colors;
+         a.triangle_colors == b.triangle_colors && same_skin(a.skin, b.skin);
 }
 
 /// Vertices may be rounded, triangles not.

@@ -1,6 +1,9 @@
 #include "clench/model/fingerprint.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
 #include <tuple>
 
 #include "clench/base/hash.h"
@@ -51,6 +54,20 @@ uint64_t fingerprint(const Shape& shape) {
   h.add(sum);
   h.add(static_cast<uint64_t>(shape.rounds().in));
   return h.value();
+}
+
+uint64_t ShapeFingerprints::of(const ShapePtr& shape) {
+  if (!shape) return 0;
+  const auto found = known_.find(shape.get());
+  // another shape may lie where one was
+  if (found != known_.end() && !found->second.shape.expired()) return found->second.value;
+  if (known_.size() >= tidy_size_) {
+    std::erase_if(known_, [](const auto& one) { return one.second.shape.expired(); });
+    tidy_size_ = 2 * known_.size() + 100;
+  }
+  const uint64_t value = fingerprint(*shape);
+  known_[shape.get()] = {shape, value};
+  return value;
 }
 
 uint64_t fingerprint(const World& world, Id<Body> id) {
@@ -132,5 +149,41 @@ uint64_t fingerprint(const World& world, Id<Robot> id) {
   add_pose(h, robot.X_BA);
   return h.value();
 }
+
+// frames that were written to a file and read again differ by rounding
+static constexpr double frame_grid = 1e-9;  // [m], of positions, and of parts of axes and rotations
+
+template <class Numbers>
+static void add_rounded(Hasher& h, const Numbers& numbers) {
+  for (const double x : numbers) add_number(h, std::round(x / frame_grid));
+}
+
+static void add_rounded(Hasher& h, const Pose& pose) {
+  add_rounded(h, pose.position);
+  add_rounded(h, pose.rotation.toRotationMatrix().reshaped());
+}
+
+uint64_t mechanism_fingerprint(const World& world, Id<Robot> id, ShapeFingerprints& shapes) {
+  const Robot& robot = world.robot(id);
+  Hasher h;
+  const auto add_shape = [&](Id<Body> body) { h.add(shapes.of(world.body(body).shape)); };
+  add_shape(robot.base);
+  for (const Link& link : robot.links) {
+    add_shape(link.body);
+    for (const int x : {link.parent, link.first_joint, link.end_joint})
+      h.add(static_cast<uint64_t>(static_cast<int64_t>(x)));
+    add_rounded(h, link.X_JL);
+  }
+  for (const Joint& joint : robot.joints) {
+    h.add(static_cast<uint64_t>(joint.kind));
+    add_rounded(h, joint.X_PJ);
+    add_rounded(h, joint.axis);
+    h.add(static_cast<uint64_t>(joint.dof));
+    add_rounded(h, std::array{joint.ratio});
+  }
+  return h.value();
+}
+
+std::string fingerprint_text(uint64_t value) { return fmt::format("{:016x}", value); }
 
 }  // namespace clench

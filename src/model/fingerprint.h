@@ -2,6 +2,9 @@
 // of names, files and poses.
 #pragma once
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
 
 #include "clench/model/world.h"
 
@@ -10,6 +13,21 @@ namespace clench {
 /// Fingerprint of a surface; it does not depend on the order of triangles and vertices.
 uint64_t fingerprint(const Shape& shape);
 
+/// Fingerprints of shapes, each computed once while the shape lives.
+class ShapeFingerprints {
+ public:
+  /// 0 of no shape
+  uint64_t of(const ShapePtr& shape);
+
+ private:
+  struct Known {
+    std::weak_ptr<const Shape> shape;
+    uint64_t value = 0;
+  };
+  std::map<const Shape*, Known> known_;
+  size_t tidy_size_ = 100;  ///< at which those of shapes that are gone are forgotten
+};
+
 /// Fingerprint of surface, mass, center of mass, inertia, material, elasticity, restitution,
 /// damping of free motion and gravity compensation.
 uint64_t fingerprint(const World& world, Id<Body> id);
@@ -17,5 +35,13 @@ uint64_t fingerprint(const World& world, Id<Body> id);
 /// Fingerprint of the bodies of base and links, of joints, DOFs, limits and motors, of the number
 /// of joint tendons and of the approach frame. The posture is ignored.
 uint64_t fingerprint(const World& world, Id<Robot> id);
+
+/// Fingerprint of what a posture places: shapes of base and links, the tree of links, frames, axes
+/// and DOFs of joints. Frames count to 1e-9 m, as their rounding differs between file formats.
+/// Masses, materials, limits and motors do not count: studies change them.
+uint64_t mechanism_fingerprint(const World& world, Id<Robot> id, ShapeFingerprints& shapes);
+
+/// 16 hexadecimal digits.
+std::string fingerprint_text(uint64_t value);
 
 }  // namespace clench

@@ -14,7 +14,8 @@ static size_t bytes_of(const std::string& text) { return text.capacity(); }
 
 static size_t bytes_of(const Body& body) {
   return bytes_of(body.name) + bytes_of(body.source) + bytes_of(body.file) +
-         bytes_of(body.appearance.triangle_colors);
+         bytes_of(body.appearance.triangle_colors) +
+         (body.appearance.skin ? body.appearance.skin->bytes() : 0);
 }
 
 static size_t bytes_of(const Robot& robot) {

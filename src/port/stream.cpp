@@ -22,18 +22,28 @@ Stream::End end_of(int error) {
   return error == EPIPE || error == ECONNRESET ? Stream::End::closed : Stream::End::unplugged;
 }
 
+void make_non_blocking(int number, const std::string& name) {
+  const int flags = fcntl(number, F_GETFL);
+  if (flags < 0 || fcntl(number, F_SETFL, flags | O_NONBLOCK) < 0)
+    fail(ErrorKind::file, "{}: {}", name, system_reason(errno));
+}
+
 constexpr size_t chunk = 64 * 1024;  // read at once [bytes]
 
 }  // namespace
 
 Stream::Stream(Descriptor descriptor, std::string name)
     : descriptor_(std::move(descriptor)), name_(std::move(name)) {
-  const int flags = fcntl(descriptor_.number(), F_GETFL);
-  if (flags < 0 || fcntl(descriptor_.number(), F_SETFL, flags | O_NONBLOCK) < 0)
-    fail(ErrorKind::file, "{}: {}", name_, system_reason(errno));
+  make_non_blocking(descriptor_.number(), name_);
   int kind = 0;
   socklen_t size = sizeof kind;
   is_socket_ = getsockopt(descriptor_.number(), SOL_SOCKET, SO_TYPE, &kind, &size) == 0;
+}
+
+Stream::Stream(Descriptor input, Descriptor output, std::string name)
+    : Stream(std::move(input), std::move(name)) {
+  output_ = std::move(output);
+  make_non_blocking(output_.number(), name_);
 }
 
 size_t Stream::fill() {
@@ -47,7 +57,7 @@ size_t Stream::fill() {
   const ssize_t count = ::read(descriptor_.number(), kept_.data() + before, chunk);
   const int error = errno;
   kept_.resize(before + static_cast<size_t>(std::max<ssize_t>(count, 0)));
-  if (count == 0) end_ = is_socket_ ? End::closed : End::unplugged;
+  if (count == 0) end_ = is_socket_ || output_.is_open() ? End::closed : End::unplugged;
   if (count < 0 && !would_wait(error)) end_ = end_of(error);
   return kept_.size() - before;
 }
@@ -79,9 +89,10 @@ size_t Stream::find(std::string_view delimiter) {
 
 size_t Stream::write(std::string_view bytes) {
   if (write_end_ != End::none || bytes.empty()) return 0;
-  const int number = descriptor_.number();
-  const ssize_t count = is_socket_ ? ::send(number, bytes.data(), bytes.size(), MSG_NOSIGNAL)
-                                   : ::write(number, bytes.data(), bytes.size());
+  const int number = write_descriptor();
+  const bool sends = is_socket_ && !output_.is_open();
+  const ssize_t count = sends ? ::send(number, bytes.data(), bytes.size(), MSG_NOSIGNAL)
+                              : ::write(number, bytes.data(), bytes.size());
   if (count >= 0) return static_cast<size_t>(count);
   if (!would_wait(errno)) write_end_ = end_of(errno);
   return 0;
@@ -96,6 +107,7 @@ int Stream::connect_error() const {
 
 void Stream::close() {
   descriptor_.close();
+  output_.close();
   if (end_ == End::none) end_ = End::closed;
   if (write_end_ == End::none) write_end_ = End::closed;
 }

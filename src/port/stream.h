@@ -21,10 +21,14 @@ class Stream {
   /// Takes over an open descriptor and makes it non-blocking.
   /// name  for messages: "/dev/ttyUSB0", "127.0.0.1:4765"
   Stream(Descriptor descriptor, std::string name);
+  /// Of two descriptors, one for each direction, such as standard input and output.
+  Stream(Descriptor input, Descriptor output, std::string name);
 
   const std::string& name() const { return name_; }
   /// For polling; below 0 once it is closed.
   int descriptor() const { return descriptor_.number(); }
+  /// The same for writing.
+  int write_descriptor() const { return output_.is_open() ? output_.number() : descriptor(); }
   End end() const { return end_; }
   /// Why nothing more can be sent. A socket whose other side sends no more may still receive.
   End write_end() const { return write_end_; }
@@ -50,7 +54,7 @@ class Stream {
   void close();
 
  private:
-  Descriptor descriptor_;
+  Descriptor descriptor_, output_;  ///< output_ is not open if one does for both
   std::string name_, kept_, sought_;
   size_t taken_ = 0,
          searched_ = 0;  ///< of kept_: bytes taken, bytes without `sought_` behind these

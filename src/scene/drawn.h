@@ -10,6 +10,7 @@
 #include "clench/geometry/tree/shape.h"
 #include "clench/math/pose.h"
 #include "clench/scene/eye.h"
+#include "clench/spec/skin.h"
 
 namespace clench {
 
@@ -41,6 +42,7 @@ struct DrawMesh {
   Pose X_WM;
   Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
   std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one per triangle, or empty
+  SkinPtr skin = {};                                  ///< textures, over the colors; null: none
   float opacity = 1;                                  ///< 0 invisible .. 1 solid
   bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
   bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "clench/scene/cones.h"
 #include "clench/scene/palette.h"
 
 namespace clench {
@@ -25,6 +26,33 @@ static std::vector<PlacedForce> visible_forces(std::span<const PlacedForce> forc
   for (const PlacedForce& force : forces)
     if (force.f_W.norm() > invisible * largest) visible.push_back(force);
   return visible;
+}
+
+static bool is_of(const TouchPatch& patch, const Contact& contact) {
+  return std::ranges::any_of(patch.contacts, [&](const Contact& c) {
+    return c.body == contact.body && c.other == contact.other && c.p_W == contact.p_W &&
+           c.n_W == contact.n_W;
+  });
+}
+
+std::vector<PlacedForce> patch_forces(std::span<const Contact> contacts,
+                                      std::span<const PlacedForce> forces) {
+  std::vector<PlacedForce> out;
+  for (const TouchPatch& patch : touch_patches(contacts)) {
+    PlacedForce sum;
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+    double weight = 0;
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      if (!is_of(patch, contacts[i])) continue;
+      const double pressed = std::max(0.0, forces[i].f_W.dot(contacts[i].n_W));
+      sum.f_W += forces[i].f_W;
+      weighted += pressed * contacts[i].p_W;
+      weight += pressed;
+    }
+    sum.p_W = weight > 0 ? Eigen::Vector3d(weighted / weight) : patch.p_W;
+    out.push_back(sum);
+  }
+  return out;
 }
 
 std::vector<DrawArrow> force_arrows(std::span<const PlacedForce> forces, double meters_per_newton) {

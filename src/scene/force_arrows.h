@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "clench/model/find.h"
 #include "clench/scene/scene.h"
 
 namespace clench {
@@ -11,6 +12,12 @@ struct PlacedForce {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d f_W = Eigen::Vector3d::Zero();  ///< [N]
 };
+
+/// The resultant of the forces on each patch of contacts, at its center of pressure: the mean of
+/// the contact points, weighted by normal forces. Where nothing presses, at the middle of the patch.
+/// forces  one per contact, at its point
+std::vector<PlacedForce> patch_forces(std::span<const Contact> contacts,
+                                      std::span<const PlacedForce> forces);
 
 /// An arrow a force, which ends where it presses: as long as the force times meters_per_newton, >
 /// 0. Forces below a thousandth of the largest are left out.

@@ -31,6 +31,7 @@ DrawMesh draw_body(const Body& body, const Pose& X_WB, const SceneOptions& optio
   if (options.file_colors && looks.given) {
     mesh.color = looks.color;
     mesh.triangle_colors = looks.triangle_colors;
+    mesh.skin = looks.skin;
     mesh.opacity = 1 - looks.transparency;
   }
   if (body.kind == BodyKind::link &&

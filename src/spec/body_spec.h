@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clench/spec/mesh_report.h"
+#include "clench/spec/skin.h"
 #include "clench/spec/valid.h"
 
 namespace clench {
@@ -19,6 +20,7 @@ struct Appearance {
   std::vector<Eigen::Vector3f> triangle_colors;  ///< one per triangle, or empty
   bool given = false;                            ///< given by the file?
   ShapePtr visual = {};  ///< drawn instead of the body's shape; null: the shape is drawn
+  SkinPtr skin = {};     ///< textures of the triangles that are drawn; null: none
 };
 
 /// Origin of a value.

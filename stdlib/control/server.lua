@@ -6,6 +6,8 @@ local is_stopped = require "clench.is_stopped"
 local loop = clench.loop
 local new_client = require "clench.control.client"
 local new_options = require "clench.options"
+local new_port = require "clench.port.port"
+local open_stdio = require "clench.open_stdio"
 local rpc = require "clench.control.rpc"
 local text = require "clench.control.text"
 local token = require "clench.control.token"
@@ -15,7 +17,7 @@ local subject = "clench.control.server"
 local Server = class "server"
 
 function Server:__tostring()
-  return ("server at %s, %d clients%s"):format(self.listener.name, #self.clients, self.is_closed and " (closed)" or "")
+  return ("server at %s, %d clients%s"):format(self.name, #self.clients, self.is_closed and " (closed)" or "")
 end
 
 local function is_loopback(host) return host == "localhost" or host == "::1" or host:find "^127%." ~= nil end
@@ -117,6 +119,23 @@ local function add(self, port)
   if self.on_connect then self.on_connect(client) end
 end
 
+-- the one client of standard input and output: the program that has started us; when it is gone, the server ends
+local function add_parent(self)
+  self.name, self.max_clients = "standard input and output", 1
+  local close = self.on_close
+  self.on_close = function(client)
+    if close then close(client) end
+    self:close()
+  end
+  add(self, new_port(open_stdio()))
+  self.clients[1].is_rpc = true
+end
+
+local function listen(self, where)
+  self.listener = clench.port.listen(where)
+  self.name, self.port = self.listener.name, self.listener.port
+end
+
 local function accept_clients(self)
   while true do
     local ok, port, why = pcall(self.listener.accept, self.listener)
@@ -135,7 +154,7 @@ end
 function Server:close()
   if self.is_closed then return end
   self.is_closed = true
-  self.listener:close()
+  if self.listener then self.listener:close() end
   self.stop_counting()
   for _, client in ipairs {table.unpack(self.clients)} do client:close "the server was closed" end
   for _, kept in pairs(self.jobs) do kept.job:stop() end
@@ -183,7 +202,13 @@ local function read_options(options)
   local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, jobs = {}, job_count = 0, folder = read_folder(o),
                   max_clients = o:count("max_clients", 64, 1, 1000), max_line = o:count("max_line", 1 << 20, 1000, 1 << 28),
                   max_queue = o:count("max_queue", 4 << 20, 1000, 1 << 30), on_connect = o:callback "on_connect", on_close = o:callback "on_close"}
+  local stdio = o:flag "stdio"
   o:done()
+  if stdio then
+    if path ~= nil or host ~= nil then o:fail "stdio: expected either stdio, or a path, or host and port" end
+    server.token = nil
+    return server
+  end
   local where = path ~= nil and {path = path} or {host = host, port = port}
   return server, where
 end
@@ -196,6 +221,7 @@ end
 ---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
+---@option stdio? boolean  true: JSON-RPC over standard input and output with the program that has started this one, without a token
 ---@option token? string|false  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
 ---@option folder? string  below which requests may read and write files; none by default
 ---@option max_clients? integer [1 to 1000] = 64
@@ -213,9 +239,8 @@ end
 return function(options)
   local server, where = read_options(options)
   setmetatable(server, Server)
-  server.listener = clench.port.listen(where)
-  server.port = server.listener.port
+  if where then listen(server, where) end
   server.stop_counting = rpc.prepare(server)
-  loop.spawn(function() accept_clients(server) end)
+  if not where then add_parent(server) else loop.spawn(function() accept_clients(server) end) end
   return server
 end

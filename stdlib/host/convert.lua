@@ -1,8 +1,8 @@
 --- `clench convert`: writes the content of a file in another format.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local convert = {}
 
 -- "a,b" as a list; nil if empty

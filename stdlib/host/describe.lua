@@ -1,5 +1,5 @@
 --- `clench describe`: the description of one entry of the API, or of all, as text or as JSON.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local signature = require "clench.signature.grammar"
 local describe = {}

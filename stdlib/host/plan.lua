@@ -1,6 +1,6 @@
 --- `clench plan`: searches for grasps of a hand on an object, verifies, lists and draws them.
 local columns = require "clench.host.columns"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local batch = require "clench.plan.batch"
 local distinct = require "clench.plan.distinct"

@@ -1,7 +1,7 @@
 --- The lists that `clench plan -o` writes: the main list, which is the first one of JSON lines or else the first one, and copies of it in other formats. Grasps
 --- are appended as they are found; at the end the list is replaced by the best grasps, best first.
 --- Until the search is complete, a list of JSON lines is accompanied by the journal of its search, which --resume reads.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local identity = require "clench.host.plan_identity"
 local is_stopped = require "clench.is_stopped"
 local journal = require "clench.plan.journal"

@@ -1,5 +1,5 @@
 --- The scene of `clench plan` and `clench render`: a hand, an object and obstacles, from options of the command line.
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local fail = require "clench.host.usage"
 local scene = {}
 

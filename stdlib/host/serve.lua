@@ -1,9 +1,9 @@
 --- `clench serve`: a world that other programs control.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local save_secret = require "clench.save_secret"
 local serve = {}
 
@@ -52,6 +52,10 @@ local function run(root, folder, package, unit, strict, ...)
   local world = clench.load(given.world, reading("world", said))
   local token
   if given["no-token"] then token = false end
+  if given.stdio then
+    local server <close> = clench.control.server {world = world, stdio = true, folder = given.folder, path = given.socket, host = given.host}
+    return clench.loop.run()
+  end
   local server <close> = clench.control.server {world = world, path = given.socket, host = given.host, token = token, folder = given.folder,
                                                 port = not given.socket and tonumber(given.port or 4765) or nil}
   local kept <close> = server.token and keep_token(server, given["token-file"]) or nil

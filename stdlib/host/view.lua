@@ -1,10 +1,10 @@
 --- `clench view`: shows a file or an empty world in a window, or draws one frame of it as a picture.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local fail = require "clench.host.usage"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
-local reading = require "clench.host.reading"
+local reading = require "clench.reading"
 local scene = require "clench.host.scene"
 local view = {}
 

@@ -3,6 +3,7 @@ local base64 = require "clench.base64"
 local meshes = {}
 
 local large = 200000  -- number of triangles above which a page becomes slow
+local max_image_bytes = 16 << 20  -- of all images of a page; beyond this limit triangles have colors instead
 
 --- Packs numbers in chunks, since string.pack takes a limited number of arguments.
 function meshes.packed(format, count, number)
@@ -25,7 +26,31 @@ local function packed_colors(body)
   return base64(meshes.packed("B", 3 * #colors, byte))
 end
 
-local function packed_mesh(body)
+-- images by their indices in the page's list, and texture coordinates of triangles; nil if the images exceed the limit of the page
+local function packed_textures(self, body)
+  local textures = body.textures
+  if not textures then return nil end
+  local bytes = 0
+  for _, image in ipairs(textures.images) do
+    if not self.number_of_image[image.jpeg] then bytes = bytes + #image.jpeg end
+  end
+  if self.image_bytes + bytes > max_image_bytes then
+    self.notes[#self.notes + 1] = ("the textures of %s are omitted: the images of a page are limited to %d MB"):format(body.name, max_image_bytes >> 20)
+    return nil
+  end
+  self.image_bytes = self.image_bytes + bytes
+  local list = {}
+  for i, image in ipairs(textures.images) do
+    if not self.number_of_image[image.jpeg] then
+      self.images[#self.images + 1] = "data:image/jpeg;base64," .. base64(image.jpeg)
+      self.number_of_image[image.jpeg] = #self.images
+    end
+    list[i] = {image = self.number_of_image[image.jpeg] - 1, tint = image.tint, wrap = {image.wrap_u, image.wrap_v}}
+  end
+  return {list = list, numbers = base64(textures.numbers), places = base64(textures.places)}
+end
+
+local function packed_mesh(self, body)
   local mesh = body.visual_mesh
   local flat = {}
   for _, v in ipairs(mesh.vertices) do
@@ -38,7 +63,7 @@ local function packed_mesh(body)
   local wide = #flat // 3 > 65536
   return {positions = base64(meshes.packed("f", #flat, function(i) return flat[i] end)),
           indices = base64(meshes.packed(wide and "I4" or "I2", #indices, function(i) return indices[i] end)), wide = wide,
-          colors = packed_colors(body)}
+          colors = packed_colors(body), textures = packed_textures(self, body)}
 end
 
 --- Rounds to a micrometer.
@@ -58,8 +83,14 @@ Meshes.__index = Meshes
 
 --- Adds the mesh of a body unless the list has it, and returns its index, from 0.
 function Meshes:add(body)
-  local mesh = packed_mesh(body)
+  local mesh = packed_mesh(self, body)
   local key = mesh.positions .. mesh.indices .. (mesh.colors or "")
+  if mesh.textures then
+    key = key .. mesh.textures.numbers .. mesh.textures.places
+    for _, texture in ipairs(mesh.textures.list) do
+      key = key .. ("|%d %g %g %g %s %s"):format(texture.image, texture.tint[1], texture.tint[2], texture.tint[3], texture.wrap[1], texture.wrap[2])
+    end
+  end
   if not self.number_of[key] then
     self.list[#self.list + 1] = mesh
     self.number_of[key] = #self.list
@@ -70,7 +101,9 @@ function Meshes:add(body)
   return self.number_of[key] - 1
 end
 
---- An empty list of meshes; `notes`: sentences about large meshes.
-function meshes.new() return setmetatable({list = {}, notes = {}, number_of = {}}, Meshes) end
+--- An empty list of meshes; `images`: images of textures, as data URIs; `notes`: sentences about large meshes and omitted textures.
+function meshes.new()
+  return setmetatable({list = {}, images = {}, notes = {}, number_of = {}, number_of_image = {}, image_bytes = 0}, Meshes)
+end
 
 return meshes

@@ -33,7 +33,7 @@ function run.data_of(recording)
     local pose = frames[(i - 1) // width + 1][(i - 1) % width // 7 + 1]
     return pose and pose[(i - 1) % 7 + 1] or nan
   end)
-  return {meshes = list.list, parts = parts, times = recording.times, frames = base64(bytes)}, list.notes
+  return {meshes = list.list, images = list.images, parts = parts, times = recording.times, frames = base64(bytes)}, list.notes
 end
 
 local view = [==[

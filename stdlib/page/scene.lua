@@ -49,8 +49,32 @@ function geometryOf(mesh) {
     }
     geometry.setAttribute("color", new THREE.BufferAttribute(shown, 3));
   }
+  if (mesh.textures) placeImages(geometry, mesh.textures, count);
   geometry.computeBoundingSphere();
   return geometry;
+}
+
+// orders the triangles by image, those without an image first, with one group per image
+function placeImages(geometry, textures, count) {
+  const numbers = new Uint16Array(bytes(textures.numbers)), places = new Float32Array(bytes(textures.places));
+  const order = Array.from(numbers.keys()).sort((a, b) => numbers[a] - numbers[b] || a - b);
+  for (const name of ["position", "normal", "color"]) {
+    const attribute = geometry.getAttribute(name);
+    if (!attribute) continue;
+    const from = attribute.array, to = new Float32Array(from.length);
+    order.forEach((t, i) => to.set(from.subarray(9 * t, 9 * t + 9), 9 * i));
+    geometry.setAttribute(name, new THREE.BufferAttribute(to, 3));
+  }
+  const uv = new Float32Array(6 * count);
+  order.forEach((t, i) => uv.set(places.subarray(6 * t, 6 * t + 6), 6 * i));
+  geometry.setAttribute("uv", new THREE.BufferAttribute(uv, 2));
+  for (let first = 0; first < count;) {
+    const number = numbers[order[first]];
+    let end = first;
+    while (end < count && numbers[order[end]] === number) ++end;
+    geometry.addGroup(3 * first, 3 * (end - first), number);
+    first = end;
+  }
 }
 
 const paint = (color, more) => {
@@ -89,7 +113,7 @@ const looks = {
 const geometries = data.meshes.map(geometryOf);
 // the material of a kind for meshes with colors per triangle
 const colored = {};
-function lookOf(part) {
+function plainLookOf(part) {
   if (!geometries[part.mesh].getAttribute("color")) return looks[part.kind];
   if (!colored[part.kind]) {
     colored[part.kind] = looks[part.kind].clone();
@@ -98,8 +122,36 @@ function lookOf(part) {
   }
   return colored[part.kind];
 }
+// the materials of a mesh: that of triangles without an image, then one per image
+const images = (data.images || []).map(uri => {
+  const image = new Image();
+  image.src = uri;
+  return image;
+});
+const wraps = {repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWrapping, clamp: THREE.ClampToEdgeWrapping};
+const pictured = {};  // by kind and mesh
+function textured(part, texture) {
+  const map = new THREE.Texture(images[texture.image]), look = looks[part.kind].clone();
+  map.flipY = false;
+  map.encoding = THREE.sRGBEncoding;
+  map.wrapS = wraps[texture.wrap[0]];
+  map.wrapT = wraps[texture.wrap[1]];
+  map.anisotropy = 4;
+  images[texture.image].decode().then(() => { map.needsUpdate = true; redraw(); });
+  look.map = map;
+  look.color.setRGB(...texture.tint).convertSRGBToLinear();
+  return look;
+}
+function lookOf(part) {
+  const textures = data.meshes[part.mesh].textures;
+  if (!textures) return plainLookOf(part);
+  const key = part.kind + " " + part.mesh;
+  if (!pictured[key]) pictured[key] = textures.list.map(texture => textured(part, texture));
+  return [plainLookOf(part), ...pictured[key]];
+}
 function setObjectOpacity(seenThrough, otherwise) {
-  for (const look of [looks.object, colored.object]) if (look) {
+  const images = Object.keys(pictured).filter(key => key.startsWith("object ")).flatMap(key => pictured[key]);
+  for (const look of [looks.object, colored.object, ...images]) if (look) {
     look.opacity = seenThrough ? 0.34 : otherwise;
     look.depthWrite = !seenThrough;
   }

@@ -1,6 +1,6 @@
 --- Default primitives of an object for the primitive planner: those of a file primitives/<name>.iv in the folder of the object's file or below the root, else
 --- those among the nodes of the object's file, else its bounding box.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local on_behalf_of = require "clench.on_behalf_of"
 local quiet = require "clench.plan.quiet"

@@ -19,6 +19,7 @@ return function(hand, object, grasps, visit)
   local data = {parts = {}, still = {}, grasps = {}}
   local meshes = page_meshes.new()
   data.meshes = meshes.list
+  data.images = meshes.images
   local function add_part(body, kind) return {name = body.name, kind = kind, mesh = meshes:add(body)} end
 
   local moving = {}

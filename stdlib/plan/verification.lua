@@ -1,11 +1,12 @@
 --- Verification of grasps: does a grasp resist loads, and does it hold if the object is displaced before the hand closes?
 local give_way = require "clench.plan.give_way"
+local held_load = require "clench.study.motion.held_load"
 local opposition = require "clench.plan.opposition"
 local share_friction = require "clench.study.motion.share_friction"
 local supports = require "clench.plan.supports"
 local verification = {}
 
-verification.defaults = {displacement = 0.001, force_ratio = 10, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
+verification.defaults = {displacement = 0.001, force_ratio = held_load.force_ratio, min_load = 2, min_slippery_load = 0, min_epsilon = 0.01, lift = 0.1}
 
 verification.too_weak = "too weak against loads"
 verification.lost_when_shaken = "lost when shaken"
@@ -18,9 +19,7 @@ verification.too_slippery = "too weak with half of the friction"
 --- min_slippery_load of grasps that are also shaken
 verification.min_slippery_load_of_shaken = 2
 
---- the six directions in which the object is displaced and pulled, in the world
-verification.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.vec3(0, 1, 0), clench.vec3(0, -1, 0),
-                           clench.vec3(0, 0, 1), clench.vec3(0, 0, -1)}
+verification.directions = held_load.directions
 
 local function moved(pose, way) return clench.pose {xyz = way} * pose end
 
@@ -120,22 +119,9 @@ function verification.perturbed_epsilon(hand, object, grasp, displacement, enoug
   return math.max(least, 0)
 end
 
---- The load that the hand holds in the worst of six directions [weights of the object], with a sum of normal forces of at most `force_ratio` weights, and
---- motors within their limits unless `torque_limits` is false.
-function verification.load(object, grasp, force_ratio, torque_limits)
-  local weight = 9.81 * object.mass
-  local least = math.huge
-  for _, d in ipairs(verification.directions) do
-    local result = grasp:max_load {direction = {d.x * weight, d.y * weight, d.z * weight, 0, 0, 0},
-                                   max_total_force = force_ratio * weight, torque_limits = torque_limits ~= false}
-    local load = (result.status == "optimal" or result.status == "unlimited") and result.load or 0
-    least = math.min(least, load)
-    if least <= 0 then break end
-  end
-  return math.max(least, 0)
-end
+verification.load = held_load.of
 
---- As verification.load, with half of the friction between hand and object.
+--- The load that the hand holds with half of the friction between hand and object [weights of the object].
 function verification.slippery_load(hand, object, force_ratio, options)
   local world = hand.world
   local here <close> = world:snapshot()

@@ -19,7 +19,8 @@ function Port:__tostring() return ("port %s%s"):format(self.name, self:is_open()
 local function wait(self, last, event)
   local left = last and last - loop.time()
   if left and left <= 0 then return false end
-  return loop.wait(self.stream:descriptor(), left, event)
+  local stream = self.stream
+  return loop.wait(event == "writable" and stream:write_descriptor() or stream:descriptor(), left, event)
 end
 
 -- Reads until found(self, x) returns a result, or nil and a reason; returns the same.
@@ -159,7 +160,7 @@ local function put(self, bytes)
   self.queued, self.put = self.queued + #bytes, self.put + #bytes
   if not self.flushing then
     flush(self)
-    if self.queued > 0 then self.flushing = loop.on(self.stream:descriptor(), function() flush(self) end, "writable") end
+    if self.queued > 0 then self.flushing = loop.on(self.stream:write_descriptor(), function() flush(self) end, "writable") end
   end
 end
 
@@ -224,8 +225,10 @@ function Port:is_open() return self.stream:ending() == nil end
 
 --- Closes the port. Coroutines that wait for it go on, with the reason "closed".
 function Port:close()
-  local descriptor = self.stream:descriptor()
-  if descriptor >= 0 then loop.release(descriptor) end
+  if self.stream:descriptor() >= 0 then
+    loop.release(self.stream:descriptor())
+    loop.release(self.stream:write_descriptor())
+  end
   self.flushing = nil
   self.stream:close()
   flush(self)

@@ -1,6 +1,6 @@
 --- Simulation in real time: a coroutine of `clench.loop` steps the world. A playback is one gesture, thus one step of undo; it is logged as its number of
 --- steps.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local script = require "clench.session.script"
 local playback = {}

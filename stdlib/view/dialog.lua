@@ -87,6 +87,8 @@ function dialog.open(view, command)
   if not asks then return view:run(command.name) end
   local state = {texts = {}}
   for _, parameter in ipairs(command.parameters or {}) do state[parameter.name] = parameter.default end
+  -- in a window a search is watched and stopped by hand: its time, not its steps, bounds it
+  if command.name:find(planner_group) and state.steps then state.steps, state.seconds = 10000000, 60 end
   view.dialogs[command.name] = state
 end
 

@@ -122,3 +122,29 @@ TEST_CASE("faults of clench serve are named") {
   CHECK(second.code == 1);
   CHECK(has(second.out, "Address already in use"));
 }
+
+TEST_CASE("a program that starts a server may talk to it over standard input and output") {
+  const std::string requests =
+      "{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"world.hash\"}\n"
+      "{\"jsonrpc\":\"2.0\",\"id\":2,\"method\":\"hello\"}\n"
+      "{\"jsonrpc\":\"2.0\",\"id\":3,\"method\":\"get\",\"params\":{\"fields\":[\"time\"]}}\n"
+      "getRobotName ALL\n";
+  const Folder folder;
+  const std::string file = folder.file("requests", requests);
+  const std::string command = fmt::format(
+      "cat {} | {} serve worlds/barrett_mug.wld --root . --stdio", file, CLENCH_COMMAND);
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string out;
+  char buffer[4096];
+  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) out.append(buffer, count);
+  CHECK(pclose(pipe) == 0);
+  std::vector<std::string> lines;
+  for (size_t at = 0, end = 0; (end = out.find('\n', at)) != std::string::npos; at = end + 1)
+    lines.push_back(out.substr(at, end - at));
+  REQUIRE(lines.size() == 4);
+  CHECK(has(lines[0], "\"code\":-32001"));
+  CHECK(has(lines[1], "\"protocol\":1"));
+  CHECK(has(lines[2], "\"result\":{\"time\":0.0}"));
+  CHECK(has(lines[3], "\"code\":-32700"));
+}

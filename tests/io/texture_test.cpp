@@ -1,4 +1,7 @@
 // Textures: images, and the colors that they give to the faces of OBJ and glTF files.
+#include <fmt/format.h>
+
+#include <array>
 #include <optional>
 
 #include "clench/base/error.h"
@@ -78,10 +81,9 @@ TEST_CASE("files that are not images, truncated or damaged are rejected by name"
 
 TEST_CASE("images of one file are refused when they have too many pixels in all") {
   ImageBudget budget;
-  const Image large{1 << 13, 1 << 13, {}};
-  budget.add(large, "a");
-  budget.add(large, "b");
-  CHECK_THROWS_WITH_AS(budget.add({1, 1, {}}, "c.png"),
+  budget.add(1 << 13, 1 << 13, "a");
+  budget.add(1 << 13, 1 << 13, "b");
+  CHECK_THROWS_WITH_AS(budget.add(1, 1, "c.png"),
                        "c.png: expected images of at most 134217728 pixels in all", Error);
 }
 
@@ -150,4 +152,165 @@ TEST_CASE("triangles of a glTF file have the colors of their base color texture"
   const Appearance looks = read_body(file).appearance;
   CHECK(looks.given);
   CHECK(looks.color == Eigen::Vector3f(0, 1, 0));
+}
+
+// --- places in images ---
+
+namespace {
+
+// u and v of a corner by the corner's place, which is unique in these meshes
+Eigen::Vector2f place_at(const BodySpec& body, const Eigen::Vector3d& p) {
+  const Mesh& mesh = body.shape->mesh();
+  for (size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if ((mesh.vertices[mesh.triangles[i][k]] - p).norm() < 1e-9)
+        return body.appearance.skin->triangles[i].uv[k];
+  FAIL("no such vertex");
+  return {};
+}
+
+bool is_at(const Eigen::Vector2f& uv, float u, float v) {
+  return (uv - Eigen::Vector2f(u, v)).norm() < 1e-5f;
+}
+
+// a closed tetrahedron in meters; vt i lies at vertex i
+std::string textured_tetrahedron(bool inside_out) {
+  std::string text =
+      "mtllib a.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+      "vt 0.1 0.2\nvt 0.9 0.2\nvt 0.5 0.8\nvt 0.25 0.5\n";
+  for (std::array<int, 3> f : {std::array{1, 3, 2}, {1, 2, 4}, {1, 4, 3}, {2, 3, 4}}) {
+    if (inside_out) std::swap(f[1], f[2]);
+    text += fmt::format("f {0}/{0} {1}/{1} {2}/{2}\n", f[0], f[1], f[2]);
+  }
+  return text;
+}
+
+const char* const collada_effect = R"(<?xml version="1.0"?>
+<COLLADA version="1.4.1"><asset><up_axis>Z_UP</up_axis></asset>
+<library_images><image id="img"><init_from>my%20wood.png</init_from></image></library_images>
+<library_effects><effect id="fx"><profile_COMMON>
+<newparam sid="surf"><surface type="2D"><init_from>img</init_from></surface></newparam>
+<newparam sid="samp"><sampler2D><source>surf</source><wrap_s>MIRROR</wrap_s></sampler2D></newparam>
+<technique sid="t"><lambert><diffuse><texture texture="samp" texcoord="CH"/></diffuse></lambert>
+</technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="mat"><instance_effect url="#fx"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array>
+<technique_common><accessor source="#pa" count="4" stride="3"><param name="X"/><param name="Y"/>
+<param name="Z"/></accessor></technique_common></source>
+<source id="uv"><float_array id="ua" count="8">0 0 1 0 1 1 0 1</float_array>
+<technique_common><accessor source="#ua" count="4" stride="2"><param name="S"/><param name="T"/>
+</accessor></technique_common></source>
+<source id="other"><float_array id="oa" count="2">0.5 0.5</float_array>
+<technique_common><accessor source="#oa" count="1" stride="2"><param name="S"/><param name="T"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist material="M" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#other" offset="1" set="0"/>
+<input semantic="TEXCOORD" source="#uv" offset="2" set="1"/>
+<vcount>4</vcount><p>0 0 0 1 0 1 2 0 2 3 0 3</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"><bind_material>
+<technique_common><instance_material symbol="M" target="#mat">
+<bind_vertex_input semantic="CH" input_semantic="TEXCOORD" input_set="1"/></instance_material>
+</technique_common></bind_material></instance_geometry></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+
+}  // namespace
+
+TEST_CASE("triangles of an OBJ file keep their places in its image") {
+  const TemporaryFolder folder;
+  folder.write("a.png", bytes_of_base64(png_base64));
+  folder.write("a.mtl", "newmtl wood\nmap_Kd a.png\n");
+  for (const bool inside_out : {false, true}) {
+    const BodySpec body = read_body(folder.write("a.obj", textured_tetrahedron(inside_out)));
+    CHECK(body.mesh_report->flipped == inside_out);
+    REQUIRE(body.appearance.skin);
+    REQUIRE(body.appearance.skin->textures.size() == 1);
+    CHECK(body.appearance.skin->textures[0].image->width == 4);
+    CHECK(body.appearance.skin->textures[0].wrap_u == Wrap::repeat);
+    CHECK(is_at(place_at(body, {0, 0, 0}), 0.1f, 0.8f));  // v of OBJ counts upward
+    CHECK(is_at(place_at(body, {1, 0, 0}), 0.9f, 0.8f));
+    CHECK(is_at(place_at(body, {0, 1, 0}), 0.5f, 0.2f));
+    CHECK(is_at(place_at(body, {0, 0, 1}), 0.25f, 0.5f));
+  }
+  folder.write("a.mtl", "newmtl wood\nKd 0.5 1 1\nmap_Kd -clamp on -s 2 4 1 -o 0.1 0 0 a.png\n");
+  const BodySpec body = read_body(folder.write("a.obj", textured_tetrahedron(false)));
+  const Texture& texture = body.appearance.skin->textures[0];
+  CHECK(texture.wrap_u == Wrap::clamp);
+  CHECK(texture.tint == Eigen::Vector3f(0.5f, 1, 1));
+  CHECK(is_at(place_at(body, {0, 0, 0}), 0.3f, 0.2f));
+  // a color of the user's own takes the place of the image
+  CHECK_FALSE(
+      read_body(folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).appearance.skin);
+}
+
+TEST_CASE("a face of four corners keeps the places of each") {
+  const TemporaryFolder folder;
+  folder.write("a.png", bytes_of_base64(png_base64));
+  folder.write("a.mtl", "newmtl wood\nmap_Kd a.png\n");
+  const BodySpec body =
+      read_body(folder.write("a.obj",
+                             "mtllib a.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"));
+  REQUIRE(body.appearance.skin);
+  for (const auto& p : body.shape->mesh().vertices)
+    CHECK(is_at(place_at(body, p), static_cast<float>(p.x()), static_cast<float>(1 - p.y())));
+}
+
+TEST_CASE("a glTF file places its image by its sampler and its transform") {
+  const TemporaryFolder folder;
+  const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.6f, 0.1f, 0.9f, 0.1f, 0.6f, 0.4f};
+  folder.write("a.bin", std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
+  folder.write("a.png", bytes_of_base64(png_base64));
+  const auto file =
+      folder.write("a.gltf",
+                   R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+  "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
+    "material": 0}]}], "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1],
+      "baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+        {"offset": [0.25, 0], "rotation": 1.5707963267948966, "scale": [2, 1]}}}}}],
+  "textures": [{"source": 0, "sampler": 0}], "samplers": [{"wrapS": 33648, "wrapT": 33071}],
+  "images": [{"uri": "a.png"}], "buffers": [{"uri": "a.bin", "byteLength": 60}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}]})");
+  const BodySpec body = read_body(file);
+  REQUIRE(body.appearance.skin);
+  const Texture& texture = body.appearance.skin->textures.at(0);
+  CHECK(texture.wrap_u == Wrap::mirror);
+  CHECK(texture.wrap_v == Wrap::clamp);
+  CHECK(texture.tint == Eigen::Vector3f(0.5f, 1, 1));
+  // (u, v) becomes offset + turn * scale * (u, v): a quarter turn takes u to -v, v to u
+  CHECK(is_at(place_at(body, {0, 0, 0}), 0.25f + 0.1f, -1.2f));
+}
+
+TEST_CASE("a COLLADA file places the image that its material's sampler leads to") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.dae", collada_effect);
+  Warnings warnings;
+  const Appearance bare = read_body(file, warnings.options()).appearance;
+  CHECK_FALSE(bare.skin);
+  REQUIRE(warnings.list.size() == 1);
+  CHECK(warnings.list[0].find("my wood.png") != std::string::npos);
+  folder.write("my wood.png", bytes_of_base64(png_base64));
+  const BodySpec body = read_body(file);
+  REQUIRE(body.appearance.skin);
+  CHECK(body.appearance.skin->textures.at(0).wrap_u == Wrap::mirror);
+  CHECK(body.appearance.skin->textures.at(0).wrap_v == Wrap::repeat);
+  for (const auto& p : body.shape->mesh().vertices)
+    CHECK(is_at(place_at(body, p), static_cast<float>(p.x()), static_cast<float>(1 - p.y())));
+  CHECK(is_near(body.appearance.color, {0.5f, 0.5f, 0.5f}, 0.1f));
+}
+
+TEST_CASE("textures do not change what a body is") {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl wood\nmap_Kd a.png\n");
+  const auto file = folder.write("a.obj", textured_tetrahedron(true));
+  Warnings warnings;
+  const BodySpec without = read_body(file, warnings.options());
+  CHECK_FALSE(without.appearance.skin);
+  folder.write("a.png", bytes_of_base64(png_base64));
+  const BodySpec with = read_body(file);
+  CHECK(with.appearance.skin);
+  CHECK(with.shape->hash() == without.shape->hash());
 }

@@ -130,7 +130,10 @@ local function descriptors()
 end
 
 test("closing a server ends everything that it has started", function(t)
-  collectgarbage()
+  for _ = 1, 3 do
+    loop.sleep(0.01)
+    collectgarbage()
+  end
   local before = descriptors()
   for _ = 1, 20 do
     local server = clench.control.server {world = world, port = 0}
@@ -144,6 +147,11 @@ test("closing a server ends everything that it has started", function(t)
   local began = loop.time()
   loop.run(5)
   t.ok(loop.time() - began < 4)  -- nothing is left to wait for
-  collectgarbage()
-  t.equal(descriptors(), before)
+  local last, after = loop.time() + 5, nil
+  repeat
+    loop.sleep(0.01)
+    collectgarbage()
+    after = descriptors()
+  until after <= before or loop.time() > last  -- those of the tests above may have gone meanwhile, too
+  t.ok(after <= before, ("%d descriptors before, %d after"):format(before, after))
 end)

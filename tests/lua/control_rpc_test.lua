@@ -131,11 +131,11 @@ test("commands act on the session, by addresses, and can be undone", function(t)
   t.close(world:body("mug").mass, 0.25, 0)
   client.get("body.move", {body = "mug", pose = {xyz = {1, 2, 3}}})
   t.close(world:body("mug").pose.position, {1, 2, 3}, 1e-12)
-  t.equal(client.get "session.undo", "Move")
+  t.equal(client.get "session.undo", server.session.commands["body.move"].label)
   client.get "session.undo"
   client.get "session.undo"
   t.equal(world:hash(), before)
-  t.equal(client.get "session.redo", "Autograsp")
+  t.equal(client.get "session.redo", server.session.commands["grasp.autograsp"].label)
   t.ok(client.get("session.script"):find("autograsp()", 1, true))
   t.equal(client.get("session.info").hand, "barrett")
 end)
@@ -165,6 +165,9 @@ test("queries return the values that scripts read", function(t)
   t.equal(client.get("world.raycast", {origin = {0, 0, 9}, direction = {0, 0, 1}}), nil)
   t.equal(#client.get("robot.jacobian", {link = "barrett/chain1_link2"}), #hand:jacobian(tip))
   t.equal(client.get("world.colliding"), {})
+  local held = clench.grasp(hand, mug):contact_forces {load = {0, 0, -9.81 * mug.mass, 0, 0, 0}}
+  t.equal(client.get("grasp.forces").status, held.status)
+  t.close(client.get("grasp.quality"), clench.grasp(hand, mug):quality "epsilon", 0)
   local state = client.get "world.state"
   t.equal(state.robots[1].dofs, hand.dofs)
   t.equal(state.objects[1].body, "mug")
@@ -174,7 +177,14 @@ test("queries return the values that scripts read", function(t)
   t.equal(code(client.call("read", {items = {5}})), -32602)
   local described = client.get("describe", {method = "dynamics.run"})
   t.equal({described.long, described.parameters[1].name, described.parameters[1].unit}, {true, "seconds", "s"})
-  t.equal(#client.get "describe", #client.get("hello", {token = server.token}).methods)
+  local methods, seen = client.get("hello", {token = server.token}).methods, {}
+  t.equal(#client.get "describe", #methods)
+  for _, name in ipairs(methods) do
+    t.ok(not seen[name], name)
+    seen[name] = true
+  end
+  server.session:command {name = "job.stop", run = function() end, replace = true}
+  t.equal(#client.get("hello", {token = server.token}).methods, #methods)
 end)
 
 test("a control loop steps and reads in one round trip, bit for bit as a script", function(t)
@@ -247,7 +257,9 @@ test("searches are jobs with states and events, and are stopped", function(t)
   t.equal(#client.get "job.list", 2)
   client.get("job.forget", {job = endless})
   t.equal(code(client.call("job.state", {job = endless})), -32602)
-  t.equal(code(client.call("plan.start", {planner = "smaple"})), -32000)
+  t.equal(code(client.call("plan.start", {planner = "smaple"})), -32602)
+  t.equal(code(client.call("plan.start", {planner = "list", options = {path = "/etc/passwd"}})), -32602)
+  t.equal(code(client.call("plan.start", {planner = "primitive", options = {primitives = "/etc/passwd"}})), -32002)
 end)
 
 test("subscribers get every event in order, and the latest state", function(t)
@@ -300,13 +312,17 @@ test("requests read and write files only below the server's folder, and none wit
   assert(os.execute("mkdir -p " .. folder .. "/sub"))
   local secret = os.tmpname()
   clench.files.save_text(secret, "secret")
+  assert(os.execute(("mkdir %s/out && ln -s /tmp %s/away"):format(folder, folder)))
   assert(os.execute(("cp models/objects/mug.iv %s/sub/mug.iv && ln -s %s %s/link.iv"):format(folder, secret, folder)))
   local open <close>, world = serve {folder = folder}
   local reader = connect(open)
   t.equal(reader.get("world.import_object", {path = "sub/mug.iv"}), "mug_2")
   for _, path in ipairs {"../x.iv", "/etc/passwd", "sub/../../x.iv", secret, "a\nb"} do t.equal(code(reader.call("world.import_object", {path = path})), -32002, path) end
-  t.equal(code(reader.call("world.import_object", {path = "link.iv"})), -32000)
-  t.ok(not reader.call("world.import_object", {path = "link.iv"}).error.message:find "secret$")
+  t.equal(code(reader.call("world.import_object", {path = "link.iv"})), -32002)
+  t.equal(code(reader.call("world.save", {path = "away/x.wld"})), -32002)
+  t.equal(code(reader.call("world.import_object", {path = "sub/no.iv"})), -32000)
+  open.session:command {name = "mine.load", parameters = {{name = "file", type = "string"}}, run = function() error "it ran" end}
+  t.equal(code(reader.call("mine.load", {file = "sub/mug.iv"})), -32002)
   t.equal(code(reader.call("world.import_object", {path = "sub/mug.iv", options = {confine = "/"}})), -32002)
   t.equal(code(reader.call("world.save", {path = "../out.wld"})), -32002)
   t.equal(code(reader.call("world.save")), -32602)

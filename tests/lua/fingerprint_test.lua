@@ -83,3 +83,58 @@ test("a robot's fingerprint is that of its mechanism, and the one in a clone is 
   t.equal({clench.type(clench.vec3(1, 2, 3)), clench.type(world), clench.type {}, clench.type(nil), clench.type(1), clench.type(print)},
           {"vec3", "world", "table", "nil", "number", "function"})
 end)
+
+-- a hand that holds a box, its grasp, and the world
+local function held_box()
+  local world = clench.world()
+  local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  local box = world:add_object(clench.shapes.box {0.02, 0.02, 0.1}, {name = "box"})
+  return clench.grasp(hand, box), world, hand, box
+end
+
+local function warnings_of(f, ...)
+  local texts = {}
+  for i, one in ipairs((clench.log.collect(f, ...))) do texts[i] = one.text end
+  return texts
+end
+
+test("grasps carry the identity of hand, object, settings and engine in every list that is ours", function(t)
+  local grasp, world, hand, box = held_box()
+  t.equal(grasp.hand_fingerprint, hand.mechanism_fingerprint)
+  t.equal(grasp.object_fingerprint, box.mesh.fingerprint)
+  t.equal(grasp.engine_version, clench.version)
+  t.equal(clench.grasp(hand, box, grasp.options).settings_fingerprint, grasp.settings_fingerprint)
+  for _, options in ipairs {{edges = 12}, {rho = 1}, {soft = false}, {normal_force = 4}, {modulus = "larger"}} do
+    t.ok(clench.grasp(hand, box, options).settings_fingerprint ~= grasp.settings_fingerprint)
+  end
+  grasp.labels = {planner = "mine"}
+  local list, path = clench.grasps(), test.path()
+  list:add(grasp)
+  for _, ending in ipairs {".jsonl", ".csv", ".npz"} do
+    list:save(path .. ending)
+    local again = clench.grasps(path .. ending)[1]
+    for _, field in ipairs {"hand_fingerprint", "object_fingerprint", "settings_fingerprint", "engine_version"} do
+      t.equal(again[field], grasp[field], field .. ending)
+    end
+    t.equal(warnings_of(again.apply, again, world), {})
+  end
+  list:save(path .. "small.npz", {compress = true})
+  t.equal(clench.grasps(path .. "small.npz")[1].hand_fingerprint, hand.mechanism_fingerprint)
+  t.ok(table.concat(warnings_of(list.save, list, path .. ".yaml")):find("fingerprints", 1, true))
+end)
+
+test("grasp:apply warns once of another hand or object, not of masses, materials and limits", function(t)
+  local grasp, world, hand, box = held_box()
+  box.mass, box.material, hand.bodies[2].mass = 2, "rubber", 3
+  hand.pose = clench.pose {xyz = {1, 0, 0}}
+  t.equal(warnings_of(grasp.apply, grasp, world:clone()), {})
+  local other = clench.world()
+  other:add_robot("models/hands/parallel_jaw/parallel_jaw.cfg", {name = hand.name})
+  local slimmer = other:add_object(clench.shapes.box {0.02, 0.019, 0.1}, {name = "box"})
+  t.equal(warnings_of(grasp.apply, grasp, other), {("grasp of box by %s: it was measured on another object, of another surface"):format(hand.name)})
+  t.equal(warnings_of(grasp.apply, grasp, other), {})
+  t.equal(grasp:apply(other).object_fingerprint, slimmer.mesh.fingerprint)
+  local barrett = other:add_robot("models/hands/barrett/barrett.cfg", {name = "barrett"})
+  local jaws = clench.grasp(barrett, slimmer)
+  t.ok(jaws.hand_fingerprint ~= grasp.hand_fingerprint)
+end)

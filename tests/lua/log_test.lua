@@ -75,6 +75,10 @@ test("what cannot be logged is said in a sentence", function(t)
   t.fails(function() log:save "a.txt" end, "log:save: expected a name that ends in .csv or .npz, got 'a.txt'")
   t.fails(function() clench.files.save_arrays("build/a.npz", {a = {{1}, {1, 2}}}) end, "a[2]: expected a row of 1 numbers, got a row of 2 numbers")
   t.fails(function() clench.files.save_arrays("build/a.npz", {["../a"] = {1}}) end, "expected names without slashes")
+  local numbers = {time = {0, 0.5}, place = {{1, 2, 3}, {4, 5, 6}}}
+  clench.files.save_arrays("build/log_test_small.npz", numbers, {compress = true})
+  t.equal(clench.files.arrays "build/log_test_small.npz", numbers)
+  t.fails(function() clench.files.save_arrays("build/a.npz", {a = {1}}, {compres = true}) end, "unknown key 'compres'")
   t.fails(function() clench.files.save_arrays("build/a.npz", {a = 1}) end, "a: expected a list of numbers, or of rows of them, got 1")
   -- of many faults the first by name, whatever the order of the table
   local many = {}

@@ -183,3 +183,46 @@ test("a page has the colors of triangles where a file gives several, and lists t
   t.ok(html:find("<h2>Assumptions</h2><ul><li>friction 0.3 &lt;assumed&gt;</li></ul>", 1, true))
   for _, ending in ipairs {".mtl", ".obj", ""} do os.remove(path .. ending) end
 end)
+
+-- 2 x 1 pixels: red, blue
+local png = "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01\x08\x02\x00\x00\x00\x7b\x40\xe8\xdd\x00\x00" ..
+  "\x00\x0d\x49\x44\x41\x54\x78\x9c\x63\xf8\xcf\x00\x04\xff\x01\x07\x00\x01\xff\xe2\x23\x9e\x59\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82"
+
+test("a page carries the textures of a body once, with their places", function(t)
+  if not three then t.skip(missing) end
+  local path = test.path()
+  local name = path:match "[^/]*$"
+  local file = assert(io.open(path .. ".png", "wb"))
+  file:write(png)
+  file:close()
+  clench.files.save_text(path .. ".mtl", "newmtl a\nKd 1 1 0.5\nmap_Kd -clamp on " .. name .. ".png\nnewmtl b\nKd 0 0 1\n")
+  clench.files.save_text(path .. ".obj", "mtllib " .. name .. ".mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nvt 0 0\nvt 1 0\nvt 0 0.75\n" ..
+    "usemtl a\nf 1/1 3/3 2/2\nusemtl b\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+  local _, hand = stage(0)
+  local object = hand.world:add_object(path .. ".obj", {unit = "m"})
+  local twin = hand.world:add_obstacle(path .. ".obj", {unit = "m", name = "twin", pose = {xyz = {0, 0, 5}}})
+  local textures = object.textures
+  t.equal(#textures.images, 1)
+  local image = textures.images[1]
+  t.equal({image.width, image.height, image.wrap_u, image.wrap_v}, {2, 1, "clamp", "clamp"})
+  t.equal(image.tint, {1, 1, 0.5})
+  t.equal(image.jpeg:sub(1, 3), "\xff\xd8\xff")
+  t.equal({string.unpack("<I2I2I2I2", textures.numbers)}, {1, 0, 0, 0, 9})
+  t.equal({string.unpack("<ffffff", textures.places)}, {0, 1, 0, 0.25, 1, 1, 25})
+  t.equal(object.fingerprint, twin.fingerprint)
+
+  local html = page(hand, object, {}, {title = "", subtitle = "", report = "", assumptions = {}})
+  local data = clench.json.decode(html:match '<script type="application/json" id="data">(.-)</script>')
+  t.equal(data.images, {"data:image/jpeg;base64," .. base64(image.jpeg)})
+  for _, part in ipairs(data.still) do
+    if part.name == object.name then
+      local mesh = data.meshes[part.mesh + 1]
+      t.equal(mesh.textures.numbers, base64(textures.numbers))
+      t.equal(mesh.textures.places, base64(textures.places))
+      t.equal(mesh.textures.list, {{image = 0, tint = {1, 1, 0.5}, wrap = {"clamp", "clamp"}}})
+    end
+  end
+  object.color = {1, 0, 0}
+  t.equal(object.textures, nil)
+  for _, ending in ipairs {".mtl", ".obj", ".png", ""} do os.remove(path .. ending) end
+end)

@@ -170,6 +170,9 @@ test("addresses name bodies, robots and links", function(t)
   session.world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "a/b", pose = {xyz = {5, 0, 0}}})
   t.equal(session:find("a\\/b").name, "a/b")
   t.equal(session:run("grasp.quality", {hand = "barrett"}), 0.0)
+  local object, grasp = session.object, clench.grasp(session.hand, session.object)
+  local weight = {0, 0, -9.81 * object.mass, 0, 0, 0}
+  t.equal(session:run("grasp.forces").status, grasp:contact_forces {load = weight}.status)
 end)
 
 -- commands of a random session on the mug and the hand

@@ -91,7 +91,7 @@ TEST_CASE("the farthest triangles come first") {
   const Eigen::Vector3f eye(3, -4, 2);
   Eye from;
   from.eye = eye.cast<double>();
-  const auto order = back_to_front(list, from);
+  const auto order = back_to_front(list, from).indices;
   CHECK(order.size() == static_cast<size_t>(list.clear[0].count));
   float last = std::numeric_limits<float>::infinity();
   for (size_t i = 0; i < order.size(); i += 3) {

@@ -20,7 +20,7 @@ static std::vector<Corner> corners_of(const Mesh& mesh) {
 }
 
 TEST_CASE("no edge within the ball is longer than asked, and no crack opens") {
-  const auto fine = split_long_edges(corners_of(box(1, 0.8, 0.1)), 0.07f, 100000);
+  const auto fine = split_long_edges(corners_of(box(1, 0.8, 0.1)), 0.07f);
   using Point = std::tuple<float, float, float>;
   std::map<std::pair<Point, Point>, int> edges;
   for (size_t i = 0; i < fine.size(); i += 3)
@@ -37,7 +37,9 @@ TEST_CASE("no edge within the ball is longer than asked, and no crack opens") {
 }
 
 TEST_CASE("a floor far larger than the scene is fine where the scene is") {
-  const auto fine = split_long_edges(corners_of(box(100, 100, 0.01)), 0.07f, 200000);
+  const auto corners = corners_of(box(100, 100, 0.01));
+  CHECK(affordable_length(corners, 0.07f, 200000) == 0.07f);
+  const auto fine = split_long_edges(corners, 0.07f);
   CHECK(fine.size() / 3 < 200000);
   for (size_t i = 0; i < fine.size(); i += 3) {
     const Eigen::Vector3f middle = (fine[i].p + fine[i + 1].p + fine[i + 2].p) / 3;
@@ -47,10 +49,11 @@ TEST_CASE("a floor far larger than the scene is fine where the scene is") {
 
 TEST_CASE("a mesh that would become too many triangles keeps longer edges") {
   const auto corners = corners_of(ball(1, 60, 120));
-  const auto fine = split_long_edges(corners, 0.001f, 20000);
+  const auto fine = split_long_edges(corners, affordable_length(corners, 0.001f, 20000));
   CHECK(fine.size() >= corners.size());
   CHECK(fine.size() / 3 <= 20000);
-  CHECK(split_long_edges(corners, 0.001f, 10).size() >= corners.size());
+  const float no_longer = affordable_length(corners, 0.001f, 10);
+  CHECK(split_long_edges(corners, no_longer).size() >= corners.size());
 }
 
 TEST_CASE("equal corners are shared, in the order in which they first come") {

@@ -1,5 +1,7 @@
 #include "clench/scene/force_arrows.h"
 
+#include <tuple>
+
 using namespace clench;
 using Eigen::Vector3d;
 
@@ -36,4 +38,39 @@ TEST_CASE("the longest arrows tell their newtons beyond their tails, the largest
     CHECK(labels[i].p_W.z() == force.p_W.z());
   }
   CHECK(force_labels({}, 1).empty());
+}
+
+TEST_CASE("a patch of many points has one arrow, which turns the object as its forces do") {
+  std::vector<Contact> contacts;
+  std::vector<PlacedForce> forces;
+  // the corners of a square face, pressed unevenly along +z
+  for (const auto& [x, y, f] : {std::tuple(0.0, 0.0, 1.0), std::tuple(0.02, 0.0, 2.0),
+                                std::tuple(0.02, 0.02, 3.0), std::tuple(0.0, 0.02, 0.5)}) {
+    Contact contact;
+    contact.p_W = {x, y, 0};
+    contact.n_W = Vector3d::UnitZ();
+    contacts.push_back(contact);
+    forces.push_back({contact.p_W, {0, 0, f}});
+  }
+  // and another contact far away, on another side
+  Contact other;
+  other.p_W = {0.01, 0.01, 0.05};
+  other.n_W = -Vector3d::UnitZ();
+  contacts.push_back(other);
+  forces.push_back({other.p_W, {0.3, 0, -6.5}});
+
+  const auto resultants = patch_forces(contacts, forces);
+  REQUIRE(resultants.size() == 2);
+  Vector3d sum = Vector3d::Zero(), torque = sum;
+  for (size_t i = 0; i < 4; ++i) {
+    sum += forces[i].f_W;
+    torque += forces[i].p_W.cross(forces[i].f_W);
+  }
+  CHECK((resultants[0].f_W - sum).norm() < 1e-15);
+  CHECK((resultants[0].p_W.cross(resultants[0].f_W) - torque).norm() < 1e-15);
+  CHECK(resultants[1].p_W == other.p_W);
+  CHECK(resultants[1].f_W == forces[4].f_W);
+  // a patch on which nothing presses
+  for (PlacedForce& force : forces) force.f_W.setZero();
+  CHECK((patch_forces(contacts, forces)[0].p_W - Vector3d(0.01, 0.01, 0)).norm() < 1e-15);
 }

@@ -1,4 +1,5 @@
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/picture/pictures.h"
 #include "script_state.h"
 
 using namespace clench;

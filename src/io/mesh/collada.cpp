@@ -2,6 +2,7 @@
 
 #include "clench/base/units.h"
 #include "clench/io/mesh/collada_mesh.h"
+#include "clench/io/mesh/collada_textures.h"
 
 namespace clench {
 
@@ -17,8 +18,11 @@ constexpr int deepest_node = 200;
 
 class ColladaReader {
  public:
-  ColladaReader(const std::string& file, const std::string& text, GeometryBuilder& builder)
-      : xml_(file, text, max_bytes), ids_(xml_.root()), work_{ids_, builder} {}
+  ColladaReader(const MeshInput& input, const std::string& text, GeometryBuilder& builder)
+      : xml_(input.file(), text, max_bytes),
+        ids_(xml_.root()),
+        work_{ids_, builder},
+        textures_(input, ids_, work_) {}
   /// returns  are there colors?
   bool read();
   const std::set<std::string>& warnings() const { return work_.warnings; }
@@ -30,11 +34,12 @@ class ColladaReader {
   Affine3d placement(const XmlElement& node);
   void read_controller(const XmlElement& instance, const Affine3d& X);
   void read_geometry(const XmlElement& geometry, const XmlElement& instance, const Affine3d& X);
-  ColladaLook look(const XmlElement& instance, const std::string& symbol) const;
+  ColladaLook look(const XmlElement& instance, const std::string& symbol);
 
   XmlFile xml_;
   ColladaIds ids_;
   ColladaWork work_;
+  ColladaTextures textures_;
   int nodes_ = 0;
   bool colors_given_ = false;
 };
@@ -160,27 +165,26 @@ void ColladaReader::read_geometry(const XmlElement& geometry, const XmlElement& 
   add_collada_mesh(mesh, X, found_look, work_);
 }
 
-/// The diffuse color of the material that an instance binds to the symbol.
-ColladaLook ColladaReader::look(const XmlElement& instance, const std::string& symbol) const {
-  const auto inner = [](XmlElement e, std::initializer_list<const char*> path) {
-    for (const char* name : path)
-      if (e) e = e.child(name);
-    return e;
-  };
-  const XmlElement bound = inner(instance, {"bind_material", "technique_common"});
+/// The diffuse color or image of the material that an instance binds to the symbol.
+ColladaLook ColladaReader::look(const XmlElement& instance, const std::string& symbol) {
+  const XmlElement bound = inner_element(instance, {"bind_material", "technique_common"});
   if (!bound) return {};
   for (const XmlElement& material : bound.children("instance_material")) {
     if (material.attribute("symbol") != symbol) continue;
     const XmlElement effect = ids_.find(material, "target").child("instance_effect");
     if (!effect) return {};
-    const XmlElement technique = inner(ids_.find(effect, "url"), {"profile_COMMON", "technique"});
+    const XmlElement profile = ids_.find(effect, "url").child("profile_COMMON");
+    const XmlElement technique = inner_element(profile, {"technique"});
     if (!technique) return {};
-    for (const XmlElement& shading : technique.children())
-      if (const XmlElement color = inner(shading, {"diffuse", "color"})) {
+    for (const XmlElement& shading : technique.children()) {
+      if (const XmlElement color = inner_element(shading, {"diffuse", "color"})) {
         const auto rgb = color.numbers();
         if (rgb.size() < 3) color.fail("color: expected three or four numbers, got {}", rgb.size());
         return {Vector3d(rgb[0], rgb[1], rgb[2]).cwiseMax(0).cwiseMin(1).cast<float>(), true};
       }
+      if (const XmlElement texture = inner_element(shading, {"diffuse", "texture"}))
+        return textures_.look(texture, profile, material);
+    }
   }
   return {};
 }
@@ -207,7 +211,7 @@ bool read_collada(const MeshInput& input, GeometryBuilder& builder) {
   const std::string file = input.file(), text = plain_text(input.bytes);
   const auto tags = std::count(text.begin(), text.end(), '<');
   if (tags > max_tags) fail("{}: expected at most {} tags, got {}", file, max_tags, tags);
-  return run_reader(input, [&] { return ColladaReader(file, text, builder); });
+  return run_reader(input, [&] { return ColladaReader(input, text, builder); });
 }
 
 }  // namespace clench

@@ -1,8 +1,11 @@
 #include "clench/io/mesh/collada_mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
+#include "clench/io/mesh/image_file.h"
 #include "clench/io/text/file_errors.h"
 
 namespace clench {
@@ -12,6 +15,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int max_inputs = 64, max_stride = 64;
+
+/// A vertex of the builder, and its texture coordinates; -1: none.
+struct FaceCorner {
+  int vertex = 0, place = -1;
+};
 
 /// Where the points of a <vertices> lie in the builder.
 struct Points {
@@ -27,9 +35,11 @@ class MeshReader {
  private:
   Points points(const XmlElement& input);
   void read_primitive(const XmlElement& primitive, const ColladaLook& look);
-  std::vector<int> corners(const XmlElement& p);
-  void add_polygons(const XmlElement& list, std::vector<int> all, const ColladaLook& look);
-  void add(const XmlElement& at, std::vector<int> face, const ColladaLook& look);
+  void read_places(const XmlElement& primitive, const ColladaLook& look);
+  std::vector<FaceCorner> corners(const XmlElement& p);
+  void add_polygons(const XmlElement& list, const std::vector<FaceCorner>& all,
+                    const ColladaLook& look);
+  void add(const XmlElement& at, std::vector<FaceCorner> face, const ColladaLook& look);
   void add_strip(const XmlElement& p, bool fan, const ColladaLook& look);
 
   XmlElement mesh_;
@@ -40,6 +50,8 @@ class MeshReader {
   // of the primitive at hand
   Points at_;
   int offset_ = 0, stride_ = 1;
+  int place_offset_ = -1;                // of texture coordinates; -1: none
+  std::vector<Eigen::Vector2d> places_;  // v down from the top
   size_t faces_ = 0;
 };
 
@@ -63,12 +75,14 @@ void check_count(const XmlElement& e, size_t got, ColladaWork& work) {
       fmt::format("counts of <{}> that differ from what stands there are not used", e.name()));
 }
 
-/// Rows of three numbers, as a <source> and its accessor say.
-std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
+/// Rows of numbers with these names, at most three, as a <source> and its accessor say.
+std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work,
+                                  std::string_view names = "XYZ") {
   XmlElement accessor, array = source.child("float_array");
   if (const XmlElement technique = source.child("technique_common"))
     accessor = technique.child("accessor");
-  int stride = 3, offset = 0, at[3] = {0, 1, 2};
+  const int width = static_cast<int>(names.size());
+  int stride = width, offset = 0, at[3] = {0, 1, width - 1};
   if (accessor) {
     if (accessor.attribute("source")) array = work.ids.find(accessor, "source");
     if (accessor.attribute("stride")) stride = accessor.integer_attribute("stride", 1, max_stride);
@@ -76,8 +90,8 @@ std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work) {
     int i = 0;
     for (const XmlElement& param : accessor.children("param")) {
       const std::string name = param.attribute("name").value_or("");
-      for (int k = 0; k < 3; ++k)
-        if (name == std::string(1, "XYZ"[k])) at[k] = i;
+      for (int k = 0; k < width; ++k)
+        if (name == names.substr(static_cast<size_t>(k), 1)) at[k] = i;
       ++i;
     }
   }
@@ -116,38 +130,55 @@ Points MeshReader::points(const XmlElement& input) {
   vertices.fail("vertices: expected an input POSITION, got none");
 }
 
-/// The vertices that a <p> lists, as numbers of the builder.
-std::vector<int> MeshReader::corners(const XmlElement& p) {
+/// The vertices that a <p> lists, as numbers of the builder, with their texture coordinates.
+std::vector<FaceCorner> MeshReader::corners(const XmlElement& p) {
   const auto numbers = read_numbers(p, work_);
   if (numbers.size() % static_cast<size_t>(stride_) != 0)
     p.fail("p: expected {} numbers a corner, got {} in all", stride_, numbers.size());
-  std::vector<int> out;
-  out.reserve(numbers.size() / static_cast<size_t>(stride_));
-  for (size_t i = static_cast<size_t>(offset_); i < numbers.size();
-       i += static_cast<size_t>(stride_)) {
+  const auto number = [&](size_t i, size_t count, const char* what) {
     const double v = numbers[i];
-    if (!(v >= 0 && v < at_.count) || v != std::floor(v))
-      p.fail("p: expected a vertex from 0 to {}, got {}", at_.count - 1, v);
-    out.push_back(at_.first + static_cast<int>(v));
+    if (!(v >= 0 && v < static_cast<double>(count)) || v != std::floor(v))
+      p.fail("p: expected {} from 0 to {}, got {}", what, static_cast<int64_t>(count) - 1, v);
+    return static_cast<int>(v);
+  };
+  std::vector<FaceCorner> out;
+  out.reserve(numbers.size() / static_cast<size_t>(stride_));
+  for (size_t i = 0; i < numbers.size(); i += static_cast<size_t>(stride_)) {
+    FaceCorner corner;
+    corner.vertex = at_.first + number(i + static_cast<size_t>(offset_),
+                                       static_cast<size_t>(at_.count), "a vertex");
+    if (place_offset_ >= 0)
+      corner.place =
+          number(i + static_cast<size_t>(place_offset_), places_.size(), "texture coordinates");
+    out.push_back(corner);
   }
   return out;
 }
 
-void MeshReader::add(const XmlElement& at, std::vector<int> face, const ColladaLook& look) {
+void MeshReader::add(const XmlElement& at, std::vector<FaceCorner> face, const ColladaLook& look) {
   if (mirrored_) std::reverse(face.begin(), face.end());
   ++faces_;
-  errors_at(at, [&] { work_.builder.add_face(face, look.color, 0); });
+  std::vector<int> vertices;
+  std::vector<Eigen::Vector2d> uv;
+  for (const FaceCorner& corner : face) {
+    vertices.push_back(corner.vertex);
+    if (look.image && corner.place >= 0) uv.push_back(places_[static_cast<size_t>(corner.place)]);
+  }
+  const bool textured = look.image && uv.size() == vertices.size() && uv.size() > 2;
+  const Eigen::Vector3f color = textured ? mean_color(*look.image, uv) : look.color;
+  const FaceTexture texture{look.texture, uv};
+  errors_at(at, [&] { work_.builder.add_face(vertices, color, 0, textured ? &texture : nullptr); });
 }
 
 /// Faces of three corners, or of as many as <vcount> says.
-void MeshReader::add_polygons(const XmlElement& list, std::vector<int> all,
+void MeshReader::add_polygons(const XmlElement& list, const std::vector<FaceCorner>& all,
                               const ColladaLook& look) {
   size_t at = 0;
   const auto next = [&](size_t count) {
     if (count > all.size() - at)
       list.fail("{}: expected {} corners of a face, got {}", list.name(), count, all.size() - at);
     const auto first = all.begin() + static_cast<long>(at);
-    add(list, std::vector<int>(first, first + static_cast<long>(count)), look);
+    add(list, std::vector<FaceCorner>(first, first + static_cast<long>(count)), look);
     at += count;
   };
   if (const XmlElement counts = list.child("vcount"); counts && list.name() == "polylist") {
@@ -174,6 +205,24 @@ void MeshReader::add_strip(const XmlElement& p, bool fan, const ColladaLook& loo
   }
 }
 
+/// Texture coordinates of the set that the material asks for.
+void MeshReader::read_places(const XmlElement& primitive, const ColladaLook& look) {
+  place_offset_ = -1;
+  places_.clear();
+  if (!look.image) return;
+  for (const XmlElement& input : primitive.children("input")) {
+    if (input.attribute("semantic") != "TEXCOORD") continue;
+    const int set = input.attribute("set") ? input.integer_attribute("set", 0) : 0;
+    if (look.set && set != *look.set) continue;
+    for (const Vector3d& uv : read_source(work_.ids.find(input, "source"), work_, "ST"))
+      places_.emplace_back(uv.x(), 1 - uv.y());
+    place_offset_ = input.integer_attribute("offset", 0, max_inputs);
+    return;
+  }
+  work_.warnings.insert(
+      "faces of a material with an image, but without texture coordinates, have one color");
+}
+
 void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& look) {
   bool found = false;
   stride_ = 1;
@@ -191,6 +240,7 @@ void MeshReader::read_primitive(const XmlElement& primitive, const ColladaLook& 
   if (!found && lists.empty() && holes.empty()) return;  // nothing to draw
   if (!found) primitive.fail("{}: expected an input VERTEX, got none", primitive.name());
 
+  read_places(primitive, look);
   const auto kind = primitive.name();
   const bool strips = kind == "tristrips" || kind == "trifans";
   for (const XmlElement& p : lists) {
@@ -244,6 +294,11 @@ XmlElement ColladaIds::find(const XmlElement& from, const char* attribute) const
     from.fail("{}: expected an element with the id {}, got none", from.name(),
               in_quotes(url.substr(1)));
   return found->second;
+}
+
+XmlElement ColladaIds::named(const std::string& id) const {
+  const auto found = elements_.find(id);
+  return found == elements_.end() ? XmlElement() : found->second;
 }
 
 void add_collada_mesh(const XmlElement& mesh, const Eigen::Affine3d& X,

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -20,6 +22,9 @@ class ColladaIds {
   /// throws Error  "part.dae:31: input: expected an element with the id 'x', got none"
   XmlElement find(const XmlElement& from, const char* attribute) const;
 
+  /// None if no element has it.
+  XmlElement named(const std::string& id) const;
+
  private:
   std::map<std::string, XmlElement> elements_;
 };
@@ -27,6 +32,9 @@ class ColladaIds {
 struct ColladaLook {
   Eigen::Vector3f color = Appearance().color;
   bool given = false;
+  std::shared_ptr<const Image> image = {};  ///< null: one color
+  int texture = -1;                         ///< its number in the builder
+  std::optional<int> set = {};              ///< of texture coordinates; empty: the first
 };
 
 /// What the meshes of a file share.

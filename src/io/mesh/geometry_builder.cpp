@@ -200,12 +200,12 @@ std::string GeometryBuilder::for_its_size() const {
 }
 
 void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector3f& color,
-                               float transparency) {
+                               float transparency, const FaceTexture* texture) {
   if (++faces_ > max_mesh_faces) fail("expected at most {} faces", max_mesh_faces);
   if (corners.size() == 3) {
     ++report.triangles_read;
     const Triangle t = {corners[0], corners[1], corners[2]};
-    if (!repeats_a_vertex(t)) add_triangle(t, color, transparency);
+    if (!repeats_a_vertex(t)) add_triangle(t, color, transparency, texture);
     return;
   }
   std::vector<Vector3d> points;
@@ -213,7 +213,7 @@ void GeometryBuilder::add_face(std::span<const int> corners, const Eigen::Vector
   for (const Triangle& t : cut(points)) {
     ++report.triangles_read;
     const Triangle named = {corners[t[0]], corners[t[1]], corners[t[2]]};
-    if (!repeats_a_vertex(named)) add_triangle(named, color, transparency);
+    if (!repeats_a_vertex(named)) add_triangle(named, color, transparency, texture, t);
   }
 }
 
@@ -223,17 +223,28 @@ std::vector<Triangle> GeometryBuilder::cut(const std::vector<Vector3d>& outline,
   return triangulate(outline, convex, &cutting_work_);
 }
 
+// beyond it 32 bits do not resolve the pixels of an image
+static constexpr double farthest_uv = 1e5;
+
 // files go beyond what can be shown
 static float clamped_share(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
 
 void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& given,
-                                   float transparency) {
+                                   float transparency, const FaceTexture* texture,
+                                   const Triangle& of_face) {
   const Eigen::Vector3f color = given.unaryExpr(&clamped_share);
   if (mesh_.triangles.size() >= max_triangles_)
     fail("expected at most {} triangles{}", max_triangles_, for_its_size());
   if (mesh_.triangles.size() % 1024 == 0) progress.check();
   mesh_.triangles.push_back(t);
   colors_.push_back(color);
+  if (texture) {
+    textured_.resize(mesh_.triangles.size());
+    textured_.back().texture = texture->number;
+    for (int k = 0; k < 3; ++k)
+      textured_.back().uv[k] =
+          texture->uv[of_face[k]].cwiseMax(-farthest_uv).cwiseMin(farthest_uv).cast<float>();
+  }
 
   // the whole body's color is the mean over its area
   const Vector3d& p = mesh_.vertices[t[0]];
@@ -271,6 +282,16 @@ Appearance GeometryBuilder::mean_appearance(const std::vector<int>& kept) const 
     out.color = colors_[kept.front()];
   else
     for (const int i : kept) out.triangle_colors.push_back(colors_[i]);
+  return out;
+}
+
+SkinPtr GeometryBuilder::places(const std::vector<int>& kept) const {
+  if (textured_.empty()) return nullptr;
+  auto out = std::make_shared<Skin>();
+  out->textures = textures;
+  for (const int i : kept)
+    out->triangles.push_back(static_cast<size_t>(i) < textured_.size() ? textured_[i]
+                                                                       : TexturedTriangle{});
   return out;
 }
 
@@ -314,7 +335,12 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   progress.check();
   out.report.flipped = turn_outward(s.mesh);
   if (out.report.flipped) options.repaired(subject + inside_out);
-  if (colors_given) out.appearance = mean_appearance(s.kept);
+  out.places = places(s.kept);
+  if (out.report.flipped) out.places = turned_over(out.places);
+  if (colors_given) {
+    out.appearance = mean_appearance(s.kept);
+    if (!textures.empty()) out.appearance.skin = out.places;
+  }
   out.mesh = std::move(s.mesh);
   return out;
 }

@@ -18,7 +18,15 @@ inline constexpr size_t max_mesh_triangles = 10'000'000, max_mesh_vertices = 30'
 struct Geometry {
   Mesh mesh;  ///< repaired where it can be; no triangle with a vertex twice; may be empty
   Appearance appearance;
+  /// texture coordinates of the file, for images that other files name; null: none
+  SkinPtr places = {};
   MeshReport report;
+};
+
+/// Where a face lies in an image.
+struct FaceTexture {
+  int number;                           ///< of the builder's textures; -1: none of them
+  std::span<const Eigen::Vector2d> uv;  ///< one per corner, as those of TexturedTriangle
 };
 
 class GeometryBuilder {
@@ -31,8 +39,12 @@ class GeometryBuilder {
   /// A vertex that faces share by its number.   returns  the number, from 0 on
   int add_vertex(const Eigen::Vector3d& p, int line = 0);
   /// A face over shared vertices, cut into triangles; those with a vertex twice are dropped.
+  /// `texture`: over the color, which stands for it where single images cannot be drawn; null: none
   /// throws  Error when it has too many corners, or the file too many triangles
-  void add_face(std::span<const int> corners, const Eigen::Vector3f& color, float transparency);
+  void add_face(std::span<const int> corners, const Eigen::Vector3f& color, float transparency,
+                const FaceTexture* texture = nullptr);
+  /// Textures of faces, numbered from 0 on.
+  std::vector<Texture> textures = {};
 
   /// The triangles of a face's outline, numbers of its corners.
   /// throws  Error when it has too many corners, or all faces so far take too long
@@ -67,7 +79,9 @@ class GeometryBuilder {
 
  private:
   std::string for_its_size() const;
-  void add_triangle(const Triangle& t, const Eigen::Vector3f& color, float transparency);
+  void add_triangle(const Triangle& t, const Eigen::Vector3f& color, float transparency,
+                    const FaceTexture* texture = nullptr, const Triangle& of_face = {0, 1, 2});
+  SkinPtr places(const std::vector<int>& kept) const;
   Appearance mean_appearance(const std::vector<int>& kept) const;
   void note_far(const Eigen::Vector3d& p, int line);
   void check_reach(const std::string& subject) const;
@@ -79,6 +93,7 @@ class GeometryBuilder {
   bool loose_ = false;            // are there triangles that share no vertex by number?
   std::map<int, int> far_lines_;  // of vertices that may lie too far out
   std::vector<Eigen::Vector3f> colors_;
+  std::vector<TexturedTriangle> textured_;  // one per triangle up to the last that has an image
   Eigen::Vector3d weighted_color_ = Eigen::Vector3d::Zero();
   double weighted_transparency_ = 0, weight_ = 0;
 };

@@ -2,12 +2,13 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "clench/io/mesh/gltf_document.h"
-#include "clench/io/mesh/image_file.h"
+#include "clench/io/mesh/texture_files.h"
 
 namespace clench {
 
@@ -31,6 +32,8 @@ class GltfReader {
     float transparency = 0;
     std::shared_ptr<const Image> image = {};  // null: one color
     int coordinates = 0;                      // number of the set that places the image
+    int number = -1;                          // of the texture in the builder
+    Eigen::Affine2d placed = Eigen::Affine2d::Identity();  // of the coordinates in the image
   };
   using ImagePoints = std::vector<Eigen::Vector2d>;  // one per vertex; empty: no image
   std::vector<int> roots() const;
@@ -41,7 +44,11 @@ class GltfReader {
   void add(const std::vector<int>& corners, int mode, const Affine3d& X, const Look& look,
            const ImagePoints& points, int first);
   Look look(const GltfValue& primitive);
+  Look read_look(const GltfValue& material);
   void read_texture(const GltfValue& metallic, Look& look);
+  void read_transform(const GltfValue& used, Look& look);
+  Wrap wrap(const GltfValue& texture, const char* key) const;
+  void add_texture(const GltfValue& material, Look& look);
   std::shared_ptr<const Image> image(int number, const std::string& expected_by);
   ImagePoints image_points(const GltfValue& primitive, const Look& look, int count);
 
@@ -50,8 +57,8 @@ class GltfReader {
   std::vector<std::pair<int, Affine3d>> waiting_;  // nodes and where their parents lie
   std::set<int> seen_;
   std::set<std::string> warnings_;
-  ImageBudget image_budget_;
-  std::map<int, std::shared_ptr<const Image>> images_;  // null: not readable
+  TextureFiles images_;
+  std::map<int, Look> looks_;  // by the number of the material
   size_t primitives_ = 0;
   bool colors_given_ = false;
 };
@@ -134,10 +141,19 @@ void GltfReader::read_mesh(const GltfValue& mesh, const Affine3d& X) {
 }
 
 GltfReader::Look GltfReader::look(const GltfValue& primitive) {
+  if (!document_.member(primitive, "material")) return {};
+  const int number = document_.expected_integer(primitive, "material");
+  const GltfValue material = document_.item("materials", number, primitive.name);
+  const auto [found, is_new] = looks_.try_emplace(number);
+  if (is_new) {
+    found->second = read_look(material);
+    add_texture(material, found->second);
+  }
+  return found->second;
+}
+
+GltfReader::Look GltfReader::read_look(const GltfValue& material) {
   Look out;
-  if (!document_.member(primitive, "material")) return out;
-  const GltfValue material = document_.item(
-      "materials", document_.expected_integer(primitive, "material"), primitive.name);
   const GltfValue metallic = document_.member(material, "pbrMetallicRoughness");
   read_texture(metallic, out);
   const GltfValue factor = document_.member(metallic, "baseColorFactor");
@@ -160,22 +176,54 @@ void GltfReader::read_texture(const GltfValue& metallic, Look& look) {
   look.coordinates = document_.integer(used, "texCoord", 0);
   look.image = image(document_.expected_integer(texture, "source"), texture.name);
   if (!look.image) return;
+  read_transform(used, look);
   look.color.setOnes();
   colors_given_ = true;
 }
 
+/// source  glTF extension KHR_texture_transform: offset * rotation * scale
+void GltfReader::read_transform(const GltfValue& used, Look& look) {
+  const GltfValue transform =
+      document_.member(document_.member(used, "extensions"), "KHR_texture_transform");
+  if (!transform) return;
+  look.coordinates = document_.integer(transform, "texCoord", look.coordinates);
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero(), scale = Eigen::Vector2d::Ones();
+  if (const GltfValue v = document_.member(transform, "offset"))
+    offset = Eigen::Map<const Eigen::Vector2d>(document_.numbers(v, 2).data());
+  if (const GltfValue v = document_.member(transform, "scale"))
+    scale = Eigen::Map<const Eigen::Vector2d>(document_.numbers(v, 2).data());
+  double angle = 0;  // counter-clockwise in the image, whose v points down
+  if (const GltfValue v = document_.member(transform, "rotation")) {
+    if (!v.json->is_number()) document_.fail("{}: expected a number", v.name);
+    angle = v.json->get<double>();
+  }
+  look.placed = Eigen::Translation2d(offset) * Eigen::Rotation2Dd(-angle) * Eigen::Scaling(scale);
+}
+
+Wrap GltfReader::wrap(const GltfValue& texture, const char* key) const {
+  if (!document_.member(texture, "sampler")) return Wrap::repeat;
+  const GltfValue sampler =
+      document_.item("samplers", document_.expected_integer(texture, "sampler"), texture.name);
+  const int mode = document_.integer(sampler, key, 10497);
+  return mode == 33071 ? Wrap::clamp : mode == 33648 ? Wrap::mirror : Wrap::repeat;
+}
+
+void GltfReader::add_texture(const GltfValue& material, Look& look) {
+  if (!look.image) return;
+  const GltfValue used =
+      document_.member(document_.member(material, "pbrMetallicRoughness"), "baseColorTexture");
+  const GltfValue texture =
+      document_.item("textures", document_.expected_integer(used, "index"), used.name);
+  look.number = static_cast<int>(builder_.textures.size());
+  builder_.textures.push_back(
+      {look.image, wrap(texture, "wrapS"), wrap(texture, "wrapT"), look.color});
+}
+
 std::shared_ptr<const Image> GltfReader::image(int number, const std::string& expected_by) {
-  const auto [at, is_new] = images_.try_emplace(number);
-  if (is_new) try {
-      const std::string shown = fmt::format("images[{}]", number);
-      auto image = std::make_shared<const Image>(
-          decode_image(document_.image_bytes(number, expected_by), shown));
-      image_budget_.add(*image, shown);
-      at->second = std::move(image);
-    } catch (const Error& error) {
-      warnings_.insert(fmt::format("{}; the color of the material is used", error.what()));
-    }
-  return at->second;
+  const std::string shown = fmt::format("images[{}]", number);
+  return images_.decode(
+      shown, shown, [&] { return document_.image_bytes(number, expected_by); },
+      [&](const std::string& sentence) { warnings_.insert(sentence); });
 }
 
 GltfReader::ImagePoints GltfReader::image_points(const GltfValue& primitive, const Look& look,
@@ -190,7 +238,8 @@ GltfReader::ImagePoints GltfReader::image_points(const GltfValue& primitive, con
     return {};
   }
   ImagePoints out;
-  for (int i = 0; i < count; ++i) out.emplace_back(uv[2 * i], uv[2 * i + 1]);
+  for (int i = 0; i < count; ++i)
+    out.push_back(look.placed * Eigen::Vector2d(uv[2 * i], uv[2 * i + 1]));
   return out;
 }
 
@@ -244,13 +293,15 @@ void GltfReader::add(const std::vector<int>& corners, int mode, const Affine3d& 
     if (mode == 5 && i % 2 == 1) std::swap(t[1], t[2]);
     if (mode == 6) t[0] = corners[0];
     if (mirrored) std::swap(t[1], t[2]);
-    Eigen::Vector3f color = look.color;
-    if (!points.empty()) {
-      const std::array<Eigen::Vector2d, 3> at = {points[t[0] - first], points[t[1] - first],
-                                                 points[t[2] - first]};
-      color = color.cwiseProduct(mean_color(*look.image, at));
+    if (points.empty()) {
+      builder_.add_face(t, look.color, look.transparency);
+      continue;
     }
-    builder_.add_face(t, color, look.transparency);
+    const std::array<Eigen::Vector2d, 3> at = {points[t[0] - first], points[t[1] - first],
+                                               points[t[2] - first]};
+    const Eigen::Vector3f color = look.color.cwiseProduct(mean_color(*look.image, at));
+    const FaceTexture texture{look.number, at};
+    builder_.add_face(t, color, look.transparency, &texture);
   }
   if (mode == 4 && count % 3 != 0)
     warnings_.insert("what is left of its indices after the last whole triangle is not used");

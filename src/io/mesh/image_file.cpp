@@ -7,25 +7,31 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 
 #include "clench/base/error.h"
 
 namespace clench {
 namespace {
 
-void check_size(int64_t width, int64_t height, const std::string& name) {
+void check_size(int64_t width, int64_t height, const std::string& name, ImageBudget* budget) {
   if (width < 1 || height < 1 || width * height > max_image_pixels)
     fail("{}: expected an image of 1 to {} pixels, got {} x {}", name, max_image_pixels, width,
          height);
+  if (budget) budget->add(width, height, name);
 }
 
-Image decode_png(const std::string& bytes, const std::string& name) {
+Image decode_png(const std::string& bytes, const std::string& name, ImageBudget* budget) {
   png_image head{};
   head.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&head, bytes.data(), bytes.size()))
     fail("{}: {}", name, head.message);
-  if (int64_t{head.width} * head.height > max_image_pixels) png_image_free(&head);
-  check_size(head.width, head.height, name);
+  try {
+    check_size(head.width, head.height, name, budget);
+  } catch (const Error&) {
+    png_image_free(&head);
+    throw;
+  }
   head.format = PNG_FORMAT_RGB;
   Image image{static_cast<int>(head.width), static_cast<int>(head.height), {}};
   image.pixels.resize(PNG_IMAGE_SIZE(head));
@@ -82,10 +88,10 @@ struct JpegDecoder {
   }
 };
 
-Image decode_jpeg(const std::string& bytes, const std::string& name) {
+Image decode_jpeg(const std::string& bytes, const std::string& name, ImageBudget* budget) {
   JpegDecoder decoder;
   if (!decoder.read_head(bytes)) fail("{}: {}", name, decoder.errors.message);
-  check_size(decoder.info.image_width, decoder.info.image_height, name);
+  check_size(decoder.info.image_width, decoder.info.image_height, name, budget);
   Image image{
       static_cast<int>(decoder.info.image_width), static_cast<int>(decoder.info.image_height), {}};
   image.pixels.resize(size_t{3} * image.width * image.height);
@@ -108,17 +114,46 @@ Eigen::Vector3f color_at(const Image& image, const Eigen::Vector2d& uv) {
 
 }  // namespace
 
-void ImageBudget::add(const Image& image, const std::string& name) {
-  pixels_ += int64_t{image.width} * image.height;
-  if (pixels_ > 2 * max_image_pixels)
+void ImageBudget::add(int64_t width, int64_t height, const std::string& name) {
+  if (pixels_ + width * height > 2 * max_image_pixels)
     fail(ErrorKind::limit, "{}: expected images of at most {} pixels in all", name,
          2 * max_image_pixels);
+  pixels_ += width * height;
 }
 
-Image decode_image(const std::string& bytes, const std::string& name) {
-  if (bytes.starts_with("\x89PNG")) return decode_png(bytes, name);
-  if (bytes.starts_with("\xFF\xD8\xFF")) return decode_jpeg(bytes, name);
+Image decode_image(const std::string& bytes, const std::string& name, ImageBudget* budget) {
+  if (bytes.starts_with("\x89PNG")) return decode_png(bytes, name, budget);
+  if (bytes.starts_with("\xFF\xD8\xFF")) return decode_jpeg(bytes, name, budget);
   fail("{}: expected an image in the format PNG or JPEG", name);
+}
+
+std::string encode_as_jpeg(const Image& image, int quality) {
+  jpeg_compress_struct info = {};
+  jpeg_error_mgr errors = {};
+  info.err = jpeg_std_error(&errors);  // its errors are those of memory and of wrong calls
+  jpeg_create_compress(&info);
+  unsigned char* bytes = nullptr;
+  unsigned long count = 0;
+  jpeg_mem_dest(&info, &bytes, &count);
+  info.image_width = static_cast<JDIMENSION>(image.width);
+  info.image_height = static_cast<JDIMENSION>(image.height);
+  info.input_components = 3;
+  info.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, quality, TRUE);
+  jpeg_start_compress(&info, TRUE);
+  std::vector<uint8_t> row(size_t{3} * image.width);
+  while (info.next_scanline < info.image_height) {
+    std::copy_n(image.pixels.begin() + static_cast<long>(row.size()) * info.next_scanline,
+                row.size(), row.begin());
+    JSAMPROW at = row.data();
+    jpeg_write_scanlines(&info, &at, 1);
+  }
+  jpeg_finish_compress(&info);
+  std::string out(reinterpret_cast<const char*>(bytes), count);
+  jpeg_destroy_compress(&info);
+  std::free(bytes);
+  return out;
 }
 
 Eigen::Vector3f mean_color(const Image& image, std::span<const Eigen::Vector2d> corners) {

@@ -4,15 +4,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
+
+#include "clench/spec/skin.h"
 
 namespace clench {
-
-/// RGB, 8 bits per channel, rows from the top.
-struct Image {
-  int width = 0, height = 0;
-  std::vector<uint8_t> pixels;
-};
 
 /// Largest image that is decoded [pixels].
 inline constexpr int64_t max_image_pixels = int64_t{1} << 26;
@@ -20,18 +15,22 @@ inline constexpr int64_t max_image_pixels = int64_t{1} << 26;
 /// Bounds the memory that the images of one file take.
 class ImageBudget {
  public:
-  /// Adds an image to the total.
+  /// Adds an image of that size [pixels] to the total.
   /// throws  Error when all images together have more than twice max_image_pixels
-  void add(const Image& image, const std::string& name);
+  void add(int64_t width, int64_t height, const std::string& name);
 
  private:
   int64_t pixels_ = 0;
 };
 
 /// Decodes a PNG or JPEG file; its first bytes determine the format. Transparent pixels are blended
-/// with white.
+/// with white. Its size is checked, and added to the budget, before memory for it is allocated.
 /// throws  Error "NAME: ..." when it has another format, is malformed, truncated or too large
-Image decode_image(const std::string& bytes, const std::string& name);
+Image decode_image(const std::string& bytes, const std::string& name,
+                   ImageBudget* budget = nullptr);
+
+/// A JPEG file of the image; quality 1 to 100.
+std::string encode_as_jpeg(const Image& image, int quality);
 
 /// Mean color of an image over a triangle or polygon of texture coordinates, repeated beyond
 /// [0, 1]: u to the right, v down from the top.

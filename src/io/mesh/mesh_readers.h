@@ -17,8 +17,8 @@ bool read_gltf(const MeshInput& input, GeometryBuilder& builder);
 /// throws  Error  "part.dae:31: ..."
 bool read_collada(const MeshInput& input, GeometryBuilder& builder);
 
-/// Wavefront OBJ, and colors from MTL files: faces over the file's own points. A face with a
-/// texture (`map_Kd`, PNG or JPEG) has its mean color; normals are not read.
+/// Wavefront OBJ, and colors and textures from MTL files: faces over the file's own points; of a
+/// texture (`map_Kd`, PNG or JPEG) also the mean colors. Normals are not read.
 /// throws  Error  "part.obj:31: expected one of 8 points after f, got 9"
 bool read_obj(const MeshInput& input, GeometryBuilder& builder);
 

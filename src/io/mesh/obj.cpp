@@ -4,25 +4,15 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 #include <set>
 
-#include "clench/base/file.h"
-#include "clench/io/mesh/image_file.h"
+#include "clench/io/mesh/obj_materials.h"
 #include "clench/io/text/word_reader.h"
 
 namespace clench {
 
 namespace {
 
-struct Material {
-  Eigen::Vector3f color = Appearance().color;
-  float transparency = 0;
-  std::shared_ptr<const Image> image = {};  // null: one color
-  bool colored = false;                     // does the file give the color?
-};
-
-constexpr size_t max_images = 100;           // read
 constexpr size_t max_material_files = 1000;  // looked for
 
 /// What a face needs when all points are known.
@@ -50,10 +40,9 @@ class ObjReader {
   void read_other(std::string_view keyword);
   void use_material(const std::string& name);
   void read_materials(const std::string& names);
-  void read_material_file(const std::filesystem::path& path);
-  void read_image(const WordReader& words, const std::string& name,
-                  const std::filesystem::path& path, Material& material);
-  Eigen::Vector3f color_of(const Face& face, size_t end, const Material& look) const;
+  std::vector<Eigen::Vector2d> image_points(const Face& face, size_t end,
+                                            const MtlMaterial& look) const;
+  std::vector<MtlMaterial> used_materials();
   void add_faces();
   void note_objects();
   void warn_once(const std::string& about, const std::string& sentence) {
@@ -67,12 +56,10 @@ class ObjReader {
   std::vector<Eigen::Vector3f> point_colors_;
   std::vector<Eigen::Vector2d> texture_points_;
   std::vector<int> corners_, texture_corners_;  // of the latter -1: none
-  ImageBudget image_budget_;
-  std::map<std::string, std::shared_ptr<const Image>> images_;  // by path; null: not readable
   std::vector<Face> faces_;
   int material_ = -1;
   std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
-  std::map<std::string, Material> materials_;           // by the names that MTL files define
+  MtlMaterials materials_;                              // by the names that MTL files define
   size_t material_files_ = 0;                           // that were looked for
   std::string object_;                                  // named by the last line "o NAME"
   std::vector<std::string> objects_;                    // names of those with faces, in order
@@ -203,7 +190,9 @@ void ObjReader::read_materials(const std::string& names) {
   bool found = false;
   for (const auto& name : candidates) {
     try {
-      read_material_file(find_file(name, input_.path, input_.options));
+      materials_.read(find_file(name, input_.path, input_.options), input_,
+                      [&](const std::string& about, const std::string& place,
+                          const std::string& sentence) { warn_once(about, place, sentence); });
       found = true;
     } catch (const Error& error) {
       if (missing.empty()) missing = error.what();
@@ -214,83 +203,38 @@ void ObjReader::read_materials(const std::string& names) {
     input_.options.note(words_.place() + ": " + missing + "; the body has no colors of its own");
 }
 
-void ObjReader::read_material_file(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
-  WordReader words(path.filename().string(), text);
-  Material* material = nullptr;
-  while (words.next_line()) {
-    const auto keyword = words.word();
-    if (keyword == "newmtl") {
-      material = &materials_[std::string(words.rest())];
-      *material = {};
-      continue;
-    }
-    if (material && keyword == "map_Kd") {
-      read_image(words, std::string(words.rest()), path, *material);
-      continue;
-    }
-    const bool color = keyword == "Kd", opaque = keyword == "d", transparent = keyword == "Tr";
-    if (!material || !(color || opaque || transparent)) continue;
-    const auto a = parse_number(words.word());
-    const auto b = parse_number(words.word()), c = parse_number(words.word());
-    if (color && a && b && c)
-      material->color = Eigen::Vector3d(*a, *b, *c).cwiseMax(0).cwiseMin(1).cast<float>(),
-      material->colored = true;
-    else if (!color && a)
-      material->transparency = static_cast<float>(std::clamp(opaque ? 1 - *a : *a, 0.0, 1.0));
-    else
-      input_.warn(fmt::format("{}: expected {} after {}; not used", words.place(),
-                              color ? "three numbers" : "a number", keyword));
-  }
-}
-
-// "-s 1 1 1 wood.png": options, whose values are not used, and a name
-void ObjReader::read_image(const WordReader& words, const std::string& name,
-                           const std::filesystem::path& path, Material& material) {
-  const size_t blank = name.starts_with('-') ? name.find_last_of(" \t") : name.npos;
-  const std::string file = blank == name.npos ? name : name.substr(blank + 1);
-  const std::string key = path.string() + '\n' + file;
-  const auto [at, is_new] = images_.try_emplace(key);
-  if (is_new && images_.size() > max_images) {
-    images_.erase(at);
-    return warn_once("images", words.place(),
-                     fmt::format("expected at most {} images; this one is not used", max_images));
-  }
-  if (is_new) try {
-      const auto found = find_file(file, path, input_.options);
-      const std::string shown = found.filename().string();
-      auto image = std::make_shared<const Image>(decode_image(read_bytes(found), shown));
-      image_budget_.add(*image, shown);
-      at->second = std::move(image);
-    } catch (const Error& error) {
-      warn_once("image" + file, words.place(),
-                fmt::format("{}; the color of the material is used", error.what()));
-    }
-  material.image = at->second;
-  if (material.image && !material.colored) material.color.setOnes();
-}
-
-// of the image over the face, times the color of the material unless that is black
-Eigen::Vector3f ObjReader::color_of(const Face& face, size_t end, const Material& look) const {
-  if (!look.image) return look.color;
-  std::vector<Eigen::Vector2d> corners;
+// texture coordinates of a face, in the image of its material; empty: it has none
+std::vector<Eigen::Vector2d> ObjReader::image_points(const Face& face, size_t end,
+                                                     const MtlMaterial& look) const {
+  std::vector<Eigen::Vector2d> out;
   for (size_t i = face.first; i < end; ++i) {
     const int t = texture_corners_[i];
-    if (t < 0 || t >= static_cast<int>(texture_points_.size())) return look.color;
-    corners.push_back(texture_points_[t]);
+    if (t < 0 || t >= static_cast<int>(texture_points_.size())) return {};
+    out.push_back(look.placed(texture_points_[t]));
   }
-  const Eigen::Vector3f mean = mean_color(*look.image, corners);
-  return look.color.isZero(0) ? mean : Eigen::Vector3f(mean.cwiseProduct(look.color));
+  return out;
+}
+
+// by their numbers; those with images become textures of the builder
+std::vector<MtlMaterial> ObjReader::used_materials() {
+  std::vector<MtlMaterial> out(used_materials_.size());
+  for (const auto& [name, used] : used_materials_)
+    if (const auto found = materials_.by_name.find(name); found != materials_.by_name.end())
+      out[used.number] = found->second;
+    else if (!materials_.by_name.empty())
+      warn_once("usemtl" + name, used.place,
+                fmt::format("usemtl: no material {} is defined", in_quotes(name)));
+  for (MtlMaterial& look : out) {
+    if (!look.image) continue;
+    if (!look.colored) look.color.setOnes();
+    look.number = static_cast<int>(builder_.textures.size());
+    builder_.textures.push_back(look.texture());
+  }
+  return out;
 }
 
 void ObjReader::add_faces() {
-  std::vector<Material> by_number(used_materials_.size());
-  for (const auto& [name, used] : used_materials_)
-    if (const auto found = materials_.find(name); found != materials_.end())
-      by_number[used.number] = found->second;
-    else if (!materials_.empty())
-      warn_once("usemtl" + name, used.place,
-                fmt::format("usemtl: no material {} is defined", in_quotes(name)));
+  const std::vector<MtlMaterial> by_number = used_materials();
   const int points = static_cast<int>(builder_.vertex_count());
   const bool colored = !point_colors_.empty() && point_colors_.size() == builder_.vertex_count();
   for (size_t f = 0; f < faces_.size(); ++f) {
@@ -301,15 +245,19 @@ void ObjReader::add_faces() {
       if (v >= points)
         fail("{}:{}: expected one of {} points after f, got {}", words_.file(), face.line, points,
              int64_t{v} + 1);
-    Material look = face.material < 0 ? Material() : by_number[face.material];
-    look.color = color_of(face, end, look);
+    const MtlMaterial look = face.material < 0 ? MtlMaterial() : by_number[face.material];
+    Eigen::Vector3f color = look.color;
+    std::vector<Eigen::Vector2d> uv;
     if (colored) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (const int v : corners) sum += point_colors_[v];
-      look.color = (sum / static_cast<float>(corners.size())).cwiseMax(0.0f).cwiseMin(1.0f);
+      color = (sum / static_cast<float>(corners.size())).cwiseMax(0.0f).cwiseMin(1.0f);
+    } else if (uv = image_points(face, end, look); !uv.empty() && look.image) {
+      color = mean_color(*look.image, uv).cwiseProduct(look.texture().tint);
     }
+    const FaceTexture texture{look.number, uv};
     try {
-      builder_.add_face(corners, look.color, look.transparency);
+      builder_.add_face(corners, color, look.transparency, uv.empty() ? nullptr : &texture);
     } catch (const Error& error) {
       fail(error.kind(), "{}:{}: {}", words_.file(), face.line, error.what());
     }
@@ -333,7 +281,7 @@ bool ObjReader::read() {
   for (const auto& warning : warnings_) input_.warn(warning);
   if (!point_colors_.empty()) return point_colors_.size() == builder_.vertex_count();
   for (const auto& [name, used] : used_materials_)
-    if (materials_.contains(name)) return true;
+    if (materials_.by_name.contains(name)) return true;
   return false;
 }
 

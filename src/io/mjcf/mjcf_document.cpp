@@ -248,12 +248,25 @@ Pose MjcfDocument::pose(const XmlValues& values) const {
   return {orientation(values), values.vec3("pos", {0, 0, 0})};
 }
 
-fs::path MjcfDocument::mesh_file(const XmlValues& asset, const ReadOptions& options) const {
-  const MjcfSettings& own = settings(asset.element());
+std::string MjcfDocument::asset_file(const XmlValues& asset, const std::string& folder) const {
   std::string slashed = asset.text("file");
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
-  const fs::path file = own.strip_path ? fs::path(slashed).filename() : fs::path(slashed);
-  return find_file((fs::path(own.mesh_dir) / file).string(), own.path, options);
+  const fs::path file =
+      settings(asset.element()).strip_path ? fs::path(slashed).filename() : fs::path(slashed);
+  return (fs::path(folder) / file).string();
+}
+
+fs::path MjcfDocument::mesh_file(const XmlValues& asset, const ReadOptions& options) const {
+  const MjcfSettings& own = settings(asset.element());
+  return find_file(asset_file(asset, own.mesh_dir), own.path, options);
+}
+
+std::shared_ptr<const Image> MjcfDocument::texture_image(const XmlValues& asset,
+                                                         const ReadOptions& options,
+                                                         TextureFiles& files,
+                                                         const TextureFiles::Warn& warn) const {
+  const MjcfSettings& own = settings(asset.element());
+  return files.find(asset_file(asset, own.texture_dir), own.path, options, warn);
 }
 
 }  // namespace clench

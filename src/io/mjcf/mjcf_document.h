@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clench/io/mesh/texture_files.h"
 #include "clench/io/mjcf/mjcf_settings.h"
 #include "clench/io/text/file_cache.h"
 #include "clench/math/pose.h"
@@ -62,6 +63,11 @@ class MjcfDocument {
   /// The mesh file that an element's attribute `file` names.   throws  Error of find_file
   std::filesystem::path mesh_file(const XmlValues& asset, const ReadOptions& options) const;
 
+  /// The image that a texture's attribute `file` names; null, with a warning, if it cannot be read.
+  std::shared_ptr<const Image> texture_image(const XmlValues& asset, const ReadOptions& options,
+                                             TextureFiles& files,
+                                             const TextureFiles::Warn& warn) const;
+
   UnusedXml& unused() { return unused_; }
   Repairs& repairs() { return repairs_; }
   /// Contents of the file that are not used, reported once per kind.
@@ -74,6 +80,8 @@ class MjcfDocument {
     /// By name, each with its number in the file.
     std::map<std::string, std::vector<std::pair<int, XmlElement>>, std::less<>> elements;
   };
+  /// Its attribute `file`, below a folder of the settings.
+  std::string asset_file(const XmlValues& asset, const std::string& folder) const;
   /// The outermost element of a file with all that it includes.
   MjcfNode load_file(const std::filesystem::path& path);
   MjcfNode load(const XmlElement& element, int depth);

@@ -322,7 +322,10 @@ void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::
         const std::string file = asset.element.attribute("file").value_or("");
         const std::string stem = std::filesystem::path(file).stem().string();
         XmlCopies::Attributes more = {{"name", prefix + stem}, {"class", prefix + "main"}};
-        if (asset.name() != "mesh" && asset.name() != "material") more.clear();
+        if (asset.name() == "texture")
+          more = {{"name", prefix + stem}};
+        else if (asset.name() != "mesh" && asset.name() != "material")
+          more.clear();
         out.children.push_back(copy(
             asset,
             [&](const MjcfNode&, const std::string& attribute, const std::string& value) {

@@ -12,7 +12,8 @@ MjcfGeoms::MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene)
       cache_(cache),
       geometry_(cache.options(), BarePoints::hull),
       meshes_(document, cache, geometry_),
-      scene_(scene) {
+      scene_(scene),
+      textures_(document, cache) {
   read_assets();
   for (const MjcfNode* node : document_.section("contact"))
     if (node->name() == "pair")
@@ -37,7 +38,11 @@ void MjcfGeoms::read_assets() {
       const XmlValues values = document_.values(element);
       if (values.has("rgba"))
         materials_[values.text("name")] = color_of(values, document_.repairs());
-      document_.unused().attributes(element, {"name", "class", "rgba"});
+      texture_uses_[values.text("name", "")] = textures_.use_of(*node);
+      document_.unused().attributes(
+          element, {"name", "class", "rgba", "texture", "texrepeat", "texuniform"});
+    } else if (node->name() == "texture") {
+      textures_.add(element);
     } else if (node->name() != "model") {  // models are read when they are attached
       document_.unused().element(element);
     }
@@ -52,6 +57,20 @@ std::optional<PieceColor> MjcfGeoms::color(const XmlValues& geom,
   const auto found = materials_.find(geom.text("material", fallback));
   if (found == materials_.end()) return {};
   return found->second;
+}
+
+void MjcfGeoms::set_look(const XmlValues& values, const std::string& fallback_material,
+                         MjcfGeom& geom) {
+  geom.piece.color = color(values, fallback_material);
+  const auto use = texture_uses_.find(values.text("material", fallback_material));
+  if (use == texture_uses_.end() || use->second.texture.empty() || !geom.drawn) return;
+  Eigen::Vector3d half = geom.piece.geometry->mesh.bounds().size() / 2;
+  if (values.text("type", "sphere") == "plane") {
+    const auto size = values.numbers("size", 0, 3);  // 0: without end
+    for (size_t i = 0; i < 2; ++i) half[static_cast<long>(i)] = i < size.size() ? size[i] : 0;
+    half = half.unaryExpr([](double x) { return x > 0 ? x : 1; });
+  }
+  textures_.dress(use->second, half, values.text("type", "sphere") == "mesh", geom.piece);
 }
 
 /// Mass properties of the surface, by the sizes of TreeGeometry::primitive.
@@ -216,7 +235,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
     set_primitive(type, values, geom, X);
   }
   geom.piece.X_LG = X_frame * X;
-  geom.piece.color = color(values, fallback_material);
+  set_look(values, fallback_material, geom);
   read_mass(values, geom);
   return geom;
 }

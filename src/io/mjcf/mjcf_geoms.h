@@ -6,6 +6,7 @@
 #include <string>
 
 #include "clench/io/mjcf/mjcf_meshes.h"
+#include "clench/io/mjcf/mjcf_textures.h"
 #include "clench/io/tree/tree_links.h"
 #include "clench/spec/own_friction.h"
 
@@ -51,6 +52,7 @@ class MjcfGeoms {
   void set_plane(const XmlValues& values, MjcfGeom& geom);
   void read_friction(const XmlValues& values, MjcfGeom& geom);
   void read_mass(const XmlValues& values, MjcfGeom& geom);
+  void set_look(const XmlValues& values, const std::string& fallback_material, MjcfGeom& geom);
   std::optional<PieceColor> color(const XmlValues& geom, const std::string& fallback) const;
 
   MjcfDocument& document_;
@@ -58,7 +60,9 @@ class MjcfGeoms {
   TreeGeometry geometry_;
   MjcfMeshes meshes_;
   bool scene_;
+  MjcfTextures textures_;
   std::map<std::string, PieceColor> materials_;
+  std::map<std::string, MjcfTextureUse> texture_uses_;  // by material
   std::set<std::string> unused_types_, paired_;
   size_t count_ = 0;
 };

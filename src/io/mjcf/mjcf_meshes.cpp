@@ -115,8 +115,11 @@ const MjcfMesh& MjcfMeshes::read(Asset& asset) {
   if (values.has("scale") || values.has("refpos") || values.has("refquat")) {
     Geometry moved = *geometry;
     for (auto& p : moved.mesh.vertices) p = (turn.conjugate() * (p - origin)).cwiseProduct(scale);
-    if (scale.prod() < 0)
+    if (scale.prod() < 0) {
       for (auto& t : moved.mesh.triangles) std::swap(t[1], t[2]);
+      moved.appearance.skin = turned_over(moved.appearance.skin);
+      moved.places = turned_over(moved.places);
+    }
     geometry = std::make_shared<const Geometry>(std::move(moved));
   }
   MjcfMesh out;

@@ -24,6 +24,7 @@ void MjcfSettings::read(const XmlElement& element, UnusedXml& unused, Repairs& r
   strip_path = values.boolean("strippath", strip_path);
   mesh_dir = values.text("assetdir", mesh_dir);
   mesh_dir = values.text("meshdir", mesh_dir);
+  texture_dir = values.text("texturedir", values.text("assetdir", texture_dir));
   if (values.has("inertiafromgeom")) {
     const std::string word = values.word("inertiafromgeom", {"true", "false", "auto"}, "auto");
     inertia_from_geoms = word == "true"    ? FromGeoms::always
@@ -44,8 +45,8 @@ void MjcfSettings::read(const XmlElement& element, UnusedXml& unused, Repairs& r
   fit_bounds = values.boolean("fitaabb", fit_bounds);
   unused.attributes(
       element, {"angle", "coordinate", "eulerseq", "autolimits", "strippath", "assetdir", "meshdir",
-                "inertiafromgeom", "inertiagrouprange", "boundmass", "boundinertia", "settotalmass",
-                "balanceinertia", "fitaabb"});
+                "texturedir", "inertiafromgeom", "inertiagrouprange", "boundmass", "boundinertia",
+                "settotalmass", "balanceinertia", "fitaabb"});
 }
 
 }  // namespace clench

@@ -16,7 +16,7 @@ struct MjcfSettings {
   double angle_unit = 0;       ///< [rad]
   std::string euler = "xyz";   ///< capital letters: axes fixed in the parent frame
   bool autolimits = true, strip_path = false;
-  std::string mesh_dir;
+  std::string mesh_dir, texture_dir;
   FromGeoms inertia_from_geoms = FromGeoms::missing;  ///< masses of bodies
   std::array<int, 2> inertia_groups = {0, 5};  ///< geoms of these groups have mass, bounds included
   double min_mass = 0;                         ///< of a body [kg]

@@ -362,14 +362,16 @@ void SceneWriter::tell_losses(MjcfFiles& out) const {
       names.push_back(
           fmt::format("limits of the sum of efforts on joints of '{}'", excerpt(robot.name)));
   }
-  std::vector<std::string> lighter, colored;
+  std::vector<std::string> lighter, colored, textured;
   for (const WrittenBody& body : scene_.bodies) {
     if (body.spec->gravity_compensation != 0) lighter.push_back(body.name);
     if (!body.spec->appearance.triangle_colors.empty() && body.spec->appearance.given)
       colored.push_back(body.name);
+    if (body.spec->appearance.skin) textured.push_back(body.name);
   }
   if (!lighter.empty()) names.push_back("the gravity compensation of " + some_names(lighter));
   if (!colored.empty()) names.push_back("the colors of single triangles of " + some_names(colored));
+  if (!textured.empty()) names.push_back("the textures of " + some_names(textured));
   for (const WrittenKey& key : request_.keys)
     if (const auto still = unmoved_in(key, scene_); !still.empty())
       names.push_back(fmt::format("the poses in key '{}' of bodies that stand fixed: {}",

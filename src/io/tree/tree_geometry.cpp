@@ -11,6 +11,7 @@ namespace clench {
 
 // a round shape takes some 60 bytes of a file, and a triangle some 150 of memory
 static constexpr size_t max_round_triangles = 500'000;
+static constexpr size_t max_image_bytes = size_t{1} << 30;
 
 TreeGeometry::TreeGeometry(const ReadOptions& options, BarePoints bare_points)
     : options_(options), bare_points_(bare_points) {
@@ -79,6 +80,7 @@ static std::string key_of(const std::vector<GeometryPiece>& pieces) {
     if (piece.color)
       key += fmt::format(" #{} {} {} {}", piece.color->color.x(), piece.color->color.y(),
                          piece.color->color.z(), piece.color->transparency);
+    if (piece.skin) key += fmt::format(" @{}", static_cast<const void*>(piece.skin.get()));
     key += ';';
   }
   return key;
@@ -99,6 +101,33 @@ static void append(Mesh& mesh, std::vector<Eigen::Vector3f>& colors, const Geome
     colors.push_back(piece.color                     ? piece.color->color
                      : looks.triangle_colors.empty() ? looks.color
                                                      : looks.triangle_colors[i]);
+}
+
+static SkinPtr skin_of(const GeometryPiece& piece) {
+  const bool own = piece.skin || piece.color;
+  const SkinPtr& skin = own ? piece.skin : piece.geometry->appearance.skin;
+  return piece.scale.prod() < 0 ? turned_over(skin) : skin;
+}
+
+SkinPtr TreeGeometry::skin_of_all(const std::vector<GeometryPiece>& pieces,
+                                  const std::string& subject) {
+  Skin out;
+  for (const GeometryPiece& piece : pieces)
+    append_skin(out, skin_of(piece), piece.geometry->mesh.triangles.size());
+  size_t bytes = 0;
+  for (const Texture& texture : out.textures)
+    if (images_.insert(texture.image).second) bytes += texture.image->pixels.size();
+  if (out.textures.empty()) return nullptr;
+  image_bytes_ += bytes;
+  if (image_bytes_ > max_image_bytes) {
+    if (options_.warn && image_bytes_ - bytes <= max_image_bytes)
+      options_.warn(
+          fmt::format("{}: expected textures of at most {} MB in all links; from here on "
+                      "links have colors instead",
+                      subject, max_image_bytes >> 20));
+    return nullptr;
+  }
+  return std::make_shared<const Skin>(std::move(out));
 }
 
 static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
@@ -181,6 +210,7 @@ TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
   }
   body.shape = Shape::make(std::move(mesh), subject, {}, std::move(rounds));
   body.appearance = looks_of(pieces, std::move(colors));
+  if (body.appearance.given) body.appearance.skin = skin_of_all(pieces, subject);
   if (pieces.size() == 1 && !pieces[0].geometry->report.format.empty())
     body.report = pieces[0].geometry->report;
   bodies_.emplace(key, body);

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct GeometryPiece {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Pose X_LG;                            ///< in the link, after scaling
   std::optional<PieceColor> color;      ///< over that of the file
+  SkinPtr skin = {};                    ///< over that of the file, even where there is a color
   std::optional<MassProperties> solid;  ///< of a round shape, which its mesh only comes near
   std::optional<Round> round = {};      ///< the solid that a round shape touches as
 };
@@ -54,11 +56,16 @@ class TreeGeometry {
   Body merge(const std::vector<GeometryPiece>& pieces, const std::string& subject);
 
  private:
+  /// Textures of all pieces, in their order; null: none, or more than a robot may have.
+  SkinPtr skin_of_all(const std::vector<GeometryPiece>& pieces, const std::string& subject);
+
   ReadOptions options_;
   BarePoints bare_points_;
   std::map<std::string, std::shared_ptr<const Geometry>> geometries_;  // by path or name
   std::map<std::string, Body> bodies_;                                 // by pieces
   size_t triangles_ = 0, round_triangles_ = 0;                         // of all shapes
+  std::set<std::shared_ptr<const Image>> images_;                      // of all skins
+  size_t image_bytes_ = 0;
 };
 
 }  // namespace clench

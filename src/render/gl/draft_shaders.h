@@ -7,7 +7,12 @@ namespace clench::shaders {
 inline constexpr const char* draft_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
+#ifdef SKIN
+layout(location = 5) in vec2 place;
+out vec2 on_image;
+#else
 layout(location = 2) in vec4 own_paint;
+#endif
 uniform mat4 to_scene;
 uniform mat4 to_clip;        // of the mesh's units
 uniform float painted;       // 1: corners have colors of their own
@@ -18,7 +23,12 @@ flat out vec4 paint;         // corners of a triangle have one paint
 void main() {
   at = (to_scene * vec4(p, 1)).xyz;
   normal = mat3(to_scene) * n;
+#ifdef SKIN
+  on_image = place;
+  paint = one_paint;
+#else
   paint = vec4(mix(one_paint.rgb, own_paint.rgb, painted), one_paint.a);
+#endif
   gl_Position = to_clip * vec4(p, 1);
 }
 )";
@@ -92,7 +102,7 @@ void main() {
   direct *= lit(at, n, direct > 0);
 #endif
   float room = 0.62 * mix(0.42, 1.0, smoothstep(0, 1, 0.5 + 0.5 * n.z)) * (0.75 + 0.25 * across);
-  vec3 color = paint.rgb * (room + direct) + shine(n, v, direct);
+  vec3 color = light_of(paint) * (room + direct) + shine(n, v, direct);
 #endif
   result = vec4(developed(color) * cover, cover);
 }

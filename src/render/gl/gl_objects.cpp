@@ -65,6 +65,33 @@ Object make_texture(Format format, int width, int height, const void* data) {
   return texture;
 }
 
+int max_texture_side() {
+  GLint side = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+  return side;
+}
+
+Object make_image_texture(int width, int height, const void* pixels, Edge u, Edge v) {
+  const auto wrap = [](Edge edge) -> GLint {
+    return edge.clamp ? GL_CLAMP_TO_EDGE : edge.mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
+  };
+  unsigned name = 0;
+  glGenTextures(1, &name);
+  Object texture(name, delete_texture);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, pixels);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    fail("picture: a texture of {} x {} pixels does not fit", width, height);
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap(u));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap(v));
+  return texture;
+}
+
 Object make_shadow_maps(int size, int layers) {
   unsigned name = 0;
   glGenTextures(1, &name);

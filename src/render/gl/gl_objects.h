@@ -33,6 +33,15 @@ enum class Format { rgba8, rgba16f, rgba32f, depth };
 
 /// Nearest sampling, edges repeated; `data` are floats, red green blue alpha, or null.
 Object make_texture(Format format, int width, int height, const void* data = nullptr);
+/// An image of 8-bit RGB rows from the top, whose colors are read as light; smaller copies of it
+/// stand for it at a distance. `mirror` and `clamp` of each direction: how it goes on beyond its
+/// edges, else it is repeated.
+struct Edge {
+  bool mirror = false, clamp = false;
+};
+Object make_image_texture(int width, int height, const void* pixels, Edge u, Edge v);
+/// of a texture, at least 1024 [pixels]
+int max_texture_side();
 /// Layers of depth that are compared when they are read: shares of neighbors that pass.
 Object make_shadow_maps(int size, int layers);
 /// Draws to textures of one size, in the order of a program's outputs; depth 0: none.

@@ -1,5 +1,7 @@
 // The programs of the graphics card, compiled once for all pictures of a context.
 #pragma once
+#include <map>
+
 #include "clench/render/gl/gl_objects.h"
 
 namespace clench {
@@ -15,6 +17,13 @@ struct Programs {
   gl::Object shadow, gather, smooth;                              ///< light
   gl::Object draft, draft_glass, draft_marks, draft_floor, draft_behind, draft_outline,
       draft_shadow, edges;
+
+  /// Of `first`, `through`, `draft` and `draft_glass`, the same with colors from an image; 0 of
+  /// others. Compiled when first asked for.
+  unsigned on_image(unsigned program) const;
+
+ private:
+  mutable std::map<unsigned, gl::Object> on_image_;
 };
 
 }  // namespace clench

@@ -8,7 +8,13 @@ namespace clench::shaders {
 inline constexpr const char* surface_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
+#ifdef SKIN
+layout(location = 5) in vec2 place;
+out vec2 on_image;
+uniform float opacity;
+#else
 layout(location = 2) in vec4 own_paint;
+#endif
 layout(location = 3) in vec4 room;
 layout(location = 4) in vec4 lamp;
 uniform mat4 to_clip;
@@ -20,11 +26,30 @@ out vec4 lamp_light;
 void main() {
   at = p;
   normal = n;
+#ifdef SKIN
+  on_image = place;
+  paint = vec4(1, 1, 1, opacity);
+#else
   paint = own_paint;
+#endif
   room_light = room;
   lamp_light = lamp;
   gl_Position = to_clip * vec4(p, 1);
 }
+)";
+
+/// part of what shows surfaces, before their own text: their color as light; with SKIN that of an
+/// image
+inline constexpr const char* skin_part = R"(
+#ifdef SKIN
+uniform sampler2D skin;
+uniform vec3 tint;
+in vec2 on_image;
+// nothing is so black that its shape is lost
+vec3 light_of(vec4 paint) { return 0.012 + 0.988 * tint * texture(skin, on_image).rgb; }
+#else
+vec3 light_of(vec4 paint) { return paint.rgb; }
+#endif
 )";
 
 /// corners to the depth that a lamp sees; rows of axes: across, across, towards the lamp
@@ -112,7 +137,7 @@ void main() {
   place = vec4(at, light.x);
   facing = vec4(side * normalize(normal), light.y);
   // their roots, as bytes are too coarse for what is dark
-  colors = vec4(sqrt(paint.rgb), 0.5 + 0.5 * floor_sign);
+  colors = vec4(sqrt(light_of(paint)), 0.5 + 0.5 * floor_sign);
 }
 )";
 
@@ -182,7 +207,7 @@ void main() {
   // denser where one looks along it
   float over = 1 - clamp(dot(n, v), 0, 1);
   float cover = mix(paint.a, 1, 0.75 * over * over * sqrt(over));
-  result = vec4(paint.rgb * (room.x + direct) * cover + varnish(n, v, to_lamp, direct, room.y), cover);
+  result = vec4(light_of(paint) * (room.x + direct) * cover + varnish(n, v, to_lamp, direct, room.y), cover);
 }
 )";
 

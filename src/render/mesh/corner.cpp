@@ -1,6 +1,7 @@
 #include "clench/render/mesh/corner.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "clench/base/convert.h"
@@ -18,6 +19,15 @@ Paint make_paint(const Eigen::Vector3f& color, float opacity) {
   };
   const Eigen::Vector3f light = linear_rgb(color);
   return {part(light[0]), part(light[1]), part(light[2]), part(opacity)};
+}
+
+Paint paint_of_place(const Eigen::Vector2f& uv) {
+  return std::bit_cast<Paint>(std::array<float, 2>{uv.x(), uv.y()});
+}
+
+Eigen::Vector2f place_of_paint(const Paint& paint) {
+  const auto uv = std::bit_cast<std::array<float, 2>>(paint);
+  return {uv[0], uv[1]};
 }
 
 }  // namespace clench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "clench/render/mesh/corner_normals.h"
 #include "clench/render/mesh/pieces.h"
@@ -24,21 +25,51 @@ Extent extent_of_pieces(std::span<const Piece> pieces) {
   return ball.value_or(Extent{});
 }
 
+// corners of each texture, up to these ends, made fine; the ends become those of what is returned
+std::vector<Corner> refined(const Piece& piece, const std::vector<Corner>& corners,
+                            std::vector<size_t>& ends) {
+  if (piece.mark) return corners;
+  const float longest = affordable_length(
+      corners, piece.opacity < solid_from ? longest_clear_edge : longest_edge, max_triangles);
+  if (ends.size() == 1) {
+    std::vector<Corner> out = split_long_edges(corners, longest);
+    ends[0] = out.size();
+    return out;
+  }
+  std::vector<Corner> out;
+  size_t first = 0;
+  for (size_t t = 0; t < ends.size(); ++t) {
+    const auto at = corners.begin();
+    const auto part = split_long_edges(
+        {at + static_cast<long>(first), at + static_cast<long>(ends[t])}, longest, t > 0);
+    out.insert(out.end(), part.begin(), part.end());
+    first = std::exchange(ends[t], out.size());
+  }
+  return out;
+}
+
 Batch append(Piece& piece, DrawList& list) {
   for (auto& p : piece.p_W) p = (p - list.center) / list.scale;
   const auto normals = corner_normals(piece.p_W, piece.triangles);
   std::vector<Paint> paints;
   for (const auto& color : piece.colors) paints.push_back(make_paint(color, piece.opacity));
+  const TextureOrder order(piece.triangles.size(), piece.skin);
   std::vector<Corner> corners;
-  for (size_t i = 0; i < piece.triangles.size(); ++i) {
-    if (normals[i][0].isZero()) continue;
-    const Paint& paint = paints[paints.size() == 1 ? 0 : i];
-    for (int k = 0; k < 3; ++k)
-      corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k], paint});
+  std::vector<size_t> ends;  // of the corners of each texture
+  size_t next = 0;
+  for (const size_t count : order.counts) {
+    for (const size_t end = next + count; next < end; ++next) {
+      const int i = order.triangles[next];
+      if (normals[i][0].isZero()) continue;
+      for (int k = 0; k < 3; ++k)
+        corners.push_back({piece.p_W[piece.triangles[i][k]].cast<float>(), normals[i][k],
+                           ends.empty() ? paints[paints.size() == 1 ? 0 : i]
+                                        : paint_of_place(piece.skin->triangles[i].uv[k])});
+    }
+    ends.push_back(corners.size());
   }
-  const float longest = piece.opacity < solid_from ? longest_clear_edge : longest_edge;
-  const auto fine = piece.mark ? corners : split_long_edges(corners, longest, max_triangles);
   Batch batch{.opacity = piece.opacity, .closed = piece.closed};
+  const std::vector<Corner> fine = refined(piece, corners, ends);
   if (const auto ball = ball_around([&](const auto& what) {
         for (const auto& p : piece.p_W) what(p);
       }))
@@ -48,6 +79,15 @@ Batch append(Piece& piece, DrawList& list) {
   batch.caster_count = static_cast<int>(corners.size());
   batch.first = batch.first_caster + batch.caster_count;
   batch.count = static_cast<int>(fine.size());
+  batch.plain_count = static_cast<int>(ends[0]);
+  for (size_t t = 1; t < ends.size(); ++t)
+    if (ends[t] > ends[t - 1])
+      batch.textured.push_back({batch.first + static_cast<int>(ends[t - 1]),
+                                static_cast<int>(ends[t] - ends[t - 1]),
+                                static_cast<int>(list.textures.size() + t - 1), piece.opacity});
+  if (piece.skin)
+    list.textures.insert(list.textures.end(), piece.skin->textures.begin(),
+                         piece.skin->textures.end());
   // corners as they are remain corners when they are split
   corners.insert(corners.end(), fine.begin(), fine.end());
   append_shared(corners, list.corners, list.indices);
@@ -122,23 +162,48 @@ DrawList make_draw_list(const Scene& scene) {
   return list;
 }
 
-std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye) {
+// each run of textures, by its first index: where it belongs
+static std::vector<TexturedRun> runs_of(const std::vector<Batch>& batches) {
+  std::vector<TexturedRun> runs;
+  for (const Batch& batch : batches) {
+    runs.push_back({batch.first, batch.plain_count, -1, batch.opacity});
+    runs.insert(runs.end(), batch.textured.begin(), batch.textured.end());
+  }
+  std::erase_if(runs, [](const TexturedRun& run) { return run.count == 0; });
+  return runs;
+}
+
+SortedTriangles back_to_front(const DrawList& list, const Eye& eye) {
   const Eigen::Vector3f from = eye.eye.cast<float>(),
                         away = (eye.eye - eye.target).normalized().cast<float>();
-  std::vector<std::pair<float, uint32_t>> order;
-  const auto add = [&](const Batch& batch) {
-    for (int at = batch.first; at < batch.first + batch.count; at += 3) {
+  struct Item {
+    float depth;
+    uint32_t at, run;
+  };
+  const std::vector<TexturedRun> runs = runs_of(list.clear);
+  std::vector<Item> order;
+  for (uint32_t r = 0; r < runs.size(); ++r)
+    for (int at = runs[r].first; at < runs[r].first + runs[r].count; at += 3) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int k = 0; k < 3; ++k) sum += list.corners[list.indices[at + k]].p;
       order.push_back({eye.ortho_height > 0 ? away.dot(sum) : -(sum / 3 - from).squaredNorm(),
-                       static_cast<uint32_t>(at)});
+                       static_cast<uint32_t>(at), r});
     }
-  };
-  for (const Batch& batch : list.clear) add(batch);
-  std::sort(order.begin(), order.end());
-  std::vector<uint32_t> out;
-  for (const auto& [depth, at] : order)
-    out.insert(out.end(), &list.indices[at], &list.indices[at] + 3);
+  std::sort(order.begin(), order.end(), [](const Item& a, const Item& b) {
+    return std::pair(a.depth, a.at) < std::pair(b.depth, b.at);
+  });
+  SortedTriangles out;
+  for (const Item& item : order) {
+    TexturedRun run = runs[item.run];
+    run.first = static_cast<int>(out.indices.size()), run.count = 3;
+    const bool goes_on = !out.runs.empty() && out.runs.back().texture == run.texture &&
+                         (run.texture < 0 || out.runs.back().opacity == run.opacity);
+    if (goes_on)
+      out.runs.back().count += 3;
+    else
+      out.runs.push_back(run);
+    out.indices.insert(out.indices.end(), &list.indices[item.at], &list.indices[item.at] + 3);
+  }
   return out;
 }
 

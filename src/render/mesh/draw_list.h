@@ -10,10 +10,19 @@
 
 namespace clench {
 
+/// Triangles of one texture.
+struct TexturedRun {
+  int first = 0, count = 0;  ///< of indices
+  int texture = 0;           ///< its number; -1: none
+  float opacity = 1;         ///< of what is seen through
+};
+
 /// A run of indices that belong together, and the same surface in fewer triangles, which throw its
 /// shadow.
 struct Batch {
   int first = 0, count = 0;
+  int plain_count = 0;                     ///< those before the first with a texture
+  std::vector<TexturedRun> textured = {};  ///< the others
   int first_caster = 0, caster_count = 0;
   float opacity = 1;
   bool closed = false;  ///< faces outward, so that its inside is never seen
@@ -32,6 +41,7 @@ struct DrawList : Extent {
   std::optional<double> ground;  ///< its height [scene units]
   std::vector<Batch> behind;     ///< meshes that are background: solid, throw no shadow
   size_t floor_corner = 0;       ///< the floor's first
+  std::vector<Texture> textures = {};
 };
 
 inline constexpr double floor_reach = 5;  ///< half width of the floor [scene units]
@@ -44,7 +54,13 @@ inline constexpr float solid_from = 0.999f;
 ///         half angle outside [0, pi/2)
 DrawList make_draw_list(const Scene& scene);
 
-/// Indices of `clear`, the triangles farthest from the eye first; scene units.
-std::vector<uint32_t> back_to_front(const DrawList& list, const Eye& eye);
+/// Triangles in an order, and runs of them with one texture.
+struct SortedTriangles {
+  std::vector<uint32_t> indices;
+  std::vector<TexturedRun> runs;  ///< all that have no texture can be drawn together
+};
+
+/// Those of `clear`, the farthest from the eye first; scene units.
+SortedTriangles back_to_front(const DrawList& list, const Eye& eye);
 
 }  // namespace clench

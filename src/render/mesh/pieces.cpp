@@ -19,7 +19,32 @@ double cone_radius(const DrawCone& c) {
   return c.height * std::clamp(std::tan(c.half_angle), 0.06, 3.0);
 }
 
+void check_skin(const Skin& skin, size_t triangles, size_t number) {
+  if (skin.triangles.size() != triangles)
+    fail("picture: mesh {}: expected places in images for each of {} triangles, got {}", number,
+         triangles, skin.triangles.size());
+  for (const Texture& texture : skin.textures)
+    if (!texture.image || texture.image->pixels.empty())
+      fail("picture: mesh {}: expected textures to have images", number);
+  for (const TexturedTriangle& triangle : skin.triangles)
+    if (triangle.texture < -1 || triangle.texture >= static_cast<int>(skin.textures.size()))
+      fail("picture: mesh {}: expected one of {} textures, got {}", number, skin.textures.size(),
+           triangle.texture);
+}
+
 }  // namespace
+
+TextureOrder::TextureOrder(size_t count, const SkinPtr& skin) {
+  counts.resize(skin ? skin->textures.size() + 1 : 1);
+  const auto group = [&](size_t i) {
+    return skin ? static_cast<size_t>(skin->triangles[i].texture + 1) : 0;
+  };
+  for (size_t i = 0; i < count; ++i) ++counts[group(i)];
+  std::vector<size_t> next(counts.size(), 0);
+  for (size_t g = 1; g < counts.size(); ++g) next[g] = next[g - 1] + counts[g - 1];
+  triangles.resize(count);
+  for (size_t i = 0; i < count; ++i) triangles[next[group(i)]++] = static_cast<int>(i);
+}
 
 void check(const Scene& scene) {
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -28,6 +53,7 @@ void check(const Scene& scene) {
     if (!(m.opacity >= 0 && m.opacity <= 1))
       fail("picture: mesh {}: opacity must be between 0 and 1, got {}", i + 1, m.opacity);
     if (!m.color.allFinite()) fail("picture: mesh {}: color must be finite numbers", i + 1);
+    if (m.shape && m.skin) check_skin(*m.skin, m.shape->mesh().triangles.size(), i + 1);
     if (!m.shape || m.triangle_colors.empty()) continue;
     if (m.triangle_colors.size() != m.shape->mesh().triangles.size())
       fail("picture: mesh {}: expected one color for each of {} triangles, got {}", i + 1,
@@ -65,6 +91,7 @@ void check(const Scene& scene) {
 Piece mesh_piece(const DrawMesh& m, size_t number) {
   Piece piece{.triangles = m.shape->mesh().triangles,
               .colors = m.triangle_colors,
+              .skin = m.skin,
               .opacity = m.opacity,
               .background = m.background,
               .closed = faces_outward(*m.shape)};

@@ -9,8 +9,10 @@
 namespace clench {
 namespace {
 
-Corner middle(const Corner& a, const Corner& b) {
+Corner middle(const Corner& a, const Corner& b, bool on_image) {
   Corner out = a;
+  if (on_image)
+    out.paint = paint_of_place(0.5f * (place_of_paint(a.paint) + place_of_paint(b.paint)));
   out.p = 0.5f * (a.p + b.p);
   const Eigen::Vector3f n = a.n + b.n;
   const float length = n.norm();
@@ -24,18 +26,19 @@ float excess(const Corner& a, const Corner& b, float limit) {
   return (a.p - b.p).squaredNorm() / (limit * limit * away);
 }
 
-void split(const Corner& a, const Corner& b, const Corner& c, float limit,
+void split(const Corner& a, const Corner& b, const Corner& c, float limit, bool on_image,
            std::vector<Corner>& out) {
   // turn the edge that is most too long to the front
   const float ab = excess(a, b, limit), bc = excess(b, c, limit), ca = excess(c, a, limit);
-  if (ab < bc || ab < ca) return bc >= ca ? split(b, c, a, limit, out) : split(c, a, b, limit, out);
+  if (ab < bc || ab < ca)
+    return bc >= ca ? split(b, c, a, limit, on_image, out) : split(c, a, b, limit, on_image, out);
   if (!(ab > 1)) {
     out.insert(out.end(), {a, b, c});
     return;
   }
-  const Corner m = middle(a, b);
-  split(a, m, c, limit, out);
-  split(m, b, c, limit, out);
+  const Corner m = middle(a, b, on_image);
+  split(a, m, c, limit, on_image, out);
+  split(m, b, c, limit, on_image, out);
 }
 
 // about how many triangles a limit leaves
@@ -54,15 +57,19 @@ double count_after(const std::vector<Corner>& corners, double limit) {
 
 }  // namespace
 
-std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,
-                                     size_t most) {
+float affordable_length(const std::vector<Corner>& corners, float longest, size_t most) {
   while (longest < 4 && count_after(corners, longest) > static_cast<double>(most)) longest *= 1.5f;
+  return longest;
+}
+
+std::vector<Corner> split_long_edges(const std::vector<Corner>& corners, float longest,
+                                     bool on_image) {
   std::vector<Corner> out;
   out.reserve(corners.size());
   StopCheck check(1 << 12);
   for (size_t i = 0; i < corners.size(); i += 3) {
     check();
-    split(corners[i], corners[i + 1], corners[i + 2], longest, out);
+    split(corners[i], corners[i + 1], corners[i + 2], longest, on_image, out);
   }
   return out;
 }

@@ -25,6 +25,8 @@ class DraftPainter {
  private:
   using Group = std::vector<PlacedMesh>;
   void draw(const PlacedMesh& placed, unsigned program, bool both_sides = false) const;
+  void draw_textured(const PlacedMesh& placed, unsigned program, bool one_side) const;
+  void light(unsigned program) const;
   void draw_solids() const;
   void draw_floor(const Tile& tile) const;
   void draw_behind(const Tile& tile) const;
@@ -61,7 +63,29 @@ void DraftPainter::draw(const PlacedMesh& placed, unsigned program, bool both_si
   gl::set(program, "to_clip", Eigen::Matrix4f((clip_ * placed.to_scene).cast<float>()));
   gl::set(program, "painted", placed.mesh->painted ? 1.0f : 0.0f);
   gl::set(program, "one_paint", placed.paint);
-  draw_triangles(*placed.mesh, placed.one_side && !both_sides);
+  const bool one_side = placed.one_side && !both_sides;
+  const auto& textured = placed.mesh->textured;
+  if (textured.empty() || programs_.on_image(program) == 0)
+    return draw_triangles(*placed.mesh, one_side);
+  draw_triangles(*placed.mesh, one_side, 0, textured.front().first);
+  draw_textured(placed, programs_.on_image(program), one_side);
+}
+
+void DraftPainter::draw_textured(const PlacedMesh& placed, unsigned program, bool one_side) const {
+  light(program);
+  gl::set(program, "to_scene", Eigen::Matrix4f(placed.to_scene.cast<float>()));
+  gl::set(program, "to_clip", Eigen::Matrix4f((clip_ * placed.to_scene).cast<float>()));
+  gl::set(program, "one_paint", placed.paint);
+  for (const TexturedRun& run : placed.mesh->textured) {
+    placed.mesh->textures.give(program, run.texture);
+    draw_triangles(*placed.mesh, one_side, run.first, run.count);
+  }
+}
+
+// for bodies
+void DraftPainter::light(unsigned program) const {
+  kept_.shadow.give(program);
+  gl::set(program, "eye", shading_eye(scene_.eye));
 }
 
 void DraftPainter::draw_solids() const {
@@ -159,10 +183,8 @@ void DraftPainter::set_up(const Tile& tile) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   for (const unsigned program : {unsigned(programs_.draft), unsigned(programs_.draft_glass),
-                                 unsigned(programs_.draft_marks)}) {
-    kept_.shadow.give(program);
-    gl::set(program, "eye", shading_eye(scene_.eye));
-  }
+                                 unsigned(programs_.draft_marks)})
+    light(program);
 }
 
 void DraftPainter::paint(const Tile& tile) {

@@ -14,10 +14,11 @@ constexpr double draft_reach = 1.03;  // of the map: the scene's ball and a marg
 
 }  // namespace
 
-void draw_triangles(const StoredMesh& mesh, bool one_side) {
+void draw_triangles(const StoredMesh& mesh, bool one_side, int first, int count) {
   glBindVertexArray(mesh.array);
   if (one_side) glEnable(GL_CULL_FACE), glCullFace(GL_BACK);
-  glDrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, count < 0 ? mesh.count : count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(first * sizeof(uint32_t)));
   if (one_side) glDisable(GL_CULL_FACE);
 }
 

@@ -9,8 +9,9 @@
 
 namespace clench {
 
-/// Triangles of a mesh; of a closed one only the side that faces the eye can be nearest.
-void draw_triangles(const StoredMesh& mesh, bool one_side);
+/// Draws indices of a mesh, `count` of them from `first` on; by default all.
+/// one_side  draws only the side that faces the eye, which hides the other one of a closed mesh
+void draw_triangles(const StoredMesh& mesh, bool one_side, int first = 0, int count = -1);
 
 /// Kept until bodies that throw shadows, the lamp or the size change. Lives inside the life of a
 /// GlContext.

@@ -2,6 +2,8 @@
 #pragma once
 #include <list>
 
+#include "clench/render/mesh/draw_list.h"
+#include "clench/render/paint/loaded_textures.h"
 #include "clench/render/paint/shadows.h"
 #include "clench/scene/scene.h"
 
@@ -14,6 +16,8 @@ struct StoredMesh : LoadedCorners {
   double scale = 1;
   bool closed = false;   ///< a solid whose triangles all run counter-clockwise seen from outside
   bool painted = false;  ///< triangles have colors of their own
+  std::vector<TexturedRun> textured = {};  ///< at the end of the indices
+  LoadedTextures textures = {};
 };
 
 /// Lives inside the life of a GlContext.
@@ -32,6 +36,7 @@ class MeshStore {
   struct Entry {
     std::shared_ptr<const Shape> shape;
     std::vector<Eigen::Vector3f> colors;
+    SkinPtr skin;
     StoredMesh mesh;
     size_t bytes = 0;
   };
@@ -41,9 +46,11 @@ class MeshStore {
 
 /// Triangles as corners, each distinct one of a vertex once; triangles without area are left out.
 /// `colors`: one, or one per triangle.
-void share_corners(const std::vector<Eigen::Vector3d>& vertices,
-                   const std::vector<Triangle>& triangles,
-                   const std::vector<Eigen::Vector3f>& colors, std::vector<Corner>& corners,
-                   std::vector<uint32_t>& indices);
+/// returns  triangles of each texture of the skin, which come last
+std::vector<TexturedRun> share_corners(const std::vector<Eigen::Vector3d>& vertices,
+                                       const std::vector<Triangle>& triangles,
+                                       const std::vector<Eigen::Vector3f>& colors,
+                                       std::vector<Corner>& corners, std::vector<uint32_t>& indices,
+                                       const SkinPtr& skin = {});
 
 }  // namespace clench

@@ -52,7 +52,9 @@ class Painter {
   void paint(const Tile& tile, Picture& out);
 
  private:
-  void draw(const Batch& batch) const;
+  void draw(int first, int count) const;
+  void draw(const Batch& batch) const { draw(batch.first, batch.count); }
+  void draw_seen(const Batch& batch, const Eigen::Matrix4f& clip) const;
   void find_first(const Layers& layers, const Eigen::Matrix4f& clip);
   void find_group(std::span<const Batch> group, const Layers& solid, const Layers& layers,
                   const Eigen::Matrix4f& clip, const Tile& tile);
@@ -64,6 +66,7 @@ class Painter {
   const Programs& programs_;
   const DrawList& list_;
   const LoadedCorners& loaded_;
+  const LoadedTextures& textures_;
   const Eye& eye_;
   Eigen::Vector3f shading_eye_;
   RenderOptions options_;
@@ -76,7 +79,7 @@ class Painter {
   double done_ = 0;  // pixels
 
   gl::Object sorted_;  // indices of what is seen through
-  int sorted_count_ = 0;
+  std::vector<TexturedRun> sorted_runs_;
   Cover cover_;
   Shadows shadows_;
 };
@@ -86,6 +89,7 @@ Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
     : programs_(programs),
       list_(scene.list()),
       loaded_(scene.loaded()),
+      textures_(scene.textures()),
       eye_(eye),
       shading_eye_(shading_eye(eye)),
       options_(options),
@@ -98,17 +102,31 @@ Painter::Painter(const Programs& programs, PaperScene& scene, const Eye& eye,
   lamp_ = place_lamp(view_axes(eye), options.samples * lamps_);
   shifts_ = place_samples(options.samples);
 
-  const std::vector<uint32_t> sorted = back_to_front(list_, eye);
-  sorted_count_ = static_cast<int>(sorted.size());
-  sorted_ = gl::make_buffer(sorted.data(), sorted.size() * sizeof(uint32_t));
+  const SortedTriangles sorted = back_to_front(list_, eye);
+  sorted_runs_ = sorted.runs;
+  sorted_ = gl::make_buffer(sorted.indices.data(), sorted.indices.size() * sizeof(uint32_t));
   scene.light_room(options);
   if (!list_.clear.empty()) scene.light_lamp(view_axes(eye), options.progress);
   open_light_ = scene.open_room() + light_on_floor(lamp_);
 }
 
-void Painter::draw(const Batch& batch) const {
-  glDrawElements(GL_TRIANGLES, batch.count, GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(batch.first * sizeof(uint32_t)));
+void Painter::draw(int first, int count) const {
+  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(first * sizeof(uint32_t)));
+}
+
+// a solid body by the program `first`, which is the current one before and after
+void Painter::draw_seen(const Batch& batch, const Eigen::Matrix4f& clip) const {
+  draw(batch.first, batch.plain_count);
+  if (batch.textured.empty()) return;
+  const unsigned program = programs_.on_image(programs_.first);
+  gl::set(program, "to_clip", clip);
+  gl::set(program, "floor_sign", 1.0f);
+  for (const TexturedRun& run : batch.textured) {
+    textures_.give(program, run.texture);
+    draw(run.first, run.count);
+  }
+  gl::use(programs_.first);
 }
 
 // solid bodies and the floor, without the lamp
@@ -127,7 +145,7 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
       const bool one_side =
           heavy_ && batch.closed && hides_inside(batch.center, batch.radius, eye_);
       (one_side ? glEnable : glDisable)(GL_CULL_FACE);
-      draw(batch);
+      draw_seen(batch, clip);
     }
   glDisable(GL_CULL_FACE);
   // seen from below it would only be in the way
@@ -199,17 +217,30 @@ void Painter::lay_marks(const Eigen::Matrix4f& clip) {
 
 // what is seen through, the farthest first, over what lies behind it
 void Painter::lay_clear(const Eigen::Matrix4f& clip) {
-  if (sorted_count_ == 0) return;
+  if (sorted_runs_.empty()) return;
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  gl::set(programs_.through, "to_clip", clip);
-  gl::set(programs_.through, "eye", shading_eye_);
-  gl::set(programs_.through, "to_lamp", lamp_.front().to_light);
+  const auto prepare = [&](unsigned program) {
+    gl::set(program, "to_clip", clip);
+    gl::set(program, "eye", shading_eye_);
+    gl::set(program, "to_lamp", lamp_.front().to_light);
+    return program;
+  };
+  const unsigned plain = prepare(programs_.through),
+                 textured = list_.textures.empty() ? 0 : prepare(programs_.on_image(plain));
   glBindVertexArray(loaded_.array);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, sorted_);
   const gl::DepthOffset over_solids(-1);
-  glDrawElements(GL_TRIANGLES, sorted_count_, GL_UNSIGNED_INT, nullptr);
+  for (const TexturedRun& run : sorted_runs_) {
+    const bool has_image = run.texture >= 0;
+    gl::use(has_image ? textured : plain);
+    if (has_image) {
+      textures_.give(textured, run.texture);
+      gl::set(textured, "opacity", run.opacity);
+    }
+    draw(run.first, run.count);
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, loaded_.indices);
   glDisable(GL_BLEND);
 }

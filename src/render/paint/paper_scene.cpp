@@ -28,6 +28,7 @@ PaperScene::PaperScene(const Programs& programs, const Scene& scene)
     : programs_(programs),
       list_(make_draw_list(scene)),
       loaded_(list_.corners, list_.indices),
+      textures_(list_.textures),
       coarse_(programs, room_map_size) {
   for (const auto* batches : {&list_.solid, &list_.clear})
     for (const Batch& batch : *batches) casters_ += batch.caster_count / 3;
@@ -36,7 +37,7 @@ PaperScene::PaperScene(const Programs& programs, const Scene& scene)
 size_t PaperScene::bytes() const {
   // in memory and on the card, with light
   return list_.corners.size() * (2 * sizeof(Corner) + 32) +
-         2 * list_.indices.size() * sizeof(uint32_t);
+         2 * list_.indices.size() * sizeof(uint32_t) + textures_.bytes();
 }
 
 void PaperScene::light_room(const RenderOptions& options) {

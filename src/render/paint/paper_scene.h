@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "clench/render/mesh/draw_list.h"
+#include "clench/render/paint/loaded_textures.h"
 #include "clench/render/paint/shadows.h"
 #include "clench/render/view/render_options.h"
 
@@ -18,6 +19,7 @@ class PaperScene {
 
   const DrawList& list() const { return list_; }
   const LoadedCorners& loaded() const { return loaded_; }
+  const LoadedTextures& textures() const { return textures_; }
   size_t bytes() const;
 
   /// Triangles that throw shadows, so many that fewer lights and one side of what is closed must
@@ -37,6 +39,7 @@ class PaperScene {
   const Programs& programs_;
   DrawList list_;
   LoadedCorners loaded_;
+  LoadedTextures textures_;
   Shadows coarse_;
   size_t casters_ = 0;
   int room_count_ = 0;

@@ -52,6 +52,7 @@ LoadedCorners::LoadedCorners(const std::vector<Corner>& from, const std::vector<
   field(0, 3, GL_FLOAT, offsetof(Corner, p));
   field(1, 3, GL_FLOAT, offsetof(Corner, n));
   field(2, 4, GL_UNSIGNED_SHORT, offsetof(Corner, paint));
+  field(5, 2, GL_FLOAT, offsetof(Corner, paint));
 }
 
 void read_light(const LoadedCorners& loaded, int place, unsigned light) {

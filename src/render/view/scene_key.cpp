@@ -10,7 +10,7 @@ bool same(const DrawMesh& a, const DrawMesh& b) {
   return a.shape == b.shape && a.X_WM.position == b.X_WM.position &&
          a.X_WM.rotation.coeffs() == b.X_WM.rotation.coeffs() && a.color == b.color &&
          a.opacity == b.opacity && a.background == b.background && a.framed == b.framed &&
-         a.hides == b.hides && a.triangle_colors == b.triangle_colors;
+         a.hides == b.hides && a.triangle_colors == b.triangle_colors && a.skin == b.skin;
 }
 
 bool same(const DrawCone& a, const DrawCone& b) {

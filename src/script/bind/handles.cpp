@@ -21,6 +21,7 @@ void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies)
   for (const auto id : bodies) {
     const Body& body = world.body(id);
     bytes += sizeof body + body.appearance.triangle_colors.size() * sizeof(Eigen::Vector3f);
+    if (body.appearance.skin) bytes += body.appearance.skin->bytes();
     if (!body.shape) continue;
     bytes += body.shape->bytes();
     // here it can be stopped, in the first query not

@@ -7,6 +7,7 @@
 
 #include "clench/model/find.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 
 namespace clench {
@@ -61,6 +62,9 @@ template <>
 inline constexpr const Class* script_class<SnapshotHandle> = &snapshot_class;
 
 inline size_t owned_bytes(const SnapshotHandle& moment) { return moment.moment->bytes(); }
+
+/// The world whose method is called.
+inline World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
 
 /// {low, high}
 int push(lua_State* L, const Bounds& bounds);

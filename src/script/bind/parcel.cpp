@@ -1,8 +1,12 @@
 #include "clench/script/bind/parcel.h"
 
 #include "clench/base/error.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/grasp/grasps.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/plain/plain.h"
+#include "clench/script/bind/world/meshes.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 

@@ -3,7 +3,11 @@
 #include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/model/dof.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/object.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 

@@ -5,8 +5,11 @@
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
 #include "clench/geometry/round/recognize.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/setting.h"
+#include "clench/script/lua/table.h"
+#include "clench/spec/valid.h"
 
 namespace clench {
 

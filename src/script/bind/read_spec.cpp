@@ -5,10 +5,14 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/error.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/read_mesh_table.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/lua/check.h"
 #include "clench/script/lua/home.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/setting.h"
+#include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {
@@ -92,6 +96,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   if (options.has("color")) {
     spec.appearance.color = options.vec3("color").cast<float>();
     spec.appearance.triangle_colors.clear();
+    spec.appearance.skin.reset();
     spec.appearance.given = true;
   }
   spec.appearance.transparency =

@@ -4,14 +4,18 @@
 #include <cmath>
 
 #include "clench/base/error.h"
-#include "clench/script/bind/bind.h"
 #include "clench/script/host/bind_poller.h"
 #include "clench/script/host/job.h"
+#include "clench/script/host/job_classes.h"
 #include "clench/script/host/state.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {

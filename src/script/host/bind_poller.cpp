@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "clench/script/bind/bind.h"
 #include "clench/script/host/poller.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"

@@ -102,10 +102,12 @@ void add_natives(lua_State* L) {
                                          {"clench.open_serial", guarded<open_serial_stream>},
                                          {"clench.open_pty", guarded<open_pty_stream>},
                                          {"clench.open_pair", guarded<open_stream_pair>},
+                                         {"clench.open_stdio", guarded<open_stdio_stream>},
                                          {"clench.begin_connect", guarded<begin_stream>},
                                          {"clench.open_acceptor", guarded<open_acceptor>},
                                          {"clench.resolve_host", guarded<resolve_host>},
                                          {"clench.save_secret", guarded<save_secret>},
+                                         {"clench.canonical", guarded<canonical_path>},
                                          {nullptr, nullptr}};
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   luaL_setfuncs(L, natives, 0);

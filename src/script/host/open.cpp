@@ -2,7 +2,7 @@
 
 #include <lua.hpp>
 
-#include "clench/script/bind/library.h"
+#include "clench/script/host/library_list.h"
 #include "clench/script/host/library_table.h"
 #include "clench/script/host/natives.h"
 #include "clench/script/lua/chunks.h"

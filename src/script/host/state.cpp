@@ -11,11 +11,12 @@
 #include "clench/base/error.h"
 #include "clench/base/printable.h"
 #include "clench/base/watched.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/host/modules.h"
 #include "clench/script/host/open.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/packed.h"
 #include "clench/script/lua/setting.h"
 #include "clench/script/lua/watching.h"
@@ -71,7 +72,7 @@ static int open_all(lua_State* L) {
   luaL_requiref(L, "clench", clench_open, 1);
   lua_pop(L, 1);
   add_bare_names(L);
-  push_packed(L, "host.error_text");  // while all that it needs is there
+  push_packed(L, "error_text");  // while all that it needs is there
   lua_pop(L, 1);
   // the coroutines' guide gets our tracker
   push_packed(L, "host.coroutines");
@@ -138,7 +139,7 @@ void State::set_quiet() {
 static int explain(lua_State* L) {
   lua_sethook(L, nullptr, 0, 0);  // the run ends here: nothing interrupts what tells why
   lua_settop(L, 1);
-  push_packed(L, "host.error_text");
+  push_packed(L, "error_text");
   lua_pushvalue(L, 1);
   if (lua_pcall(L, 1, 1, 0) != LUA_OK) lua_pushliteral(L, "error object that cannot be told");
   lua_replace(L, 1);

@@ -106,7 +106,7 @@ static int prepare(lua_State* L) {
 
 // (error value) -> its words, its kind or nil
 static int tell_error(lua_State* L) {
-  push_packed(L, "host.error_text");
+  push_packed(L, "error_text");
   lua_pushvalue(L, 1);
   protected_call(L, 1, 1);
   if (!lua_istable(L, 1)) return 1;

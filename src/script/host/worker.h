@@ -4,7 +4,7 @@
 #include <lua.hpp>
 #include <string>
 
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/log.h"
 
 namespace clench {
 

@@ -8,6 +8,10 @@ local values = require "clench.control.rpc.values"
 local commands = {}
 
 local apply = "control.apply"
+local runs_the_world = {["dynamics.run"] = true, ["dynamics.step"] = true}
+
+--- Does a command take so long that it runs as a job?
+function commands.is_long(command) return command.script ~= nil and (command.long == true or runs_the_world[command.name] == true) end
 
 --- Prepares the session of a server: registers the command by which results of jobs become edits, and counts edits in `server.edits`.
 ---@return fun() # ends the count
@@ -84,8 +88,10 @@ function commands.run(context, command, params)
   local session = context.session
   local ok, args = pcall(arguments.read, command, params)
   if not ok then error(setmetatable(failure.of(args, "params"), failure.class), 0) end
-  local given = files.confine(context.server, command.name, params)
-  if command.long then return run_long(context, command, given) end
+  local given = files.confine(context.server, command, params)
+  local planner = command.name:match "^planner%.(.+)$"
+  if planner then files.check_planner(planner, given) end
+  if commands.is_long(command) then return run_long(context, command, given) end
   return session:run(command.name, given)
 end
 

@@ -1,6 +1,6 @@
 --- Errors of JSON-RPC 2.0: an error value {code, message, data}.
 local blamed = require "clench.blamed"
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local error_value = require "clench.error_value"
 local in_utf8 = require "clench.in_utf8"
 

@@ -1,34 +1,69 @@
---- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it.
+--- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, wherever links lead.
+local canonical = require "clench.canonical"
 local failure = require "clench.control.rpc.failure"
 local files = {}
 
-local readers = {["world.open"] = true, ["world.import_robot"] = true, ["world.import_object"] = true, ["world.import_obstacle"] = true}
-local writers = {["world.save"] = true}
+-- parameters that are paths, of commands whose other parameters are known to name no files
+local known = {
+  ["world.open"] = {"path"}, ["world.import_robot"] = {"path"}, ["world.import_object"] = {"path"}, ["world.import_obstacle"] = {"path"},
+  ["world.save"] = {"path"}, ["world.save_as"] = {"path"}, ["world.save_image"] = {"path"}, ["file.check"] = {"path"}, ["file.convert"] = {"from", "to"},
+}
+local writes_only = {["world.save"] = true, ["world.save_as"] = true, ["world.save_image"] = true}
+
+-- a parameter of such a name is taken for a path in any other command, which is refused
+local suspicious = {path = true, paths = true, file = true, files = true, folder = true, root = true}
+
+local function names_files(command)
+  if known[command.name] or command.name:find "^file%." then return true end
+  for _, parameter in ipairs(command.parameters or {}) do
+    if suspicious[parameter.name] then return true end
+  end
+  return false
+end
 
 -- a path below the folder, as the client wrote it: relative, and without ".."
-local function path_below(folder, path)
-  if type(path) ~= "string" or path == "" then failure.raise("params", "path: expected the name of a file below the server's folder") end
+local function path_below(folder, name, path)
+  if type(path) ~= "string" or path == "" then failure.raise("params", "%s: expected the name of a file below the server's folder", name) end
   local is_outside = path:sub(1, 1) == "/" or path:find "[%z\n]" ~= nil
   for part in path:gmatch "[^/]+" do is_outside = is_outside or part == ".." end
-  if is_outside then failure.raise("refused", "path: '%s' does not lie below the server's folder", path) end
-  return folder .. "/" .. path
+  local whole = folder .. "/" .. path
+  if not is_outside then
+    local root = canonical(folder)
+    is_outside = canonical(whole):sub(1, #root + 1) ~= root .. "/"
+  end
+  if is_outside then failure.raise("refused", "%s: '%s' does not lie below the server's folder", name, path) end
+  return whole
+end
+
+-- options of a reader: what the file names must lie below the folder, too
+local function confined_options(server, name, given)
+  local options = {root = server.folder, confine = server.folder}
+  for key, value in pairs(type(given) == "table" and given or {}) do
+    if key == "root" or key == "confine" or key == "folder" or key == "package" then failure.raise("refused", "%s: options.%s is the server's", name, key) end
+    options[key] = value
+  end
+  return options
 end
 
 --- The arguments of a command, with paths that lie below the server's folder.
-function files.confine(server, name, args)
-  if not readers[name] and not writers[name] then return args end
+function files.confine(server, command, args)
+  local name = command.name
+  if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
+  if not known[name] then failure.raise("refused", "%s: commands of scripts that name files are not for clients", name) end
   local out = {}
   for key, value in pairs(args) do out[key] = value end
-  out.path = path_below(server.folder, args.path)
-  if writers[name] then return out end
-  -- what the file names must lie there too
-  out.options = {root = server.folder, confine = server.folder}
-  for key, value in pairs(type(args.options) == "table" and args.options or {}) do
-    if key == "root" or key == "confine" or key == "folder" or key == "package" then failure.raise("refused", "%s: options.%s is the server's", name, key) end
-    out.options[key] = value
-  end
+  for _, parameter in ipairs(known[name]) do out[parameter] = path_below(server.folder, parameter, args[parameter]) end
+  if not writes_only[name] then out.options = confined_options(server, name, args.options) end
   return out
+end
+
+local planners = {primitive = true, sample = true, antipodal = true, random = true, anneal = true, loop = true, guided = true}
+
+--- Checks that a planner is one whose options, as they are given, name no files.
+function files.check_planner(planner, options)
+  if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", planner) end
+  if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner name no files") end
 end
 
 return files

@@ -18,9 +18,13 @@ local null = clench.json.null
 
 local methods = {}  -- by name
 
+-- a method of the server hides a command of the same name
 local function names_of(session)
-  local names = commands.names(session)
+  local names = {}
   for name in pairs(methods) do names[#names + 1] = name end
+  for _, name in ipairs(commands.names(session)) do
+    if not methods[name] then names[#names + 1] = name end
+  end
   table.sort(names)
   return names
 end
@@ -37,7 +41,7 @@ end
 
 local function described(session, name)
   local entry = methods[name] or commands.find(session, name) or failure.raise("params", "method: there is no method '%s'%s", name, suggest(name, names_of(session)))
-  return {name = name, text = entry.text or entry.label, parameters = entry.parameters or {}, reads = entry.reads == true, long = entry.long == true}
+  return {name = name, text = entry.text or entry.label, parameters = entry.parameters or {}, reads = entry.reads == true, long = not methods[name] and commands.is_long(entry)}
 end
 
 local function describe(context, args)
@@ -136,7 +140,7 @@ end
 
 local function is_long(session, message)
   local command = type(message) == "table" and type(message.method) == "string" and session.commands[message.method]
-  return command and command.long
+  return command ~= nil and command ~= false and commands.is_long(command)
 end
 
 local function has_long(session, message)

@@ -1,5 +1,6 @@
 --- Jobs of JSON-RPC clients: searches, and commands that take long. Each has a number; its client hears of its states and events.
 local failure = require "clench.control.rpc.failure"
+local files = require "clench.control.rpc.files"
 local jobs = {}
 
 local max_jobs = 100  -- that a server keeps, those that are over among them
@@ -78,9 +79,10 @@ end
 
 jobs.methods = {
   {name = "plan.start", text = "Starts a search in the background, on a copy of the world; its grasps are events of the job.",
-   parameters = {{name = "planner", type = "string", text = "sample, anneal, ..."},
+   parameters = {{name = "planner", type = "string", text = "primitive, sample, antipodal, random, anneal, loop or guided"},
                  {name = "options", type = "table", default = {}, text = "of that planner; hand and object by address, the current ones by default"}},
    run = function(context, args)
+     files.check_planner(args.planner, args.options)
      return {job = jobs.keep(context, clench.plan.start(args.planner, entity_options(context.session, args.options)))}
    end},
   {name = "job.list", text = "All jobs of this server.", parameters = {}, run = function(context)

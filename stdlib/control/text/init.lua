@@ -1,6 +1,6 @@
 --- The text protocol of GraspIt!: one command per line, replies as lines. Every line is answered by its reply or by a line that begins with
 --- "Error"; `render`, `moveToContacts` and an empty line have no reply.
-local error_text = require "clench.host.error_text"
+local error_text = require "clench.error_text"
 local error_value = require "clench.error_value"
 local is_stopped = require "clench.is_stopped"
 local new_words = require "clench.control.text.words"

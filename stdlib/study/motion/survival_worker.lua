@@ -1,9 +1,9 @@
 --- Work of a thread on a grasp: computes its measures, and whether it survives shaking. For clench.parallel.map.
-local verification = require "clench.plan.verification"
+local held_load = require "clench.study.motion.held_load"
 
 local own = {
   contacts = function(grasp) return #grasp.points end,
-  load_margin = function(grasp, object) return verification.load(object, grasp, verification.defaults.force_ratio) end,
+  load_margin = function(grasp, object) return held_load.of(object, grasp, held_load.force_ratio) end,
 }
 
 ---@param grasp grasp

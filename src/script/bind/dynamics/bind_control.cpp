@@ -1,7 +1,10 @@
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/control.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/packed.h"
 
 namespace clench {

@@ -1,8 +1,12 @@
 #include "clench/dynamics/weld.h"
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 

@@ -1,9 +1,12 @@
-#include "clench/script/bind/bind.h"
-
 #include "clench/grasp/force/equilibrium.h"
 #include "clench/model/dof.h"
 #include "clench/model/effort_range.h"
+#include "clench/script/bind/grasp/grasps.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 

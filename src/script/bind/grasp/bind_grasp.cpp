@@ -1,16 +1,22 @@
-#include "clench/script/bind/bind.h"
-
 #include <algorithm>
 
 #include "clench/io/grasp_lines.h"
-#include "clench/planning/apply_by_arm.h"
-#include "clench/script/bind/grasp/dof_order.h"
+#include "clench/script/bind/grasp/apply_grasp.h"
+#include "clench/script/bind/grasp/grasps.h"
 #include "clench/script/bind/grasp/save_grasp.h"
+#include "clench/script/bind/grasp/wrench_spaces.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 
@@ -43,6 +49,7 @@ static int measure(lua_State* L) {
   grasp.modulus = read_modulus_rule(options);
   options.done();
   Grasp measured = find_grasp(*hand.world, hand.id, object.id, grasp);
+  note_identity(L, *hand.world, measured);
   // once, as planners measure thousands
   static const char at_edges = 0;
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
@@ -166,77 +173,6 @@ static int grasp_as_json(lua_State* L) {
   return 1;
 }
 
-static std::string place_of(const GraspSpec& grasp) {
-  return fmt::format("grasp of {} by {}", grasp.object_name, grasp.hand_name);
-}
-
-static GraspDofOptions dof_options(lua_State* L, DofOrder order) {
-  return {.order = order, .warn = [L](const std::string& text) { log_warning(L, text); }};
-}
-
-// in the order of the hand's DOFs; apply itself warns of values that differ from the file's
-static std::optional<PregraspState> pregrasp_of(const World& world, Id<Robot> hand,
-                                                const GraspSpec& grasp, DofOrder order) {
-  if (!grasp.pregrasp) return {};
-  const GraspDofOptions quiet{.order = order};
-  const auto q =
-      pregrasp_dofs(world, hand, grasp, grasp_posture(world, hand, grasp, place_of(grasp), quiet),
-                    place_of(grasp), quiet);
-  return PregraspState{grasp.pregrasp->X_OH, {q.begin(), q.end()}};
-}
-
-// puts the hand where the grasp has it, and measures it there
-static int apply(lua_State* L) {
-  const auto& g = self<GraspHandle>(L);
-  if (!given(L, 2)) world_of(L, g);
-  const WorldPtr world = given(L, 2) ? check_object<WorldHandle>(L, 2, "world").world : g.world;
-  Table options(L, 3);
-  const auto in_world = [&](const WorldPtr& other, const char* key) {
-    if (other != world)
-      fail("{}: {}: expected one of that world, got one of another", subject(L), key);
-  };
-  const auto* given_hand = options.object<RobotHandle>("hand");
-  if (given_hand) in_world(given_hand->world, "hand");
-  const auto* given_object = options.object<BodyHandle>("object");
-  if (given_object) in_world(given_object->world, "object");
-  const NamedOrder order = read_dof_order(options);
-  options.done();
-  GraspSpec named = g.grasp;
-  if (given_hand) named.hand_name = (*given_hand)->name;
-  if (given_object) named.object_name = (*given_object)->name;
-  const auto hand = given_hand ? given_hand->id : world->find_robot(named.hand_name);
-  const auto object = given_object ? given_object->id : world->find_body(named.object_name);
-  if (!hand || !object) apply_grasp(*world, named);  // says what is missing
-  if (named.dof_names.empty() && !order.names.empty()) name_dofs(named, order, nullptr, subject(L));
-  const GraspDofOptions dofs = dof_options(L, order.order);
-  const auto before = pregrasp_of(*world, hand, named, dofs.order);
-  apply_by_arm(*world, named, hand, object, dofs);
-  Grasp measured = find_grasp(*world, hand, object, g.grasp.options);
-  measured.info = g.grasp.info;
-  measured.labels = g.grasp.labels;
-  measured.pregrasp = before;
-  // values of DOFs in another order would be those of other motors
-  if (named.dof_names == measured.dof_names) measured.squeeze = g.grasp.squeeze;
-  return push_object(L, GraspHandle{world, std::move(measured)});
-}
-
-// the DOFs that apply would set, and those of the pregrasp
-static int dofs_for(lua_State* L) {
-  const auto& g = self<GraspHandle>(L);
-  const auto& hand = check_object<RobotHandle>(L, 2, "hand");
-  Table options(L, 3);
-  const NamedOrder order = read_dof_order(options);
-  options.done();
-  GraspSpec named = g.grasp;
-  if (named.dof_names.empty() && !order.names.empty()) name_dofs(named, order, nullptr, subject(L));
-  const GraspDofOptions dofs = dof_options(L, order.order);
-  const auto posture = grasp_posture(*hand.world, hand.id, named, place_of(named), dofs);
-  push(L, posture.dofs);
-  if (!named.pregrasp) return 1;
-  push(L, pregrasp_dofs(*hand.world, hand.id, named, posture, place_of(named), dofs));
-  return 2;
-}
-
 static int get_grasp_contacts(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   world_of(L, g);
@@ -320,6 +256,25 @@ File that the hand was read from, as it was named; nil: not known.
 File that the object was read from, as it was named; nil: not known.
 @type string?
 > grasp.object_file == flask.source  --> true)"},
+    {"hand_fingerprint", getter<[](const GraspHandle& x) { return x.grasp.hand_fingerprint; }>, R"(
+Fingerprint of the hand's shapes and joints when the grasp was measured: its `mechanism_fingerprint`; "" in a list from a file without it.
+@type string
+> grasp.hand_fingerprint == hand.mechanism_fingerprint  --> true)"},
+    {"object_fingerprint", getter<[](const GraspHandle& x) { return x.grasp.object_fingerprint; }>,
+     R"(
+Fingerprint of the object's surface when the grasp was measured: that of its mesh; "" in a list from a file without it.
+@type string
+> grasp.object_fingerprint == flask.mesh.fingerprint  --> true)"},
+    {"settings_fingerprint",
+     getter<[](const GraspHandle& x) { return x.grasp.settings_fingerprint; }>, R"(
+Fingerprint of the options of its measures: edges, rho, soft, normal_force and modulus. Measures of grasps with equal ones can be compared.
+@type string
+> again = clench.grasp(hand, flask, {edges = 12})
+> again.settings_fingerprint == grasp.settings_fingerprint  --> false)"},
+    {"engine_version", getter<[](const GraspHandle& x) { return x.grasp.engine_version; }>, R"(
+Version of Clench that measured the grasp; "" in a list from a file without it.
+@type string
+> grasp.engine_version == clench.version  --> true)"},
     {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
 Where the hand's base stood in the object's frame when the grasp was measured.
 @type pose
@@ -423,12 +378,13 @@ The options with which clench.grasp measures another grasp in the same way.
 };
 
 static const Entry grasp_methods[] = {
-    {"apply", guarded<apply>, R"(
+    {"apply", guarded<apply_by_script>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
 there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
 does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A
 value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in
 the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
+A warning names a hand whose shapes or joints, or an object whose surface differs from the one that the grasp was measured with; masses, materials, limits and motors may differ.
 @param world? world  default: its own
 @param options? {hand?: robot, object?: body, dof_order?: string|string[]}
 @return grasp
@@ -437,7 +393,7 @@ the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `do
 > again = grasp:apply()
 > #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true
 > grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
-    {"dofs_for", guarded<dofs_for>, R"(
+    {"dofs_for", guarded<grasp_dofs_for>, R"(
 Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
 @param hand robot  hand whose DOFs are wanted
 @param options? {dof_order?: string|string[]}  as `apply` takes it

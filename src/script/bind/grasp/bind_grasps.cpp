@@ -1,13 +1,17 @@
-#include "clench/script/bind/bind.h"
-
 #include "clench/base/file.h"
 #include "clench/io/grasp_files.h"
 #include "clench/script/bind/grasp/dof_order.h"
+#include "clench/script/bind/grasp/grasps.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/json.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
@@ -70,6 +74,7 @@ static int grasps_save(lua_State* L) {
            described(L, -1));
     lua_pop(L, 1);
   }
+  writing.compress = options.boolean("compress", false);
   options.done();
   write_grasp_file(specs, path, format, writing);
   return 0;
@@ -127,9 +132,10 @@ Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head w
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
 `format`; a warning names what a format does not hold. The same list gives the same bytes.
 @param path string  file to write; its ending selects the format
-@param options? {format?: string, notes?: table}  format: as clench.grasps takes it; notes: plain data about the list as such, for the head of JSON lines
+@param options? {format?: string, notes?: table, compress?: boolean}  format: as clench.grasps takes it; compress: the arrays of an .npz; notes: plain data about the list as such, for the head of JSON lines
 > list = clench.grasps()
 > list:save("grasps.json")  --> error: .json may be several formats
+> list:save("grasps.csv", {compress = true})  --> error: only .npz is compressed, got csv
 > list:save("grasps.jsonl", {notes = {}})  --> error: notes: expected a table of names and plain data
 > list:save "grasps.txt"  --> error: expected a name that ends in .jsonl, .csv, .npz, .yaml or .json, or a format
 > list:save("grasps.txt", {format = "cvs"})  --> error: unknown format 'cvs', expected one of jsonl, csv

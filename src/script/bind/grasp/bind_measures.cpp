@@ -1,10 +1,14 @@
-#include "clench/script/bind/bind.h"
-
 #include <cmath>
 
 #include "clench/grasp/force/resistance.h"
 #include "clench/grasp/measure/measures.h"
+#include "clench/script/bind/grasp/grasps.h"
+#include "clench/script/bind/grasp/wrench_spaces.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"

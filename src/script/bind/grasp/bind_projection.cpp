@@ -1,13 +1,18 @@
-#include "clench/script/bind/bind.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "clench/scene/wrench_scene.h"
+#include "clench/script/bind/grasp/wrench_spaces.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"
 
 namespace clench {

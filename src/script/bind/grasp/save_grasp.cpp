@@ -5,12 +5,16 @@
 #include "clench/grasp/force/contact_forces.h"
 #include "clench/io/mjcf_write/written_keys.h"
 #include "clench/io/text/confine.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/grasp/grasps.h"
 #include "clench/script/bind/grasp/save_grasp.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
+#include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {

@@ -1,11 +1,14 @@
-#include "clench/script/bind/bind.h"
-
 #include <ranges>
 
 #include "clench/render/figure/chart.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 

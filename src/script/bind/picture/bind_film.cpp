@@ -2,9 +2,13 @@
 
 #include "clench/base/file.h"
 #include "clench/render/figure/gif.h"
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 

@@ -4,12 +4,17 @@
 #include "clench/base/text.h"
 #include "clench/render/figure/plot.h"
 #include "clench/render/figure/sheet.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 

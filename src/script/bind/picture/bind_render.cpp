@@ -1,5 +1,3 @@
-#include "clench/script/bind/bind.h"
-
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -8,11 +6,16 @@
 #include "clench/render/renderer.h"
 #include "clench/render/view/pick.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/picture/pictures.h"
 #include "clench/script/bind/picture/read_scene.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/script/lua/watching.h"

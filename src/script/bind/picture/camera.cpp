@@ -1,10 +1,11 @@
-#include "clench/script/bind/bind.h"
-
 #include <cmath>
 
 #include "clench/base/error.h"
 #include "clench/math/axes.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/spec/valid.h"

@@ -6,7 +6,9 @@
 #include "clench/base/error.h"
 #include "clench/scene/film_scene.h"
 #include "clench/scene/force_arrows.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 
@@ -15,9 +17,9 @@ static constexpr double longest_arrow = 0.6;  // part of the object's largest ra
 // the list `forces` of a result of grasp:contact_forces
 struct GivenForces {
   std::vector<PlacedForce> forces;
-  std::vector<Id<Robot>> robots;         // that press
-  std::vector<Eigen::Vector3d> normals;  // of the contacts, into the objects
-  double longest = 0;                    // length of an arrow that suits the objects [m]
+  std::vector<Id<Robot>> robots;  // that press
+  std::vector<Contact> contacts;  // one per force
+  double longest = 0;             // length of an arrow that suits the objects [m]
 };
 
 static GivenForces read_forces(lua_State* L, Table& options) {
@@ -31,7 +33,7 @@ static GivenForces read_forces(lua_State* L, Table& options) {
       const auto* contact = item.object<ContactHandle>("contact");
       if (!contact) fail_expected(item.what("contact"), "a contact", lua_gettop(L) + 1);
       given.forces.push_back({contact->contact.p_W, item.vec3("force")});
-      given.normals.push_back(contact->contact.n_W);
+      given.contacts.push_back(contact->contact);
       given.robots.push_back(contact->world->body(contact->contact.other).robot);
       const double radius = contact->world->body(contact->contact.body).max_radius();
       given.longest = std::max(given.longest, longest_arrow * radius);
@@ -44,12 +46,13 @@ static GivenForces read_forces(lua_State* L, Table& options) {
 
 static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
   const double longest = given.longest > 0 ? given.longest : 1;
-  const double scale = options.positive("force_scale", force_scale(given.forces, longest));
-  for (DrawArrow& arrow : force_arrows(given.forces, scale)) {
+  const std::vector<PlacedForce> forces = patch_forces(given.contacts, given.forces);
+  const double scale = options.positive("force_scale", force_scale(forces, longest));
+  for (DrawArrow& arrow : force_arrows(forces, scale)) {
     arrow.shown.kind = Shown::Kind::force;
     scene.arrows.push_back(arrow);
   }
-  scene.labels = force_labels(given.forces, scale);
+  scene.labels = force_labels(forces, scale);
   if (!scene.labels.empty())
     scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
 }
@@ -58,7 +61,7 @@ static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
 static std::vector<ContactLoad> read_loads(const GivenForces& given) {
   std::vector<ContactLoad> loads;
   for (size_t i = 0; i < given.forces.size(); ++i)
-    loads.push_back({given.forces[i].p_W, given.forces[i].f_W.dot(given.normals[i])});
+    loads.push_back({given.forces[i].p_W, given.forces[i].f_W.dot(given.contacts[i].n_W)});
   return loads;
 }
 
@@ -101,7 +104,7 @@ Scene read_scene(lua_State* L, Table& options, std::span<const World* const> sta
   GivenForces given = read_forces(L, options);
   read_cones(options, given, showing);
   const bool arrows = options.boolean("arrows", true);
-  if (!arrows) given.forces.clear(), given.robots.clear();
+  if (!arrows) given.forces.clear(), given.contacts.clear(), given.robots.clear();
   showing.see_through = std::move(given.robots);
   Scene scene = make_film_scene(states, showing);
   add_forces(options, given, scene);

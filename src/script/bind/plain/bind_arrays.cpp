@@ -2,9 +2,11 @@
 #include "clench/base/text.h"
 #include "clench/io/grasps/npz.h"
 #include "clench/io/text/memory_budget.h"
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/bind/read_spec.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
@@ -49,6 +51,9 @@ static NpyArray read_array(lua_State* L, int index, const std::string& subject) 
 static int save_arrays(lua_State* L) {
   const std::string path = check_output(L, 1);
   if (!lua_istable(L, 2)) fail_expected({L, {}, "arrays"}, "a table of names and lists", 2);
+  Table options(L, 3);
+  const bool compress = options.boolean("compress", false);
+  options.done();
   std::map<std::string, NpyArray> arrays;
   each_named(L, 2, {L, {}, "arrays"}, "names", [&](const std::string& name, int i, const What&) {
     // a name is one of a file in an archive
@@ -56,7 +61,7 @@ static int save_arrays(lua_State* L) {
       fail("{}: arrays: expected names without slashes, got {}", subject(L), in_quotes(name));
     arrays[name] = read_array(L, i, fmt::format("{}: {}", subject(L), excerpt(name)));
   });
-  write_file(path, npz_bytes(arrays));
+  write_file(path, npz_bytes(arrays, compress));
   return 0;
 }
 
@@ -101,7 +106,9 @@ static const Entry arrays_functions[] = {
 Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
 @param path string  .npz
 @param arrays table<string, number[]|number[][]>  arrays by name, of one or two dimensions
+@param options? {compress?: boolean}  compress: as numpy.savez_compressed; false
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}, place = {{1, 2, 3}, {4, 5, 6}}})
+> clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}}, {compress = true})
 > clench.files.save_arrays("build/arrays.npz", {time = {0, "x"}})  --> error: time[2]: expected a number, got 'x')"},
     {"arrays", guarded<arrays>, R"(
 The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.

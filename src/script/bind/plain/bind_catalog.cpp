@@ -1,5 +1,3 @@
-#include "clench/script/bind/bind.h"
-
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -9,12 +7,16 @@
 #include "clench/io/read.h"
 #include "clench/io/text/confine.h"
 #include "clench/io/text/file_kind.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/home.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/setting.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 

@@ -1,14 +1,17 @@
-#include "clench/script/bind/bind.h"
-
 #include "clench/base/text.h"
 #include "clench/io/convert.h"
 #include "clench/io/text/confine.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/bind/read_spec.h"
 #include "clench/script/bind/world/world_files.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 

@@ -1,5 +1,3 @@
-#include "clench/script/bind/bind.h"
-
 #include <algorithm>
 
 #include "clench/base/convert.h"
@@ -13,9 +11,14 @@
 #include "clench/io/graspit/virtual_contacts.h"
 #include "clench/io/text/csv.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/bind/read_spec.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/lua_budget.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 

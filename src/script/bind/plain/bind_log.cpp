@@ -1,5 +1,3 @@
-#include "clench/script/bind/bind.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
@@ -8,9 +6,13 @@
 #include "clench/base/printable.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/kept.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/packed.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"

@@ -1,5 +1,3 @@
-#include "clench/script/bind/bind.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -8,8 +6,14 @@
 
 #include "clench/math/axes.h"
 #include "clench/math/rpy.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/bind/plain/plain.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 #include "clench/spec/valid.h"

@@ -1,10 +1,12 @@
-#include "clench/script/bind/bind.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "clench/script/bind/plain/plain.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/watching.h"
 

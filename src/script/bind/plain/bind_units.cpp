@@ -1,9 +1,9 @@
-#include "clench/script/bind/bind.h"
-
 #include <chrono>
 
 #include "clench/base/units.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 

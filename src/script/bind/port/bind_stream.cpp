@@ -1,10 +1,16 @@
 // clench.open_serial, clench.open_pty, ...: streams of bytes and those who accept them, for
 // stdlib/port.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "clench/base/file.h"
@@ -87,6 +93,7 @@ int connect_error(lua_State* L) {
 
 int stream_name(lua_State* L) { return push(L, stream_of(L).name()); }
 int stream_descriptor(lua_State* L) { return push(L, stream_of(L).descriptor()); }
+int write_descriptor(lua_State* L) { return push(L, stream_of(L).write_descriptor()); }
 int close_stream(lua_State* L) {
   stream_of(L).close();
   return 0;
@@ -104,6 +111,7 @@ const Entry stream_methods[] = {
     {"connect_error", guarded<connect_error>, ""},
     {"name", guarded<stream_name>, ""},
     {"descriptor", guarded<stream_descriptor>, ""},
+    {"write_descriptor", guarded<write_descriptor>, ""},
     {"close", guarded<close_stream>, ""}};
 const Class stream_class{
     .name = "stream", .variable = "stream", .doc = "", .methods = stream_methods};
@@ -181,6 +189,15 @@ int open_stream_pair(lua_State* L) {
   return 2;
 }
 
+// open_stdio(): a stream of standard input and output, which stay open when it is closed
+int open_stdio_stream(lua_State* L) {
+  Descriptor input(fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3));
+  Descriptor output(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3));
+  if (!input.is_open() || !output.is_open())
+    fail(ErrorKind::file, "standard input and output: {}", system_reason(errno));
+  return push_stream(L, Stream(std::move(input), std::move(output), "standard input"));
+}
+
 // connect(address, port), connect(path): a stream that can be written once it is connected
 int begin_stream(lua_State* L) {
   const std::string host = check_string(L, 1, "host");
@@ -210,6 +227,15 @@ int save_secret(lua_State* L) {
   Draft draft(path, string_at(L, 2), only_owner);
   draft.move_to(path);
   return 0;
+}
+
+// canonical(path): the absolute path without links, as far as it exists
+int canonical_path(lua_State* L) {
+  const std::string path = check_string(L, 1, "path");
+  std::error_code code;
+  const auto found = std::filesystem::weakly_canonical(path, code);
+  if (code) fail(ErrorKind::file, "{}: {}", path, code.message());
+  return push(L, found.string());
 }
 
 }  // namespace clench

@@ -1,10 +1,12 @@
-#include "clench/script/bind/bind.h"
-
 #include <cstring>
 
 #include "clench/base/hash.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/picture/pictures.h"
 #include "clench/script/bind/picture/read_scene.h"
 #include "clench/script/bind/view/ui.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -22,7 +24,7 @@ Gui& open_gui(lua_State* L) {
 }
 
 // for what describes a frame
-Gui& frame_of(lua_State* L) {
+Gui& framed_gui(lua_State* L) {
   Gui& gui = open_gui(L);
   if (!self<UiHandle>(L).in_frame) fail("{}: expected a call within ui:frame", subject(L));
   gui.resume();
@@ -110,7 +112,7 @@ int ui_frame(lua_State* L) {
 }
 
 int ui_show(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const World* world = check_object<WorldHandle>(L, 2, "world").world.get();
   Table options(L, 3);
   Eye eye;
@@ -227,7 +229,7 @@ int ui_set_style(lua_State* L) {
 // --- containers ---
 
 int ui_window(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "name");
   Table options(L, 3);
   WindowOptions window;
@@ -245,7 +247,7 @@ int ui_window(lua_State* L) {
 }
 
 int ui_child(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   Table options(L, 3);
   const double width = options.number("width", 0), height = options.number("height", 0);
@@ -255,17 +257,17 @@ int ui_child(lua_State* L) {
   return 0;
 }
 
-int ui_menu_bar(lua_State* L) { return frame_of(L).menu_bar(BodyOf(L, 2)), 0; }
+int ui_menu_bar(lua_State* L) { return framed_gui(L).menu_bar(BodyOf(L, 2)), 0; }
 
 int ui_menu(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   gui.menu(label, true, BodyOf(L, 3));
   return 0;
 }
 
 int ui_menu_item(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   Table options(L, 3);
   const std::string shortcut = options.string("shortcut", "");
@@ -275,20 +277,22 @@ int ui_menu_item(lua_State* L) {
   return push(L, gui.menu_item(label, shortcut, selected, enabled));
 }
 
-int ui_popup(lua_State* L) { return frame_of(L).popup(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
+int ui_popup(lua_State* L) {
+  return framed_gui(L).popup(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
+}
 int ui_context_menu(lua_State* L) {
-  return frame_of(L).context_menu(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
+  return framed_gui(L).context_menu(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
 }
-int ui_open_popup(lua_State* L) { return frame_of(L).open_popup(check_string(L, 2, "id")), 0; }
-int ui_close_popup(lua_State* L) { return frame_of(L).close_popup(), 0; }
+int ui_open_popup(lua_State* L) { return framed_gui(L).open_popup(check_string(L, 2, "id")), 0; }
+int ui_close_popup(lua_State* L) { return framed_gui(L).close_popup(), 0; }
 int ui_disabled(lua_State* L) {
-  return frame_of(L).disabled(check_boolean(L, 2, "disabled"), BodyOf(L, 3)), 0;
+  return framed_gui(L).disabled(check_boolean(L, 2, "disabled"), BodyOf(L, 3)), 0;
 }
-int ui_id(lua_State* L) { return frame_of(L).id(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
-int ui_group(lua_State* L) { return frame_of(L).group(BodyOf(L, 2)), 0; }
+int ui_id(lua_State* L) { return framed_gui(L).id(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
+int ui_group(lua_State* L) { return framed_gui(L).group(BodyOf(L, 2)), 0; }
 
 int ui_tabs(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   const std::vector<std::string> names = check_names(L, 3, "names");
   const BodyOf checked(L, 4);
@@ -303,7 +307,7 @@ int ui_tabs(lua_State* L) {
 }
 
 int ui_tree(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   Table options(L, 3);
   Gui::TreeOptions tree;
@@ -319,13 +323,13 @@ int ui_tree(lua_State* L) {
 }
 
 int ui_collapsing(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   return push(L, gui.collapsing(label, check_boolean(L, 3, "open"), BodyOf(L, 4)));
 }
 
 int ui_table(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   const std::vector<std::string> columns = check_names(L, 3, "columns");
   if (columns.empty() || columns.size() > 64)
@@ -340,7 +344,7 @@ int ui_table(lua_State* L) {
 // --- widgets ---
 
 int ui_text(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string text = check_string(L, 2, "text");
   Table options(L, 3);
   std::optional<Rgba> color;
@@ -352,7 +356,7 @@ int ui_text(lua_State* L) {
 }
 
 int ui_button(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   Table options(L, 3);
   const double width = options.number("width", 0), height = options.number("height", 0);
@@ -363,18 +367,18 @@ int ui_button(lua_State* L) {
 
 int ui_checkbox(lua_State* L) {
   return push_edited(
-      L, frame_of(L).checkbox(check_string(L, 2, "label"), check_boolean(L, 3, "value")));
+      L, framed_gui(L).checkbox(check_string(L, 2, "label"), check_boolean(L, 3, "value")));
 }
 int ui_radio(lua_State* L) {
-  return push(L, frame_of(L).radio(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
+  return push(L, framed_gui(L).radio(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
 }
 int ui_selectable(lua_State* L) {
-  return push(L,
-              frame_of(L).selectable(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
+  return push(
+      L, framed_gui(L).selectable(check_string(L, 2, "label"), check_boolean(L, 3, "selected")));
 }
 
 int ui_slider(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const double value = check_number(L, 3, "value");
   Table options(L, 4);
@@ -385,7 +389,7 @@ int ui_slider(lua_State* L) {
 }
 
 int ui_drag(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const double value = check_number(L, 3, "value");
   Table options(L, 4);
@@ -398,7 +402,7 @@ int ui_drag(lua_State* L) {
 }
 
 int ui_number(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const double value = check_number(L, 3, "value");
   Table options(L, 4);
@@ -409,7 +413,7 @@ int ui_number(lua_State* L) {
 }
 
 int ui_text_input(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const std::string value = check_string(L, 3, "value");
   Table options(L, 4);
@@ -424,7 +428,7 @@ int ui_text_input(lua_State* L) {
 }
 
 int ui_combo(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const int index = lua_isnoneornil(L, 3) ? 0 : check_int(L, 3, "index");
   const std::vector<std::string> choices = check_names(L, 4, "choices");
@@ -435,7 +439,7 @@ int ui_combo(lua_State* L) {
 }
 
 int ui_progress(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const double fraction = check_number(L, 2, "fraction");
   gui.progress(fraction, given(L, 3) ? check_string(L, 3, "text") : "",
                given(L, 4) ? check_number(L, 4, "width") : 0);
@@ -443,7 +447,7 @@ int ui_progress(lua_State* L) {
 }
 
 int ui_plot(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
   const std::vector<double> values = check_numbers(L, 3, "values");
   Table options(L, 4);
@@ -457,7 +461,7 @@ int ui_plot(lua_State* L) {
 }
 
 int ui_image(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const std::string key = check_string(L, 2, "key");
   const Picture& picture = check_object<Picture>(L, 3, "picture");
   Table options(L, 4);
@@ -469,25 +473,25 @@ int ui_image(lua_State* L) {
 }
 
 int ui_same_line(lua_State* L) {
-  return frame_of(L).same_line(given(L, 2) ? check_number(L, 2, "spacing") : -1), 0;
+  return framed_gui(L).same_line(given(L, 2) ? check_number(L, 2, "spacing") : -1), 0;
 }
-int ui_width(lua_State* L) { return frame_of(L).next_width(check_number(L, 2, "width")), 0; }
-int ui_indent(lua_State* L) { return frame_of(L).indent(check_number(L, 2, "width")), 0; }
-int ui_tooltip(lua_State* L) { return frame_of(L).tooltip(check_string(L, 2, "text")), 0; }
+int ui_width(lua_State* L) { return framed_gui(L).next_width(check_number(L, 2, "width")), 0; }
+int ui_indent(lua_State* L) { return framed_gui(L).indent(check_number(L, 2, "width")), 0; }
+int ui_tooltip(lua_State* L) { return framed_gui(L).tooltip(check_string(L, 2, "text")), 0; }
 int ui_available(lua_State* L) {
-  const auto space = frame_of(L).available();
+  const auto space = framed_gui(L).available();
   push(L, space[0]);
   push(L, space[1]);
   return 2;
 }
-int ui_rect(lua_State* L) { return push_rect(L, frame_of(L).last_rect()); }
-int ui_separator(lua_State* L) { return frame_of(L).separator(), 0; }
-int ui_spacing(lua_State* L) { return frame_of(L).spacing(), 0; }
-int ui_next_column(lua_State* L) { return frame_of(L).next_column(), 0; }
-int ui_focus(lua_State* L) { return frame_of(L).focus_next(), 0; }
-int ui_scroll_to_end(lua_State* L) { return frame_of(L).scroll_to_end(), 0; }
-int ui_hovered(lua_State* L) { return push(L, frame_of(L).hovered()); }
-int ui_active(lua_State* L) { return push(L, frame_of(L).active()); }
+int ui_rect(lua_State* L) { return push_rect(L, framed_gui(L).last_rect()); }
+int ui_separator(lua_State* L) { return framed_gui(L).separator(), 0; }
+int ui_spacing(lua_State* L) { return framed_gui(L).spacing(), 0; }
+int ui_next_column(lua_State* L) { return framed_gui(L).next_column(), 0; }
+int ui_focus(lua_State* L) { return framed_gui(L).focus_next(), 0; }
+int ui_scroll_to_end(lua_State* L) { return framed_gui(L).scroll_to_end(), 0; }
+int ui_hovered(lua_State* L) { return push(L, framed_gui(L).hovered()); }
+int ui_active(lua_State* L) { return push(L, framed_gui(L).active()); }
 
 // --- over the picture ---
 
@@ -502,7 +506,7 @@ std::vector<std::array<double, 2>> check_points(lua_State* L, int i) {
 }
 
 int ui_line(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const auto points = check_points(L, 2);
   Table options(L, 3);
   const Rgba color = read_color(options, "color", {0, 0, 0, 1});
@@ -517,7 +521,7 @@ int ui_line(lua_State* L) {
 }
 
 int ui_circle(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const double x = check_number(L, 2, "x"), y = check_number(L, 3, "y");
   const double radius = check_number(L, 4, "radius");
   Table options(L, 5);
@@ -530,7 +534,7 @@ int ui_circle(lua_State* L) {
 }
 
 int ui_label(lua_State* L) {
-  Gui& gui = frame_of(L);
+  Gui& gui = framed_gui(L);
   const double x = check_number(L, 2, "x"), y = check_number(L, 3, "y");
   const std::string text = check_string(L, 4, "text");
   Table options(L, 5);
@@ -565,7 +569,7 @@ int ui_keep_open(lua_State* L) { return open_gui(L).close_handled(), 0; }
 int get_wants_mouse(lua_State* L) { return push(L, open_gui(L).wants_mouse()); }
 int get_wants_text(lua_State* L) { return push(L, open_gui(L).wants_text()); }
 int get_close_requested(lua_State* L) { return push(L, open_gui(L).close_requested()); }
-int get_line_height(lua_State* L) { return push(L, frame_of(L).line_height()); }
+int get_line_height(lua_State* L) { return push(L, framed_gui(L).line_height()); }
 int ui_text_of(lua_State* L) {
   const auto& handle = self<UiHandle>(L);
   if (!handle.gui) return push(L, "closed user interface");
@@ -589,7 +593,9 @@ Opens a user interface: a window, or a framebuffer that needs no display. clench
 };
 
 static const Entry ui_fields[] = {
-    {"size", guarded<get_size>, "Width and height.\n@type number[] [pixels]"},
+    {"size", guarded<get_size>, R"(
+Width and height.
+@type number[] [pixels])"},
     {"items", guarded<get_items>, R"(
 Widgets of the last frame.
 @type table[]  {label, kind, window, x, y, width, height, enabled}  rectangles [pixels])"},
@@ -599,11 +605,18 @@ Keys that went down in this frame.
     {"mouse", guarded<get_mouse>, R"(
 The mouse in this frame.
 @type table  {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double})"},
-    {"wants_mouse", guarded<get_wants_mouse>, "Is the mouse over a panel?\n@type boolean"},
-    {"wants_text", guarded<get_wants_text>, "Is text being typed into a widget?\n@type boolean"},
-    {"close_requested", guarded<get_close_requested>,
-     "Has the user asked to close the window?\n@type boolean"},
-    {"line_height", guarded<get_line_height>, "Height of a row of widgets.\n@type number [pixels]"},
+    {"wants_mouse", guarded<get_wants_mouse>, R"(
+Is the mouse over a panel?
+@type boolean)"},
+    {"wants_text", guarded<get_wants_text>, R"(
+Is text being typed into a widget?
+@type boolean)"},
+    {"close_requested", guarded<get_close_requested>, R"(
+Has the user asked to close the window?
+@type boolean)"},
+    {"line_height", guarded<get_line_height>, R"(
+Height of a row of widgets.
+@type number [pixels])"},
 };
 
 static const Entry ui_methods[] = {
@@ -613,10 +626,14 @@ Describes and draws one frame.
 @param draw fun(ui: ui)  describes the widgets of the frame)"},
     {"show", guarded<ui_show>, R"(
 Draws a world behind the panels, as a draft of clench.render.
-@param world world
+@param world world  world to draw
 @param options? table  eye, target, up, field_of_view, orthographic and those of clench.render that choose what is drawn)"},
-    {"read", guarded<ui_read>, "The pixels of the last frame.\n@return picture"},
-    {"hash", guarded<ui_hash>, "Hash of the pixels of the last frame.\n@return string"},
+    {"read", guarded<ui_read>, R"(
+The pixels of the last frame.
+@return picture)"},
+    {"hash", guarded<ui_hash>, R"(
+Hash of the pixels of the last frame.
+@return string)"},
     {"input", guarded<ui_input>, R"(
 Adds input, which the next frames apply.
 @param event {kind: string, x?: number, y?: number, code?: integer, down?: boolean, text?: string}  kind: "move", "button", "wheel", "key", "text", "close" or "drop"; code: of a key of GLFW, or 0 left, 1 right, 2 middle)"},
@@ -625,15 +642,19 @@ Collects input of the window.
 @return boolean waiting  is there input that no frame has applied?)"},
     {"close", guarded<ui_close>, "Closes the window."},
     {"keep_open", guarded<ui_keep_open>, "Answers a request to close the window: it stays open."},
-    {"set_title", guarded<ui_set_title>,
-     "Sets the title of the window.\n@param title string  new title"},
+    {"set_title", guarded<ui_set_title>, R"(
+Sets the title of the window.
+@param title string  new title)"},
     {"set_style", guarded<ui_set_style>, R"(
 Sets theme and sizes from the next frame on.
 @param options {dark?: boolean, scale?: number, font_size?: number}  font_size [pixels])"},
-    {"take_dropped", guarded<ui_take_dropped>,
-     "Files that were dropped on the window since the last call.\n@return string[] paths"},
-    {"key_down", guarded<ui_key_down>,
-     "Is a key held?\n@param key integer  code of GLFW\n@return boolean"},
+    {"take_dropped", guarded<ui_take_dropped>, R"(
+Files that were dropped on the window since the last call.
+@return string[] paths)"},
+    {"key_down", guarded<ui_key_down>, R"(
+Is a key held?
+@param key integer  code of GLFW
+@return boolean)"},
     {"window", guarded<ui_window>, R"(
 A window with contents.
 @param name string  title, and after "##" more that makes it unique
@@ -645,34 +666,46 @@ A part of a window that scrolls by itself.
 @param id string  unique name
 @param options {width?: number, height?: number, border?: boolean}  0: all that is left; below 0: less than that
 @param draw fun(ui: ui)  describes the contents)"},
-    {"menu_bar", guarded<ui_menu_bar>,
-     "The menu bar at the top of the screen.\n@param draw fun(ui: ui)  describes the menus"},
-    {"menu", guarded<ui_menu>,
-     "A menu.\n@param label string  title\n@param draw fun(ui: ui)  describes the entries"},
+    {"menu_bar", guarded<ui_menu_bar>, R"(
+The menu bar at the top of the screen.
+@param draw fun(ui: ui)  describes the menus)"},
+    {"menu", guarded<ui_menu>, R"(
+A menu.
+@param label string  title
+@param draw fun(ui: ui)  describes the entries)"},
     {"menu_item", guarded<ui_menu_item>, R"(
 An entry of a menu.
 @param label string  text
 @param options? {shortcut?: string, selected?: boolean, enabled?: boolean}  shortcut: shown beside the text
 @return boolean clicked)"},
-    {"popup", guarded<ui_popup>,
-     "A popup that open_popup opens.\n@param id string  unique name\n@param draw fun(ui: ui)  "
-     "describes the contents"},
-    {"context_menu", guarded<ui_context_menu>,
-     "A popup that a right click on the last widget opens.\n@param id string  unique name\n@param "
-     "draw fun(ui: ui)  describes the contents"},
-    {"open_popup", guarded<ui_open_popup>, "Opens a popup.\n@param id string  its name"},
+    {"popup", guarded<ui_popup>, R"(
+A popup that open_popup opens.
+@param id string  unique name
+@param draw fun(ui: ui)  describes the contents)"},
+    {"context_menu", guarded<ui_context_menu>, R"(
+A popup that a right click on the last widget opens.
+@param id string  unique name
+@param draw fun(ui: ui)  describes the contents)"},
+    {"open_popup", guarded<ui_open_popup>, R"(
+Opens a popup.
+@param id string  its name)"},
     {"close_popup", guarded<ui_close_popup>, "Closes the popup that is being described."},
-    {"disabled", guarded<ui_disabled>,
-     "Widgets that are gray if `disabled` is true.\n@param disabled boolean  are they?\n@param "
-     "draw fun(ui: ui)  describes the widgets"},
-    {"id", guarded<ui_id>,
-     "Widgets whose labels may equal others'.\n@param id string  unique name\n@param draw fun(ui: "
-     "ui)  describes the widgets"},
-    {"group", guarded<ui_group>,
-     "Widgets that are laid out as one.\n@param draw fun(ui: ui)  describes the widgets"},
-    {"tabs", guarded<ui_tabs>,
-     "Tabs.\n@param id string  unique name\n@param names string[]  of the tabs\n@param draw "
-     "fun(ui: ui, name: string)  describes the open one"},
+    {"disabled", guarded<ui_disabled>, R"(
+Widgets that are gray if `disabled` is true.
+@param disabled boolean  are they?
+@param draw fun(ui: ui)  describes the widgets)"},
+    {"id", guarded<ui_id>, R"(
+Widgets whose labels may equal others'.
+@param id string  unique name
+@param draw fun(ui: ui)  describes the widgets)"},
+    {"group", guarded<ui_group>, R"(
+Widgets that are laid out as one.
+@param draw fun(ui: ui)  describes the widgets)"},
+    {"tabs", guarded<ui_tabs>, R"(
+Tabs.
+@param id string  unique name
+@param names string[]  of the tabs
+@param draw fun(ui: ui, name: string)  describes the open one)"},
     {"tree", guarded<ui_tree>, R"(
 A node of a tree.
 @param label string  text
@@ -680,9 +713,12 @@ A node of a tree.
 @param draw? fun(ui: ui)  describes what is below it
 @return boolean clicked
 @return boolean double_clicked)"},
-    {"collapsing", guarded<ui_collapsing>,
-     "A section with a title that folds it.\n@param label string  title\n@param open boolean  at "
-     "first\n@param draw fun(ui: ui)  describes the contents\n@return boolean open"},
+    {"collapsing", guarded<ui_collapsing>, R"(
+A section with a title that folds it.
+@param label string  title
+@param open boolean  at first
+@param draw fun(ui: ui)  describes the contents
+@return boolean open)"},
     {"table", guarded<ui_table>, R"(
 A table, filled cell by cell after next_column.
 @param id string  unique name
@@ -690,21 +726,31 @@ A table, filled cell by cell after next_column.
 @param options {height?: number}  0: as high as its rows [pixels]
 @param draw fun(ui: ui)  describes the cells)"},
     {"next_column", guarded<ui_next_column>, "Goes on to the next cell of a table."},
-    {"text", guarded<ui_text>,
-     "A text.\n@param text string  UTF-8\n@param options? {color?: number[], wrap?: boolean}  "
-     "color: red, green, blue and perhaps opacity, 0 to 1"},
-    {"button", guarded<ui_button>,
-     "A button.\n@param label string  text\n@param options? {width?: number, height?: number, "
-     "selected?: boolean}  sizes [pixels]\n@return boolean clicked"},
-    {"checkbox", guarded<ui_checkbox>,
-     "A check box.\n@param label string  text\n@param value boolean  is it checked?\n@return "
-     "boolean value\n@return boolean changed"},
-    {"radio", guarded<ui_radio>,
-     "A radio button.\n@param label string  text\n@param selected boolean  is it "
-     "selected?\n@return boolean clicked"},
-    {"selectable", guarded<ui_selectable>,
-     "A line that can be selected.\n@param label string  text\n@param selected boolean  is it "
-     "selected?\n@return boolean clicked"},
+    {"text", guarded<ui_text>, R"(
+A text.
+@param text string  UTF-8
+@param options? {color?: number[], wrap?: boolean}  color: red, green, blue and perhaps opacity, 0 to 1)"},
+    {"button", guarded<ui_button>, R"(
+A button.
+@param label string  text
+@param options? {width?: number, height?: number, selected?: boolean}  sizes [pixels]
+@return boolean clicked)"},
+    {"checkbox", guarded<ui_checkbox>, R"(
+A check box.
+@param label string  text
+@param value boolean  is it checked?
+@return boolean value
+@return boolean changed)"},
+    {"radio", guarded<ui_radio>, R"(
+A radio button.
+@param label string  text
+@param selected boolean  is it selected?
+@return boolean clicked)"},
+    {"selectable", guarded<ui_selectable>, R"(
+A line that can be selected.
+@param label string  text
+@param selected boolean  is it selected?
+@return boolean clicked)"},
     {"slider", guarded<ui_slider>, R"(
 A slider.
 @param label string  text
@@ -721,10 +767,14 @@ A number that is dragged, or typed after a double click.
 @return number value
 @return boolean changed
 @return boolean finished)"},
-    {"number", guarded<ui_number>,
-     "A number that is typed.\n@param label string  text\n@param value number  present "
-     "value\n@param options? {step?: number, format?: string}  step: of its buttons, 0: "
-     "none\n@return number value\n@return boolean changed\n@return boolean finished"},
+    {"number", guarded<ui_number>, R"(
+A number that is typed.
+@param label string  text
+@param value number  present value
+@param options? {step?: number, format?: string}  step: of its buttons, 0: none
+@return number value
+@return boolean changed
+@return boolean finished)"},
     {"text_input", guarded<ui_text_input>, R"(
 A text that is typed.
 @param label string  text beside it
@@ -733,50 +783,74 @@ A text that is typed.
 @return string value
 @return boolean changed
 @return boolean finished)"},
-    {"combo", guarded<ui_combo>,
-     "A list of which one is chosen.\n@param label string  text beside it\n@param index integer?  "
-     "chosen one, from 1\n@param choices string[]  texts\n@return integer index\n@return boolean "
-     "changed"},
-    {"progress", guarded<ui_progress>,
-     "A bar of progress.\n@param fraction number [0 to 1]  part that is done\n@param text? string  "
-     "on the bar\n@param width? number [pixels]  all that is left by default"},
-    {"plot", guarded<ui_plot>,
-     "A curve of numbers.\n@param label string  text beside it\n@param values number[]  at equal "
-     "distances\n@param options? {min?: number, max?: number, height?: number}  height [pixels]"},
-    {"image", guarded<ui_image>,
-     "A picture.\n@param key string  identifies it from frame to frame\n@param picture picture  "
-     "its pixels\n@param options? {width?: number, height?: number, changed?: boolean}  sizes "
-     "[pixels]; changed: are its pixels others than in the last frame?\n@return boolean clicked"},
+    {"combo", guarded<ui_combo>, R"(
+A list of which one is chosen.
+@param label string  text beside it
+@param index integer?  chosen one, from 1
+@param choices string[]  texts
+@return integer index
+@return boolean changed)"},
+    {"progress", guarded<ui_progress>, R"(
+A bar of progress.
+@param fraction number [0 to 1]  part that is done
+@param text? string  on the bar
+@param width? number [pixels]  all that is left by default)"},
+    {"plot", guarded<ui_plot>, R"(
+A curve of numbers.
+@param label string  text beside it
+@param values number[]  at equal distances
+@param options? {min?: number, max?: number, height?: number}  height [pixels])"},
+    {"image", guarded<ui_image>, R"(
+A picture.
+@param key string  identifies it from frame to frame
+@param picture picture  its pixels
+@param options? {width?: number, height?: number, changed?: boolean}  sizes [pixels]; changed: are its pixels others than in the last frame?
+@return boolean clicked)"},
     {"separator", guarded<ui_separator>, "A line between widgets."},
     {"spacing", guarded<ui_spacing>, "Space between widgets."},
-    {"same_line", guarded<ui_same_line>,
-     "The next widget stays on the line of the last one.\n@param spacing? number [pixels]  between "
-     "them"},
-    {"width", guarded<ui_width>,
-     "Width of the next widget.\n@param width number [pixels]  below 0: what is left, less that"},
-    {"indent", guarded<ui_indent>,
-     "Moves the following widgets to the right.\n@param width number [pixels]  below 0: back"},
-    {"tooltip", guarded<ui_tooltip>,
-     "A text that appears while the mouse is over the last widget.\n@param text string  UTF-8"},
+    {"same_line", guarded<ui_same_line>, R"(
+The next widget stays on the line of the last one.
+@param spacing? number [pixels]  between them)"},
+    {"width", guarded<ui_width>, R"(
+Width of the next widget.
+@param width number [pixels]  below 0: what is left, less that)"},
+    {"indent", guarded<ui_indent>, R"(
+Moves the following widgets to the right.
+@param width number [pixels]  below 0: back)"},
+    {"tooltip", guarded<ui_tooltip>, R"(
+A text that appears while the mouse is over the last widget.
+@param text string  UTF-8)"},
     {"focus", guarded<ui_focus>, "Gives the keyboard to the next widget."},
     {"scroll_to_end", guarded<ui_scroll_to_end>, "Scrolls to the last widget."},
-    {"hovered", guarded<ui_hovered>, "Is the mouse over the last widget?\n@return boolean"},
-    {"active", guarded<ui_active>, "Is the last widget held or edited?\n@return boolean"},
-    {"available", guarded<ui_available>,
-     "Space that is left in the container.\n@return number width\n@return number height"},
-    {"rect", guarded<ui_rect>,
-     "Rectangle of the last widget.\n@return table  {x, y, width, height} [pixels]"},
-    {"line", guarded<ui_line>,
-     "A line over the picture, under the panels.\n@param points number[]  x and y of each point "
-     "[pixels]\n@param options? {color?: number[], width?: number, closed?: boolean, filled?: "
-     "boolean}  filled: a convex polygon"},
-    {"circle", guarded<ui_circle>,
-     "A circle over the picture.\n@param x number [pixels]\n@param y number [pixels]\n@param "
-     "radius number [pixels]\n@param options? {color?: number[], width?: number, filled?: boolean} "
-     " look"},
-    {"label", guarded<ui_label>,
-     "A text over the picture.\n@param x number [pixels]\n@param y number [pixels]\n@param text "
-     "string  UTF-8\n@param options? {color?: number[]}  look"},
+    {"hovered", guarded<ui_hovered>, R"(
+Is the mouse over the last widget?
+@return boolean)"},
+    {"active", guarded<ui_active>, R"(
+Is the last widget held or edited?
+@return boolean)"},
+    {"available", guarded<ui_available>, R"(
+Space that is left in the container.
+@return number width
+@return number height)"},
+    {"rect", guarded<ui_rect>, R"(
+Rectangle of the last widget.
+@return table  {x, y, width, height} [pixels])"},
+    {"line", guarded<ui_line>, R"(
+A line over the picture, under the panels.
+@param points number[]  x and y of each point [pixels]
+@param options? {color?: number[], width?: number, closed?: boolean, filled?: boolean}  filled: a convex polygon)"},
+    {"circle", guarded<ui_circle>, R"(
+A circle over the picture.
+@param x number [pixels]  of its center
+@param y number [pixels]  of its center
+@param radius number [pixels]  its radius
+@param options? {color?: number[], width?: number, filled?: boolean}  look)"},
+    {"label", guarded<ui_label>, R"(
+A text over the picture.
+@param x number [pixels]  of its left edge
+@param y number [pixels]  of its upper edge
+@param text string  UTF-8
+@param options? {color?: number[]}  look)"},
 };
 
 static const Entry ui_operators[] = {

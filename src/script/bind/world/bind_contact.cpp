@@ -1,8 +1,11 @@
-#include "clench/script/bind/bind.h"
-
 #include "clench/contact/cone.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 

@@ -5,10 +5,16 @@
 #include "clench/model/dof.h"
 #include "clench/model/effort_range.h"
 #include "clench/motion/drive.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 

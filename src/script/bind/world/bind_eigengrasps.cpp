@@ -1,11 +1,15 @@
-#include "clench/script/bind/bind.h"
-
 #include "clench/io/graspit/eigengrasps.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/output.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 

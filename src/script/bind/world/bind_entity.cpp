@@ -1,7 +1,14 @@
 #include <array>
 
+#include "clench/io/mesh/image_file.h"
 #include "clench/model/fingerprint.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
@@ -79,10 +86,55 @@ static int get_triangle_colors(lua_State* L) {
   return 1;
 }
 
+static const char* word_of_wrap(Wrap wrap) {
+  return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::mirror ? "mirror" : "clamp";
+}
+
+static void push_texture(lua_State* L, const Texture& texture) {
+  constexpr int largest_side = 1024, quality = 90;
+  lua_newtable(L);
+  const auto image = image_within(texture.image, largest_side);
+  set_fields(L, {{"jpeg", encode_as_jpeg(*image, quality)},
+                 {"width", image->width},
+                 {"height", image->height},
+                 {"wrap_u", word_of_wrap(texture.wrap_u)},
+                 {"wrap_v", word_of_wrap(texture.wrap_v)}});
+  lua_createtable(L, 3, 0);
+  for (int k = 0; k < 3; ++k) {
+    lua_pushnumber(L, static_cast<double>(texture.tint[k]));
+    lua_rawseti(L, -2, k + 1);
+  }
+  lua_setfield(L, -2, "tint");
+}
+
+// images as bytes of files, numbers and places of triangles packed
+static int get_textures(lua_State* L) {
+  const auto body = self_body(L);
+  const SkinPtr& skin = body->appearance.skin;
+  if (!skin) return push_nil(L);
+  std::string numbers, places;
+  for (const TexturedTriangle& triangle : skin->triangles) {
+    const auto number = static_cast<uint16_t>(triangle.texture + 1);
+    numbers.push_back(static_cast<char>(number & 255));
+    numbers.push_back(static_cast<char>(number >> 8));
+    places.append(reinterpret_cast<const char*>(triangle.uv.data()), 6 * sizeof(float));
+  }
+  lua_newtable(L);
+  set_fields(L, {{"numbers", numbers}, {"places", places}});
+  lua_createtable(L, static_cast<int>(skin->textures.size()), 0);
+  for (size_t i = 0; i < skin->textures.size(); ++i) {
+    push_texture(L, skin->textures[i]);
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
+  lua_setfield(L, -2, "images");
+  return 1;
+}
+
 static void set_color(const Entity& body, const Eigen::Vector3d& color) {
   Appearance appearance = body->appearance;
   appearance.color = color.cast<float>();
   appearance.triangle_colors.clear();
+  appearance.skin.reset();
   appearance.given = true;
   body.world->set_appearance(body.id, appearance);
 }
@@ -144,7 +196,7 @@ sum of the others: no body has such an inertia.
        x.world->set_inertia(x.id, inertia);
      }>},
     {"fingerprint",
-     getter<[](const Entity& x) { return fmt::format("{:016x}", fingerprint(*x.world, x.id)); }>,
+     getter<[](const Entity& x) { return fingerprint_text(fingerprint(*x.world, x.id)); }>,
      R"(
 Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses.
 @type string  16 hexadecimal digits
@@ -167,6 +219,13 @@ Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where
 where the body has one color.
 @type number[][]?
 > flask.triangle_colors  --> nil)"},
+    {"textures", guarded<get_textures>, R"(
+Images on the triangles of `visual_mesh`, as its file places them; nil where it has none. `images` is a list of `{jpeg =, width =, height =,
+wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image goes on beyond its edges ("repeat", "mirror" or
+"clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: of each triangle the number of its image,
+`"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
+@type table?
+> flask.textures  --> nil)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
 How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m],
 `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,

@@ -1,5 +1,10 @@
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
+#include "clench/script/lua/object.h"
 
 #include <cmath>
 #include <filesystem>

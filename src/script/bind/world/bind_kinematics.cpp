@@ -1,8 +1,14 @@
 #include "clench/model/jacobian.h"
 #include "clench/motion/inverse_kinematics.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/plain/plain.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/table.h"
 
 namespace clench {
 

@@ -1,5 +1,9 @@
 #include "clench/model/fingerprint.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/plain/plain.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
+#include "clench/script/lua/object.h"
 
 #include <fmt/format.h>
 
@@ -120,8 +124,7 @@ Area of all its triangles.
 Counts of its faults.
 @type string
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.faults  --> no faults)"},
-    {"fingerprint",
-     getter<[](const ShapePtr& x) { return fmt::format("{:016x}", fingerprint(*x)); }>, R"(
+    {"fingerprint", getter<[](const ShapePtr& x) { return fingerprint_text(fingerprint(*x)); }>, R"(
 Equal for surfaces of the same triangles, whatever their order and the numbering of vertices.
 @type string  16 hexadecimal digits
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.fingerprint == world:add_object(clench.shapes.box {1, 2, 4}).mesh.fingerprint  --> true)"},

@@ -3,11 +3,16 @@
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/model/fingerprint.h"
-#include "clench/script/bind/bind.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/log.h"
 #include "clench/script/bind/named_list.h"
 #include "clench/script/bind/read_spec.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 
@@ -164,14 +169,22 @@ static std::string robot_text(const RobotHandle& robot) {
 }
 
 static const Entry robot_fields[] = {
-    {"fingerprint", getter<[](const RobotHandle& x) {
-       return fmt::format("{:016x}", fingerprint(*x.world, x.id));
-     }>,
+    {"fingerprint",
+     getter<[](const RobotHandle& x) { return fingerprint_text(fingerprint(*x.world, x.id)); }>,
      R"(
 Identity by content: equal for robots of the same links, joints, limits and motors, whatever their files, names, poses and postures.
 @type string  16 hexadecimal digits
 > copy = world:clone()
 > hand.fingerprint == hand:in_world(copy).fingerprint  --> true)"},
+    {"mechanism_fingerprint", getter<[](const RobotHandle& x) {
+       ShapeFingerprints shapes;
+       return fingerprint_text(mechanism_fingerprint(*x.world, x.id, shapes));
+     }>,
+     R"(
+Identity of what a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
+differences of frames below 1e-9 m. Grasps keep it, and `grasp:apply` compares it.
+@type string  16 hexadecimal digits
+> hand.mechanism_fingerprint == grasp.hand_fingerprint  --> true)"},
     {"name", getter<[](const RobotHandle& x) { return x->name; }>, R"(
 Unique in its world.
 @type string
@@ -260,7 +273,7 @@ Moves the whole robot until it first touches something, as a body's move_to.
     {"approach_object", guarded<approach_object>, R"(
 Moves the hand along its approach direction until it touches something.
 @param options? table  how far
-@option reach? number [m, > 0] = 1  longest travel
+@option reach? number [m, >= 0] = 1  longest travel
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"place_approach", guarded<place_approach>, R"(

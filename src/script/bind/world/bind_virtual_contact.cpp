@@ -1,12 +1,17 @@
-#include "clench/script/bind/bind.h"
-
 #include "clench/contact/cone.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/motion/virtual_contacts.h"
+#include "clench/script/bind/handles.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/values.h"
 
 namespace clench {
 

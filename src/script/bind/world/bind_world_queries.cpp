@@ -3,10 +3,13 @@
 
 #include "clench/model/penetration.h"
 #include "clench/model/raycast.h"
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/lua/check.h"
+#include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
 

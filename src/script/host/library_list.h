@@ -9,4 +9,6 @@ namespace clench {
 std::span<const Class* const> all_classes();
 std::span<const Library* const> all_libraries();
 
+extern const Library entries_library;
+
 }  // namespace clench

@@ -1,6 +1,4 @@
-#include "clench/script/bind/bind.h"
-
-#include "clench/script/bind/library.h"
+#include "clench/script/host/library_list.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/packed.h"

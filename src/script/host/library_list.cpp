@@ -1,12 +1,18 @@
-#include "clench/script/bind/library.h"
+#include "clench/script/host/library_list.h"
 
-#include "clench/script/bind/bind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
+#include "clench/script/bind/grasp/grasps.h"
 #include "clench/script/bind/handles.h"
+#include "clench/script/bind/picture/pictures.h"
+#include "clench/script/bind/plain/plain.h"
 #include "clench/script/bind/planning/planning.h"
 #ifdef CLENCH_VIEWER
 #include "clench/script/bind/view/ui.h"
 #endif
+#include "clench/script/bind/world/contacts.h"
+#include "clench/script/bind/world/meshes.h"
+#include "clench/script/bind/world/robots.h"
+#include "clench/script/host/job_classes.h"
 
 namespace clench {
 

@@ -1,0 +1,18 @@
+// A grasp put into a world, and its identity there.
+#pragma once
+#include <lua.hpp>
+
+#include "clench/grasp/wrench/grasp.h"
+
+namespace clench {
+
+/// Notes fingerprints and the version with a grasp that was measured in that world.
+void note_identity(lua_State* L, const World& world, Grasp& grasp);
+
+/// (grasp, world, options): as grasp:apply
+int apply_by_script(lua_State* L);
+
+/// (grasp, hand, options): as grasp:dofs_for
+int grasp_dofs_for(lua_State* L);
+
+}  // namespace clench

@@ -1,0 +1,59 @@
+// Pictures, plots and cameras.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "clench/render/figure/drawing.h"
+#include "clench/render/figure/lettering.h"
+#include "clench/render/figure/picture.h"
+#include "clench/scene/scene.h"
+#include "clench/script/lua/entry.h"
+#include "clench/script/lua/object.h"
+#include "clench/script/lua/table.h"
+
+namespace clench {
+
+extern const Library film_library, chart_library, plot_library, render_library;
+
+// --- picture: what clench.render gives. ---
+
+/// Reads size, samples and the camera, which must be all that is left of the options, and draws.
+Picture draw_scene(lua_State* L, Table& options, Scene scene);
+
+/// Logs why pictures have no letters, if they have none: once a Lua state.
+void warn_without_letters(lua_State* L, const Font& font);
+
+extern const Class picture_class;
+
+template <>
+inline constexpr const Class* script_class<Picture> = &picture_class;
+
+inline size_t owned_bytes(const Picture& picture) {
+  return picture.pixels.capacity() + picture.alpha.capacity();
+}
+
+// --- plot: numbers over numbers as a figure. ---
+
+struct PlotHandle {
+  std::shared_ptr<const Drawing> drawing;
+};
+
+extern const Class plot_class;
+
+template <>
+inline constexpr const Class* script_class<PlotHandle> = &plot_class;
+
+inline size_t owned_bytes(const PlotHandle& handle) {
+  return handle.drawing->items.size() * (sizeof(Drawing::Item) + 4 * sizeof(Eigen::Vector2f));
+}
+
+// --- cameras of worlds. ---
+
+/// The pose of a camera at eye that sees target: along its -z, with y up.
+/// throws Error begun by the subject when eye and target are one, or up is along the view
+Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                 const Eigen::Vector3d& up, const std::string& subject);
+int get_camera(lua_State* L);
+int set_camera(lua_State* L);
+
+}  // namespace clench
