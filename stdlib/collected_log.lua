@@ -1,5 +1,4 @@
---- A sink for the log that collects its messages as values: {severity =, text =, file =, line =, about =, count =}. Equal messages are one, with
---- their count.
+--- A log sink that collects messages as values: {severity =, text =, file =, line =, about =, count =}. Equal messages are merged and counted.
 ---@return fun(level: string, text: string, about: string?) sink, table[] list
 return function()
   local list, seen = {}, {}

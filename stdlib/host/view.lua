@@ -1,4 +1,4 @@
---- `clench view`: a file or an empty world in a window, or one frame of it as a picture.
+--- `clench view`: shows a file or an empty world in a window, or draws one frame of it as a picture.
 local error_text = require "clench.error_text"
 local fail = require "clench.host.usage"
 local in_utf8 = require "clench.in_utf8"

@@ -82,7 +82,7 @@ TEST_CASE("wrong options of render are reported in one sentence") {
   said(world + "--quality fine", "--quality: fine not in {");
   said(world + "--camera 1,2", "--camera: expected X,Y,Z in meters, with a point to look at");
   said(world + "--pick 1",
-       "--pick is about a list of grasps, and worlds/dlr_flask.wld is a file of kind 'world'");
+       "--pick applies to lists of grasps, but worlds/dlr_flask.wld is a file of kind 'world'");
   said("no.wld -o " + out, "no such file: no.wld", 1);
   said("models/hands/dlr/dlr.egr -o " + out,
        "expected a world, a robot, a body or a list of grasps");

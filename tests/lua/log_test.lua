@@ -67,7 +67,7 @@ test("what cannot be logged is said in a sentence", function(t)
     t.fails(function() world:run(0.02) end, text, "in a quantity of world:log")
     log:remove()
   end
-  fails(function() return "x" end, "world:log: own: expected a function that gives a number, true or false, a vector or a list of numbers, got 'x'")
+  fails(function() return "x" end, "world:log: own: expected a function that returns a number, true or false, a vector or a list of numbers, got 'x'")
   fails(function() return {1, "x"} end, "world:log: own[2]: expected a number, got 'x'")
   local n = 0
   fails(function() n = n + 1 return n == 1 and {1, 2} or {1} end, "world:log: own: expected 2 numbers as before, got 1")
@@ -112,7 +112,7 @@ test("a run is repeated to the bit, from a snapshot and from the stack", functio
   t.equal(box.pose.position.z, 3.0)
   world:pop()
   t.equal(world:hash(), here)
-  t.fails(function() world:pop() end, "world:pop: the stack is empty: nothing was pushed, or all was popped")
+  t.fails(function() world:pop() end, "world:pop: the stack is empty")
   t.fails(function() world:clone():pop() end, "the stack is empty")
 end)
 
@@ -159,11 +159,11 @@ test("a recording has the states of its times, and leaves the world alone", func
   t.equal(#film.times, 7)
   t.fails(function() film:save "a.webm" end, "recording:save: expected a name that ends in .html, .gif, .mp4 or .png, got 'a.webm'")
   t.fails(function() film:save("build/a.gif", {speed = 0}) end, "recording:save: speed must be")
-  t.fails(function() film:save("build/a.gif", {ffmpeg = "x"}) end, "ffmpeg writes .mp4 alone")
+  t.fails(function() film:save("build/a.gif", {ffmpeg = "x"}) end, "ffmpeg applies only to .mp4")
   t.fails(function() film:save("build/a.mp4", {ffmpeg = "no-such-program"}) end,
-          "recording:save: .mp4 needs the program 'no-such-program', which is not installed; .gif and .html need nothing")
+          "recording:save: .mp4 needs the program 'no-such-program', which is not installed; .gif and .html need no program")
   t.fails(function() film:save("build/a.html", {three = {}}) end, "recording:save: a page with a 3-D view needs three.js")
-  t.fails(function() world:record {}:save "a.gif" end, "it holds nothing yet")
+  t.fails(function() world:record {}:save "a.gif" end, "it is empty")
 end)
 
 test("films are pictures, a GIF, and whatever ffmpeg makes of them", function(t)

@@ -105,7 +105,7 @@ test("a mesh that makes the page large is told", function(t)
   end
   local sheet = world:add_object({vertices = points, triangles = triangles}, {name = "sheet", mass = 1})
   local html, notes = page(hand, sheet, {}, {title = "", subtitle = "", report = ""})
-  t.equal(notes[1], "the mesh of sheet has 217800 triangles: the page is large and may turn slowly")
+  t.equal(notes[1], "the mesh of sheet has 217800 triangles: the page is large, and its view may be slow")
   t.ok(html:find('"wide":true', 1, true))
 end)
 

@@ -122,7 +122,7 @@ test("what is no list of numbers is refused", function(t)
   t.fails(function() stats.summary "x" end, "stats.summary: expected a list of numbers, got 'x'")
   t.fails(function() stats.histogram({1}, {bins = 0}) end, "bins must be a whole number from 1 to 100000, got 0")
   t.fails(function() stats.histogram({1}, {low = 2, high = 1}) end, "expected low below high, got 2 and 1")
-  t.fails(function() stats.interval(3, 2) end, "no more successes than trials, got 3 of 2")
+  t.fails(function() stats.interval(3, 2) end, "at most as many successes as trials, got 3 of 2")
 end)
 
 test("figures of numbers are drawn and saved, and sheets hold them", function(t)
