@@ -15,7 +15,7 @@ local own = {
     ui:separator()
     if ui:menu_item("Save Image…") then view.ask = {title = "Save Image", text = "picture.png", done = function(path) view:screenshot {path = path, panels = false} end} end
     if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
-    if ui:menu_item("Exit") then view.wants_exit = true end
+    if ui:menu_item("Exit", {shortcut = "Ctrl+Q"}) then view.wants_exit = true end
   end,
   Element = function(view, ui)
     for i, tool in ipairs(view.tools) do
