@@ -10,6 +10,7 @@ struct RunOptions {
   std::string file;                    ///< then this, "-" for stdin; empty: none
   std::vector<std::string> arguments;  ///< the file's
   bool console = false;                ///< and then a console
+  bool view = false;                   ///< with a window beside it
   std::string confine;                 ///< the folder below which files are read; empty: anywhere
   bool quiet = false;
 };

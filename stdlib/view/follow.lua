@@ -17,8 +17,7 @@ local function draw(view, now)
   end
   view.failures = (view.failures or 0) + 1
   if is_stopped(problem) or view.failures >= max_failures then error(problem, 0) end
-  view.status = tostring(problem)
-  view:print(view.status, "error")
+  view:fail(problem)
 end
 
 -- the file and whether it is saved, in the title of the window
@@ -46,6 +45,7 @@ local function step(view)
   end
   if view.leaves then return view:close() end
   show_title(view)
+  for _, kept in ipairs(view.kept) do kept.tick(now) end
 end
 
 --- Draws a view's frames while clench.loop runs, until its window is closed.

@@ -1,4 +1,5 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
+local autosave = require "clench.view.autosave"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
@@ -148,6 +149,7 @@ local function draw_question(view, ui)
     if not open then view.ask = nil end
   end
   leave.draw(view, ui)
+  autosave.draw(view, ui)
 end
 
 local function draw_help(view, ui)

@@ -1,8 +1,11 @@
 --- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
+local autosave = require "clench.view.autosave"
 local camera = require "clench.view.camera"
 local class = require "clench.class"
 local described = require "clench.described"
 local dialog = require "clench.view.dialog"
+local drop = require "clench.view.drop"
+local error_text = require "clench.error_text"
 local follow = require "clench.view.follow"
 local input = require "clench.view.input"
 local keys = require "clench.view.keys"
@@ -10,8 +13,10 @@ local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
 local menus = require "clench.view.menus"
 local palette = require "clench.view.palette"
+local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
 local tools = require "clench.view.tools"
+local user_files = require "clench.view.user_files"
 
 local Viewer = class "view"
 
@@ -48,7 +53,12 @@ function Viewer:run(name, args)
     self:report(self.session.commands[name], result)
     return result
   end
-  self.status = tostring(result)
+  self:fail(result)
+end
+
+--- Shows an error in the console and in the status bar.
+function Viewer:fail(problem)
+  self.status = error_text(problem)
   self:print(self.status, "error")
 end
 
@@ -157,6 +167,7 @@ function Viewer:frame()
     handle_keys(self)
     tools.update(self)
   end)
+  drop(self)
 end
 
 --- Saves a picture of the view.
@@ -221,12 +232,20 @@ function Viewer:click(x, y) input.click(self, x, y) end
 function Viewer:click_label(label) input.click_label(self, label) end
 function Viewer:drag(x, y, to_x, to_y, options) input.drag(self, x, y, to_x, to_y, options) end
 
+--- Keeps unsaved work at once, as it is when a program ends early.
+function Viewer:flush()
+  for _, kept in ipairs(self.kept) do
+    if kept.flush then kept.flush() end
+  end
+end
+
 --- Closes the view.
 function Viewer:close()
   if self.is_closed then return end
   self.is_closed = true
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
   if self.timer then self.timer:remove() end
+  for _, kept in ipairs(self.kept) do kept.finish() end
   self.ui:close()
 end
 
@@ -239,16 +258,21 @@ end
 return function(options)
   local session = options.session
   local view = setmetatable({
-    session = session, title = options.title, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
-    panels_visible = true, current_tool = "Camera", tools = tools.names, dark = options.dark or false, status = "Ready", subscriptions = {},
+    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
+    panels_visible = true, current_tool = "Camera", tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
-  view.ui = clench.ui {size = options.size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
+  local size = options.size or options.window and preferences.size()
+  view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
   view.panels = layout.panels()
   view:home()
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.level) end)
-  if options.window then follow(view) end
+  if options.window then
+    local settings, state = user_files.settings(), user_files.state()
+    view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}
+    follow(view)
+  end
   return view
 end
