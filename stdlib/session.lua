@@ -222,8 +222,17 @@ function Session:open(path, options) return self:run("world.open", {path = path,
 ---@param path? string  the file; by default the one that was opened or saved last
 function Session:save(path) return self:run("world.save", {path = path}) end
 
---- Has the session changed since it was opened or saved?
-function Session:is_modified() return self.gesture ~= nil or self.saved_at ~= self.history.done[#self.history.done] end
+--- Has the session changed since it was opened or saved? A selection is no change.
+---@return boolean
+function Session:is_modified()
+  if self.gesture then return true end
+  local done = self.history.done
+  for i = #done, 1, -1 do
+    if done[i] == self.saved_at then return false end
+    if done[i].lines ~= "" then return true end
+  end
+  return self.saved_at ~= nil
+end
 
 --- The commands in the history that were not undone, as a script of plain calls that creates the same world.
 ---@return string

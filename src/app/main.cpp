@@ -107,8 +107,10 @@ static void add_script_verbs(CLI::App& app, Said& said) {
   run->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10" +
               trust);
   auto* repl = app.add_subcommand("repl", "open a console");
+  repl->add_flag("--view", said.run.view,
+                 "open a window beside the console; session and view are defined");
   repl->footer(
-      "Examples:\n  clench repl\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
+      "Examples:\n  clench repl\n  clench repl --view\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
       "prints, help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves." +
       trust);
   auto* test = app.add_subcommand("test", "run every *_test.lua of a folder");

@@ -81,6 +81,7 @@ Gui::Gui(std::unique_ptr<Screen> screen, const GuiStyle& style)
     io.LogFilename = nullptr;
     io.MousePos = ImVec2(-1, -1);
     io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.ConfigInputTextCursorBlink = false;  // frames are drawn when something has changed
     name_keys(io);
     if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
       fail("the view needs OpenGL 3.3; install the packages libgl1 and libgl1-mesa-dri");

@@ -14,6 +14,8 @@ class Screen {
   static constexpr int min_size = 16, max_size = 8192;  // [pixels]
 
   virtual ~Screen() = default;
+  /// throws  Error if it is out of range
+  static void check_size(int width, int height);
   /// Makes its OpenGL context current on this thread until the returned object is destroyed.
   virtual std::shared_ptr<void> enter() = 0;
   /// Framebuffer to draw into, while entered.
@@ -34,7 +36,7 @@ class Screen {
 
 /// throws  Error if the size is out of range, or there is no EGL or no OpenGL 3.3
 std::unique_ptr<Screen> make_offscreen(int width, int height);
-/// throws  Error if there is no display or no OpenGL 3.3
+/// throws  Error if the size is out of range, or there is no display or no OpenGL 3.3
 std::unique_ptr<Screen> make_window(int width, int height, const std::string& title);
 
 }  // namespace clench

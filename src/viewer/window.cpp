@@ -99,6 +99,7 @@ class Window final : public Screen {
 }  // namespace
 
 std::unique_ptr<Screen> make_window(int width, int height, const std::string& title) {
+  Screen::check_size(width, height);
   return std::make_unique<Window>(width, height, title);
 }
 

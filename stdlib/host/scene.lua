@@ -87,7 +87,7 @@ function scene.read_words(several, ...)
     local name, value = words[i], words[i + 1]
     if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
   end
-  if #given["obstacle-pose"] > #given.obstacle then
+  if given["obstacle-pose"] and #given["obstacle-pose"] > #given.obstacle then
     fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
   end
   return given

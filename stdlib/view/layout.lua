@@ -1,6 +1,8 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
+local autosave = require "clench.view.autosave"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
 local layout = {}
 
@@ -146,19 +148,8 @@ local function draw_question(view, ui)
     end)
     if not open then view.ask = nil end
   end
-  if view.asks_to_leave then
-    ui:window("Unsaved changes", {width = 0, modal = true}, function(ui)
-      ui:text "The world has changed since it was saved."
-      if ui:button "Save" then
-        view.asks_to_leave = nil
-        dialog.open(view, view.session.commands["world.save"])
-      end
-      ui:same_line()
-      if ui:button "Don't Save" then view.asks_to_leave, view.leaves = nil, true end
-      ui:same_line()
-      if ui:button "Stay" then view.asks_to_leave = nil end
-    end)
-  end
+  leave.draw(view, ui)
+  autosave.draw(view, ui)
 end
 
 local function draw_help(view, ui)
@@ -171,7 +162,7 @@ local function draw_help(view, ui)
   end) then view.shows_manual = nil end
   if view.shows_keys and not ui:window("Keys", {x = 300, y = 100, width = 420, height = 460, movable = true, resizable = true, can_close = true}, function(ui)
     ui:table("keys", {"Key", "Command"}, {}, function(ui)
-      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4", "Tools"}} do
+      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"Ctrl+Q", "Exit"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4", "Tools"}} do
         ui:next_column() ui:text(own[1]) ui:next_column() ui:text(own[2])
       end
       for _, name in ipairs(view.session.order) do

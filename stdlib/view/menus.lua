@@ -1,6 +1,7 @@
 --- The menu bar: menus of the session's commands, in the order of the original's, and those of the view itself.
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local preferences = require "clench.view.preferences"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
@@ -12,10 +13,17 @@ end
 
 local own = {
   File = function(view, ui)
+    ui:disabled(#view.recent == 0, function(ui)
+      ui:menu("Open Recent", function(ui)
+        for i, path in ipairs(view.recent) do
+          if ui:menu_item(("%s##recent%d"):format(path, i)) then preferences.open_recent(view, path) end
+        end
+      end)
+    end)
     ui:separator()
     if ui:menu_item("Save Image…") then view.ask = {title = "Save Image", text = "picture.png", done = function(path) view:screenshot {path = path, panels = false} end} end
     if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
-    if ui:menu_item("Exit") then view.wants_exit = true end
+    if ui:menu_item("Exit", {shortcut = "Ctrl+Q"}) then view.wants_exit = true end
   end,
   Element = function(view, ui)
     for i, tool in ipairs(view.tools) do
@@ -35,6 +43,7 @@ local function view_menu(view, ui)
   end
   if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
   ui:separator()
+  if ui:menu_item("Millimeters", {selected = view.units.length == "mm"}) then view.units.length = view.units.length == "mm" and "m" or "mm" end
   if ui:menu_item("Dark Theme", {selected = view.dark}) then view:set_theme(not view.dark) end
 end
 
