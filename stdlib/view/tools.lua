@@ -1,12 +1,14 @@
 --- Tools of the picture: what a click and a drag on the picture do. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag what
 --- is selected until it touches something. The middle and right buttons and the wheel always move the camera.
 local camera = require "clench.view.camera"
+local drags = require "clench.view.drags"
+local handles = require "clench.view.handles"
+local manipulator = require "clench.view.manipulator"
 local tools = {}
 
 tools.names = {"Camera", "Select", "Translate", "Rotate"}
 
 local orbit_speed = math.pi / 400  -- [rad per pixel]
-local rotate_speed = math.pi / 300  -- [rad per pixel]
 
 --- What lies under a pixel: body, point and normal; nil where nothing is.
 function tools.pick(view, x, y)
@@ -32,38 +34,27 @@ local function select_at(view, x, y, adds)
   view:run("world.select", {addresses = addresses})
 end
 
--- the pose of a drag's target after the mouse has moved
-local function dragged_pose(view, drag, x, y)
-  local size = view.ui.size
-  local right, up, back = camera.axes(view.camera)
-  if view.current_tool == "Rotate" then
-    local turn = clench.pose {axis = up, angle = (x - drag.x) * rotate_speed} * clench.pose {axis = right, angle = (y - drag.y) * rotate_speed}
-    local center = drag.center
-    return clench.pose {xyz = center} * turn * clench.pose {xyz = center * -1} * drag.pose
-  end
-  local origin, direction = camera.ray(view.camera, size, x, y)
-  local along = direction:dot(back)
-  if math.abs(along) < 1e-9 then return drag.pose end
-  local point = origin + direction * ((drag.point - origin):dot(back) / along)
-  return clench.pose {xyz = point - drag.point} * drag.pose
-end
+--- Handles over the picture for the current tool and selection: name, pixel x and y.
+---@return table[] handles
+function tools.handles(view) return view.session.world and manipulator.handles(view) or {} end
+
+local function shift_down(ui) return ui:key_down(340) or ui:key_down(344) end
+local function ctrl_down(ui) return ui:key_down(341) or ui:key_down(345) end
 
 local function begin_drag(view, x, y)
+  local handle = handles.at(tools.handles(view), x, y)
+  if handle then return drags.begin(view, handle.target, handle, nil, x, y) end
   local hit = tools.pick(view, x, y)
   if not hit then return nil end
   local target = movable(hit.body)
-  if clench.type(target) == "robot" and target.parent then return nil end
   local selected = view.session.selection[1]
   if selected ~= target and selected ~= hit.body then view:run("world.select", {addresses = {view:address(target)}}) end
-  local pose = target.pose
-  local body = clench.type(target) == "robot" and target.base or target
-  view.session:begin_gesture(view.current_tool .. " " .. target.name)
-  return {target = target, point = hit.point, pose = pose, center = body.pose * body.com, x = x, y = y}
+  return drags.begin(view, target, nil, hit.point, x, y)
 end
 
 local function use_camera(view, mouse)
   local size = view.ui.size
-  if mouse.middle.down or mouse.left.down and view.ui:key_down(341) then
+  if mouse.middle.down or mouse.left.down and ctrl_down(view.ui) then
     view.camera = camera.panned(view.camera, size, mouse.dx, mouse.dy)
   else
     view.camera = camera.orbited(view.camera, mouse.dx * orbit_speed, mouse.dy * orbit_speed)
@@ -96,13 +87,12 @@ function tools.update(view)
   if press.kind == "camera" and moved then
     use_camera(view, mouse)
   elseif press.kind == "drag" and moved then
-    press.drag.target:move_to(dragged_pose(view, press.drag, mouse.x, mouse.y))
-    view.session:emit("changed", {gesture = true})
+    drags.move(view, press.drag, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
   end
   if mouse.left.released or mouse.right.released or mouse.middle.released then
     view.press = nil
     if press.kind == "drag" then view.session:end_gesture() end
-    if press.kind == "select" then select_at(view, mouse.x, mouse.y, ui:key_down(340)) end
+    if press.kind == "select" then select_at(view, mouse.x, mouse.y, shift_down(ui)) end
   end
 end
 
@@ -114,9 +104,22 @@ local function draw_highlight(view, ui)
   if x then ui:circle(x, y, 12, {color = {0.84, 0.37, 0, 1}, width = 3}) end
 end
 
---- Outlines what is selected, by the boxes of its bodies, and marks the highlighted contact.
+local function draw_handles(view, ui)
+  local list = tools.handles(view)
+  if #list == 0 then return end
+  local mouse = ui.mouse
+  local hovered = view.press and view.press.drag and view.press.drag.handle
+  if not view.press and not ui.wants_mouse then
+    local handle = handles.at(list, mouse.x, mouse.y)
+    hovered = handle and handle.name
+  end
+  handles.draw(ui, list, hovered)
+end
+
+--- Outlines what is selected, by the boxes of its bodies, and draws the manipulator and the highlighted contact.
 function tools.draw(view, ui)
   draw_highlight(view, ui)
+  draw_handles(view, ui)
   local size = ui.size
   for _, thing in ipairs(view.session.selection) do
     for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do

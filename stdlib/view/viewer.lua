@@ -176,6 +176,10 @@ function Viewer:project(point) return camera.project(self.camera, self.ui.size, 
 --- What lies under a pixel: body, point, normal, distance; nil where nothing is.
 function Viewer:pick(x, y) return tools.pick(self, x, y) end
 
+--- Handles of the current tool on the selection: `name`, and the pixel `x`, `y` at which a drag takes hold of it.
+---@return table[] handles
+function Viewer:handles() return tools.handles(self) end
+
 --- Turns the camera about its target.
 ---@param yaw number  [degrees]
 ---@param pitch number  [degrees]
