@@ -3,6 +3,7 @@
 local camera = require "clench.view.camera"
 local drags = require "clench.view.drags"
 local handles = require "clench.view.handles"
+local joint_handles = require "clench.view.joint_handles"
 local manipulator = require "clench.view.manipulator"
 local tools = {}
 
@@ -36,20 +37,25 @@ end
 
 --- Handles over the picture for the current tool and selection: name, pixel x and y.
 ---@return table[] handles
-function tools.handles(view) return view.session.world and manipulator.handles(view) or {} end
+function tools.handles(view)
+  if not view.session.world then return {} end
+  local list = joint_handles.handles(view)
+  return #list > 0 and list or manipulator.handles(view)
+end
 
 local function shift_down(ui) return ui:key_down(340) or ui:key_down(344) end
 local function ctrl_down(ui) return ui:key_down(341) or ui:key_down(345) end
 
 local function begin_drag(view, x, y)
   local handle = handles.at(tools.handles(view), x, y)
+  if handle and handle.kind == "joint" then return joint_handles.begin(view, handle, x, y) end
   if handle then return drags.begin(view, handle.target, handle, nil, x, y) end
   local hit = tools.pick(view, x, y)
   if not hit then return nil end
   local target = movable(hit.body)
-  local selected = view.session.selection[1]
-  if selected ~= target and selected ~= hit.body then view:run("world.select", {addresses = {view:address(target)}}) end
-  return drags.begin(view, target, nil, hit.point, x, y)
+  local drag = drags.begin(view, target, nil, hit.point, x, y)
+  drag.is_free = true
+  return drag
 end
 
 local function use_camera(view, mouse)
@@ -67,6 +73,27 @@ local function begin_press(view, mouse)
   if tool == "Select" then return {kind = "select", x = mouse.x, y = mouse.y} end
   local drag = begin_drag(view, mouse.x, mouse.y)
   return drag and {kind = "drag", drag = drag} or {kind = "camera"}
+end
+
+local function is_part(thing, robot) return thing ~= nil and clench.type(thing) == "body" and thing.robot == robot end
+
+local function move_drag(view, press, mouse)
+  local drag, ui = press.drag, view.ui
+  -- what is dragged is selected, unless a part of it is
+  local selected = view.session.selection[1]
+  if not press.moved and drag.is_free and selected ~= drag.target and not is_part(selected, drag.target) then
+    view:run("world.select", {addresses = {view:address(drag.target)}})
+  end
+  press.moved = true
+  if drag.move then return drag.move(mouse.x, mouse.y, ctrl_down(ui), shift_down(ui)) end
+  drags.move(view, drag, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
+end
+
+local function end_press(view, press, mouse)
+  if press.kind == "drag" then view.session:end_gesture() end
+  -- a click with the Translate or Rotate tool selects: a link shows the handles of its joints
+  local is_click = press.kind == "drag" and press.drag.is_free and not press.moved
+  if press.kind == "select" or is_click then select_at(view, mouse.x, mouse.y, shift_down(view.ui)) end
 end
 
 --- Applies the mouse of this frame to the picture.
@@ -87,12 +114,11 @@ function tools.update(view)
   if press.kind == "camera" and moved then
     use_camera(view, mouse)
   elseif press.kind == "drag" and moved then
-    drags.move(view, press.drag, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
+    move_drag(view, press, mouse)
   end
   if mouse.left.released or mouse.right.released or mouse.middle.released then
     view.press = nil
-    if press.kind == "drag" then view.session:end_gesture() end
-    if press.kind == "select" then select_at(view, mouse.x, mouse.y, shift_down(ui)) end
+    end_press(view, press, mouse)
   end
 end
 

@@ -176,7 +176,7 @@ function Viewer:project(point) return camera.project(self.camera, self.ui.size, 
 --- What lies under a pixel: body, point, normal, distance; nil where nothing is.
 function Viewer:pick(x, y) return tools.pick(self, x, y) end
 
---- Handles of the current tool on the selection: `name`, and the pixel `x`, `y` at which a drag takes hold of it.
+--- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which a drag takes hold of it, and `value` and `limits` of the DOF of a joint.
 ---@return table[] handles
 function Viewer:handles() return tools.handles(self) end
 

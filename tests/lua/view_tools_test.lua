@@ -136,3 +136,76 @@ test("a hand on an arm is dragged by the arm", function(t)
   t.equal(session.world:hash(), before)
   view:close()
 end)
+
+test("a click with the Translate tool on a link shows its joints, whose arcs set the DOFs within their limits", function(t)
+  local session, view = open(nil, "Translate")
+  local robot = session.world:robot "barrett"
+  local link = robot:link "chain0_link1"
+  local x, y = view:project(link.pose * link.com)
+  local hit = view:pick(x, y)
+  view:click(x, y)
+  t.equal(session.selection[1] == hit.body, true)
+  view:select "barrett/barrett_chain0_link1"
+  local names = {}
+  for i, handle in ipairs(view:handles()) do names[i] = handle.name end
+  t.equal(table.concat(names, " "), robot.dof_names[1] .. " " .. robot.dof_names[2])
+  local before = session.world:hash()
+  local arc = handle_of(view, robot.dof_names[2])
+  t.close(arc.value, 0.5, 1e-12)
+  -- to the end of the arc and beyond: the upper limit
+  local line = arc.line
+  view:drag(arc.x, arc.y, line[#line - 1], line[#line], {steps = 8})
+  local high = robot.dof_limits[2][2]
+  t.ok(robot.dofs[2] > 0.9, robot.dofs[2])
+  t.ok(robot.dofs[2] <= high, robot.dofs[2])
+  t.close(robot.dofs[1], 0, 1e-12)
+  t.close(robot.dofs[3], 0.5, 1e-12)
+  -- as the command does
+  local other = clench.session(session.world:clone())
+  other.world:robot("barrett").dofs = {0, 0.5, 0.5, 0.5}
+  other:run("grasp.move_dofs", {hand = "barrett", dofs = robot.dofs})
+  for i = 1, 4 do t.close(other.world:robot("barrett").dofs[i], robot.dofs[i], 1e-4) end
+  view:key "ctrl+z"
+  t.equal(session.world:hash(), before)
+  view:close()
+end)
+
+test("the axis of a joint handle is that of the joint, and Ctrl snaps the DOF", function(t)
+  local session, view = open("barrett/barrett_chain2_link0", "Translate")
+  local robot = session.world:robot "barrett"
+  local arc = handle_of(view, robot.dof_names[4])
+  local link = robot:link "chain2_link0"
+  local before = link.pose
+  robot.dofs = {0, 0.5, 0.5, 0.8}
+  local turn = link.pose * before:inverse()
+  t.close((turn * arc.center - arc.center):norm(), 0, 1e-9)
+  t.close((turn:rotate(arc.axis) - arc.axis):norm(), 0, 1e-9)
+  arc = handle_of(view, robot.dof_names[4])
+  press(view, 341, true)
+  view:drag(arc.x, arc.y, arc.line[1], arc.line[2], {steps = 6})
+  press(view, 341, false)
+  local degrees = clench.deg(robot.dofs[4])
+  t.close(degrees, math.floor(degrees / 15 + 0.5) * 15, 1e-9)
+  t.ok(math.abs(robot.dofs[4] - 0.8) > 0.02, degrees)
+  view:close()
+end)
+
+test("a prismatic joint has an arrow between its limits", function(t)
+  local session = clench.session()
+  session:open("worlds/parallel_jaw_cube.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {640, 480}}
+  view.panels_visible = false
+  local robot = session.world.robots[1]
+  robot:open()
+  view.camera = clench.camera(session.world, {size = {640, 480}, frame = "all"})
+  view:tool "Translate"
+  view:select(view:address(robot.links[1]))
+  local arrow = view:handles()[1]
+  local start = robot.dofs[arrow.dof]
+  local line = arrow.line
+  view:drag(arrow.x, arrow.y, (line[1] + line[3]) / 2, (line[2] + line[4]) / 2, {steps = 6})
+  local low, high = robot.dof_limits[arrow.dof][1], robot.dof_limits[arrow.dof][2]
+  t.ok(math.abs(robot.dofs[arrow.dof] - start) > 0.1 * (high - low), robot.dofs[arrow.dof])
+  t.close(robot.dofs[arrow.dof], (low + high) / 2, 0.25 * (high - low))
+  view:close()
+end)
