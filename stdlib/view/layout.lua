@@ -2,6 +2,7 @@
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local menus = require "clench.view.menus"
+local selection = require "clench.view.selection"
 local layout = {}
 
 local panel_width, bottom_height, bar_height = 230, 170, 36  -- [pixels]
@@ -115,6 +116,7 @@ local function draw_bar(view, ui, y, width)
     if world then
       choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
       choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
+      selection.draw_bar(view, ui)
     end
   end)
 end

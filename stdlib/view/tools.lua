@@ -5,6 +5,8 @@ local drags = require "clench.view.drags"
 local handles = require "clench.view.handles"
 local joint_handles = require "clench.view.joint_handles"
 local manipulator = require "clench.view.manipulator"
+local outline = require "clench.view.outline"
+local selection = require "clench.view.selection"
 local tools = {}
 
 tools.names = {"Camera", "Select", "Translate", "Rotate"}
@@ -24,15 +26,7 @@ local function movable(body) return body.robot or body end
 
 local function select_at(view, x, y, adds)
   local hit = tools.pick(view, x, y)
-  local list = adds and {table.unpack(view.session.selection)} or {}
-  if hit then
-    local what = hit.body
-    if view.session.selection[1] == what and what.robot then what = what.robot end
-    list[#list + 1] = what
-  end
-  local addresses = {}
-  for i, thing in ipairs(list) do addresses[i] = view:address(thing) end
-  view:run("world.select", {addresses = addresses})
+  selection.click(view, hit and (adds and hit.body or selection.meant(view, hit.body)), adds)
 end
 
 --- Handles over the picture for the current tool and selection: name, pixel x and y.
@@ -142,30 +136,11 @@ local function draw_handles(view, ui)
   handles.draw(ui, list, hovered)
 end
 
---- Outlines what is selected, by the boxes of its bodies, and draws the manipulator and the highlighted contact.
+--- Outlines what is selected, and draws the manipulator and the highlighted contact.
 function tools.draw(view, ui)
   draw_highlight(view, ui)
   draw_handles(view, ui)
-  local size = ui.size
-  for _, thing in ipairs(view.session.selection) do
-    for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do
-      local bounds = body.bounds_in_world
-      if bounds then
-        local low, high = bounds.low, bounds.high
-        local corners = {}
-        for i = 0, 7 do
-          local p = clench.vec3(i & 1 == 0 and low.x or high.x, i & 2 == 0 and low.y or high.y, i & 4 == 0 and low.z or high.z)
-          corners[i] = {camera.project(view.camera, size, p)}
-        end
-        for i = 0, 7 do
-          for _, bit in ipairs {1, 2, 4} do
-            local a, b = corners[i], corners[i ~ bit]
-            if i & bit == 0 and a[1] and b[1] then ui:line({a[1], a[2], b[1], b[2]}, {color = {0.9, 0.6, 0, 0.9}, width = 1.5}) end
-          end
-        end
-      end
-    end
-  end
+  outline.draw(view, ui)
 end
 
 return tools
