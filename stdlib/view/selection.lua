@@ -56,14 +56,14 @@ function selection.draw_bar(view, ui)
     if name == current then index = i end
   end
   ui:disabled(#list == 0, function(ui)
-    ui:width(110)
+    ui:width(90)
     local chosen, changed = ui:combo("##material", index, names)
     if changed and names[chosen] then view:run("body.material", {material = names[chosen]}) end
   end)
   ui:tooltip "Material of the selection"
   ui:same_line()
   local on = world:may_collide(list[1], #list == 2 and list[2] or nil)
-  if ui:button("Collisions " .. (on and "on" or "off") .. "##collisions", {selected = on}) then view:run "body.collisions" end
+  if ui:button("Collisions", {selected = on}) then view:run "body.collisions" end
   ui:tooltip "Collisions of the selection: of a pair, of each body with everything, or of the complete world"
 end
 

@@ -1,17 +1,17 @@
 --- Tools of the picture: what a click and a drag on the picture do. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag what
---- is selected until it touches something. The middle and right buttons and the wheel always move the camera.
+--- is selected until it touches something, "Measure" measures distances and angles. The middle and right buttons and the wheel always move the camera.
 local camera = require "clench.view.camera"
 local drags = require "clench.view.drags"
 local handles = require "clench.view.handles"
 local joint_handles = require "clench.view.joint_handles"
 local manipulator = require "clench.view.manipulator"
+local measure = require "clench.view.measure"
+local navigation = require "clench.view.navigation"
 local outline = require "clench.view.outline"
 local selection = require "clench.view.selection"
 local tools = {}
 
-tools.names = {"Camera", "Select", "Translate", "Rotate"}
-
-local orbit_speed = math.pi / 400  -- [rad per pixel]
+tools.names = {"Camera", "Select", "Translate", "Rotate", "Measure"}
 
 --- What lies under a pixel: body, point and normal; nil where nothing is.
 function tools.pick(view, x, y)
@@ -52,18 +52,11 @@ local function begin_drag(view, x, y)
   return drag
 end
 
-local function use_camera(view, mouse)
-  local size = view.ui.size
-  if mouse.middle.down or mouse.left.down and ctrl_down(view.ui) then
-    view.camera = camera.panned(view.camera, size, mouse.dx, mouse.dy)
-  else
-    view.camera = camera.orbited(view.camera, mouse.dx * orbit_speed, mouse.dy * orbit_speed)
-  end
-end
-
 local function begin_press(view, mouse)
   local tool = view.current_tool
-  if view.ui:key_down(342) or tool == "Camera" then return {kind = "camera"} end
+  if view.seeks then return {kind = "seek"} end
+  if view.ui:key_down(342) or tool == "Camera" then return {kind = mouse.left.double and "seek" or "camera"} end
+  if tool == "Measure" then return {kind = "measure"} end
   if tool == "Select" then return {kind = "select", x = mouse.x, y = mouse.y} end
   local drag = begin_drag(view, mouse.x, mouse.y)
   return drag and {kind = "drag", drag = drag} or {kind = "camera"}
@@ -85,6 +78,8 @@ end
 
 local function end_press(view, press, mouse)
   if press.kind == "drag" then view.session:end_gesture() end
+  if press.kind == "seek" then navigation.seek_pixel(view, mouse.x, mouse.y) end
+  if press.kind == "measure" then measure.click(view, mouse.x, mouse.y) end
   -- a click with the Translate or Rotate tool selects: a link shows the handles of its joints
   local is_click = press.kind == "drag" and press.drag.is_free and not press.moved
   if press.kind == "select" or is_click then select_at(view, mouse.x, mouse.y, shift_down(view.ui)) end
@@ -106,7 +101,7 @@ function tools.update(view)
   if not press then return end
   local moved = mouse.dx ~= 0 or mouse.dy ~= 0
   if press.kind == "camera" and moved then
-    use_camera(view, mouse)
+    navigation.drag(view, mouse, ctrl_down(ui), shift_down(ui))
   elseif press.kind == "drag" and moved then
     move_drag(view, press, mouse)
   end
@@ -141,6 +136,7 @@ function tools.draw(view, ui)
   draw_highlight(view, ui)
   draw_handles(view, ui)
   outline.draw(view, ui)
+  measure.draw(view, ui)
 end
 
 return tools

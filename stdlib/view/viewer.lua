@@ -7,6 +7,7 @@ local input = require "clench.view.input"
 local keys = require "clench.view.keys"
 local layout = require "clench.view.layout"
 local menus = require "clench.view.menus"
+local navigation = require "clench.view.navigation"
 local palette = require "clench.view.palette"
 local raise = require "clench.raise"
 local tools = require "clench.view.tools"
@@ -57,12 +58,16 @@ function Viewer:address(thing)
   return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
 end
 
---- Points the camera at the grasp, or at everything.
+--- Points the camera at the grasp, or where the user has set the home, or at everything.
 ---@param all? boolean  true: at everything
 function Viewer:home(all)
   if not self.session.world then return end
-  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
   self.needs_frame = true
+  if self.home_camera and not all then
+    self.camera = self.home_camera
+    return
+  end
+  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
 end
 
 --- Switches between perspective and orthographic projection.
@@ -90,6 +95,7 @@ end
 local function own_key(self, shortcut)
   if shortcut == "ctrl+p" then self:open_palette() return true end
   if shortcut == "f9" then self.panels_visible = not self.panels_visible return true end
+  if navigation.key(self, shortcut) then return true end
   if shortcut == "home" then self:home() return true end
   if shortcut == "escape" then
     if self.palette then self.palette = nil elseif self.press then self.press = nil self.session:cancel_gesture() end
@@ -122,7 +128,7 @@ local function draw_world(self, ui)
   local world = self.session.world
   if not world then return end
   if self.shown_world ~= world then
-    self.shown_world = world
+    self.shown_world, self.home_camera, self.measured = world, nil, {}
     self:home()
   end
   local c = self.camera
@@ -188,7 +194,7 @@ function Viewer:orbit(yaw, pitch)
   self:frame()
 end
 
---- Chooses a tool: "Camera", "Select", "Translate" or "Rotate".
+--- Chooses a tool: "Camera", "Select", "Translate", "Rotate" or "Measure".
 function Viewer:tool(name)
   for _, known in ipairs(tools.names) do
     if known == name then
@@ -252,7 +258,7 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, stamp = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
-    panels_visible = true, current_tool = "Camera", tools = tools.names, dark = options.dark or false, status = "Ready", subscriptions = {},
+    panels_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, status = "Ready", subscriptions = {},
   }, Viewer)
   view.ui = clench.ui {size = options.size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
   view.panels = layout.panels()

@@ -58,10 +58,10 @@ test("the switch of collisions and the material of the tool bar act on the selec
   local world = session.world
   local mug, hand = world:body "mug", world:robot "barrett"
   view:select "mug"
-  view:click_label "Collisions on"
+  view:click_label "Collisions"
   t.equal(world:may_collide(mug), false)
   t.equal(world:may_collide(hand), true)
-  view:click_label "Collisions off"
+  view:click_label "Collisions"
   t.equal(world:may_collide(mug), true)
   t.ok(session:script():find("set_collision(", 1, true))
   session:run("body.material", {body = "mug", material = world.materials[3]})
