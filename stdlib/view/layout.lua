@@ -4,6 +4,7 @@ local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
+local selection = require "clench.view.selection"
 local layout = {}
 
 local panel_width, bottom_height, bar_height = 230, 170, 36  -- [pixels]
@@ -97,7 +98,7 @@ local function choose(view, ui, label, list, current, command, argument)
   for i, thing in ipairs(list) do
     if thing == current then index = i end
   end
-  ui:width(130)
+  ui:width(95)
   local chosen, changed = ui:combo(label, index, names)
   if changed then view:run(command, {[argument] = names[chosen]}) end
   ui:same_line()
@@ -117,6 +118,7 @@ local function draw_bar(view, ui, y, width)
     if world then
       choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
       choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
+      selection.draw_bar(view, ui)
     end
   end)
 end
@@ -162,7 +164,7 @@ local function draw_help(view, ui)
   end) then view.shows_manual = nil end
   if view.shows_keys and not ui:window("Keys", {x = 300, y = 100, width = 420, height = 460, movable = true, resizable = true, can_close = true}, function(ui)
     ui:table("keys", {"Key", "Command"}, {}, function(ui)
-      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"Ctrl+Q", "Exit"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4", "Tools"}} do
+      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"Ctrl+Q", "Exit"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4 5", "Tools"}, {"F", "Seek the point under the mouse"}, {"F1 F2 F3 F4", "Bookmarks of the camera; with Shift: store"}} do
         ui:next_column() ui:text(own[1]) ui:next_column() ui:text(own[2])
       end
       for _, name in ipairs(view.session.order) do

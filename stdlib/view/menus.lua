@@ -1,6 +1,7 @@
 --- The menu bar: menus of the session's commands, in the order of the original's, and those of the view itself.
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
 local menus = {}
 
@@ -37,6 +38,7 @@ local function view_menu(view, ui)
   if ui:menu_item("Home", {shortcut = "Home"}) then view:home() end
   if ui:menu_item("View All") then view:home(true) end
   if ui:menu_item("Orthographic", {selected = view.camera.orthographic ~= nil}) then view:toggle_orthographic() end
+  navigation.draw_menu(view, ui)
   ui:separator()
   for _, panel in ipairs(view.panels) do
     if ui:menu_item(panel.name, {selected = not view.hidden[panel.name]}) then view.hidden[panel.name] = not view.hidden[panel.name] or nil end

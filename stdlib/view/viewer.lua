@@ -12,6 +12,7 @@ local keys = require "clench.view.keys"
 local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
 local menus = require "clench.view.menus"
+local navigation = require "clench.view.navigation"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
@@ -69,12 +70,16 @@ function Viewer:address(thing)
   return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
 end
 
---- Points the camera at the grasp, or at everything.
+--- Points the camera at the grasp, or where the user has set the home, or at everything.
 ---@param all? boolean  true: at everything
 function Viewer:home(all)
   if not self.session.world then return end
-  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
   self.needs_frame = true
+  if self.home_camera and not all then
+    self.camera = self.home_camera
+    return
+  end
+  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
 end
 
 --- Switches between perspective and orthographic projection.
@@ -103,6 +108,7 @@ local function own_key(self, shortcut)
   if shortcut == "ctrl+q" then self.wants_exit = true return true end
   if shortcut == "ctrl+p" then self:open_palette() return true end
   if shortcut == "f9" then self.panels_visible = not self.panels_visible return true end
+  if navigation.key(self, shortcut) then return true end
   if shortcut == "home" then self:home() return true end
   if shortcut == "escape" then
     if self.palette then self.palette = nil elseif self.press then self.press = nil self.session:cancel_gesture() end
@@ -135,7 +141,7 @@ local function draw_world(self, ui)
   local world = self.session.world
   if not world then return end
   if self.shown_world ~= world then
-    self.shown_world = world
+    self.shown_world, self.home_camera, self.measured = world, nil, {}
     self:home()
   end
   local c = self.camera
@@ -200,6 +206,10 @@ function Viewer:project(point) return camera.project(self.camera, self.ui.size, 
 --- What lies under a pixel: body, point, normal, distance; nil where nothing is.
 function Viewer:pick(x, y) return tools.pick(self, x, y) end
 
+--- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which a drag takes hold of it, and `value` and `limits` of the DOF of a joint.
+---@return table[] handles
+function Viewer:handles() return tools.handles(self) end
+
 --- Turns the camera about its target.
 ---@param yaw number  [degrees]
 ---@param pitch number  [degrees]
@@ -208,7 +218,7 @@ function Viewer:orbit(yaw, pitch)
   self:frame()
 end
 
---- Chooses a tool: "Camera", "Select", "Translate" or "Rotate".
+--- Chooses a tool: "Camera", "Select", "Translate", "Rotate" or "Measure".
 function Viewer:tool(name)
   for _, known in ipairs(tools.names) do
     if known == name then
@@ -259,7 +269,7 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
-    panels_visible = true, current_tool = "Camera", tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
+    panels_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
