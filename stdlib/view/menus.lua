@@ -1,6 +1,7 @@
 --- The menu bar: menus of the session's commands, in the order of the original's, and those of the view itself.
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local units = require "clench.view.units"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
@@ -35,6 +36,7 @@ local function view_menu(view, ui)
   end
   if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
   ui:separator()
+  units.menu(view, ui)
   if ui:menu_item("Dark Theme", {selected = view.dark}) then view:set_theme(not view.dark) end
 end
 
