@@ -7,10 +7,10 @@ local menus = require "clench.view.menus"
 local selection = require "clench.view.selection"
 local layout = {}
 
-local panel_width, bottom_height, bar_height = 230, 170, 36  -- [pixels]
+local panel_width, bottom_height, bar_height = 264, 190, 36  -- [pixels]
 local user_panels = {}  -- that scripts have added, by name and in order
 
-local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "console", "history", "gallery", "plots"}
+local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "display", "console", "history", "gallery", "plots"}
 
 --- The panels of a view: its own, and those of the user.
 function layout.panels()
@@ -57,6 +57,26 @@ local function draw_tabs(view, ui, name, list, rect)
   end)
 end
 
+-- panels in one window, one shown at a time: buttons in as many rows as they need
+local function draw_strip(view, ui, place, list, rect)
+  local front = list[1]
+  for _, panel in ipairs(list) do
+    if panel.name == view.front[place] then front = panel end
+  end
+  rect.title = false
+  ui:window(place, rect, function(ui)
+    local left = 0
+    for i, panel in ipairs(list) do
+      local wide = 7.4 * #panel.name + 22
+      if i > 1 and left + wide < rect.width then ui:same_line(4) else left = 0 end
+      left = left + wide
+      if ui:button(panel.name, {selected = panel == front}) then view.front[place] = panel.name end
+    end
+    ui:separator()
+    draw_panel(view, ui, front)
+  end)
+end
+
 -- panels below each other in a column, then those that share a window
 local function draw_column(view, ui, place, x, y, width, height)
   local rows, tabs = {}, {}
@@ -69,7 +89,7 @@ local function draw_column(view, ui, place, x, y, width, height)
   for i, panel in ipairs(rows) do
     ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
   end
-  if #tabs > 0 then draw_tabs(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = each}) end
+  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = each}) end
 end
 
 local function draw_bottom(view, ui, x, y, width, height)

@@ -3,6 +3,7 @@ local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
+local units = require "clench.view.units"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
@@ -45,7 +46,7 @@ local function view_menu(view, ui)
   end
   if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
   ui:separator()
-  if ui:menu_item("Millimeters", {selected = view.units.length == "mm"}) then view.units.length = view.units.length == "mm" and "m" or "mm" end
+  units.menu(view, ui)
   if ui:menu_item("Dark Theme", {selected = view.dark}) then view:set_theme(not view.dark) end
 end
 

@@ -5,6 +5,7 @@ local class = require "clench.class"
 local described = require "clench.described"
 local dialog = require "clench.view.dialog"
 local drop = require "clench.view.drop"
+local echo = require "clench.view.echo"
 local error_text = require "clench.error_text"
 local follow = require "clench.view.follow"
 local input = require "clench.view.input"
@@ -40,10 +41,7 @@ function Viewer:print(text, kind)
 end
 
 --- Shows the result of a command.
-function Viewer:report(command, result)
-  if result == nil or command.name:find "^planner%." then return end
-  self:print(("%s: %s"):format(command.label or command.name, tostring(result)))
-end
+function Viewer:report(command, result, args) echo.result(self, command, result, args) end
 
 --- Runs a command of the session; an error is shown in the console and in the status bar.
 ---@param name string  of the command
@@ -51,7 +49,7 @@ end
 function Viewer:run(name, args)
   local ok, result = pcall(self.session.run, self.session, name, args)
   if ok then
-    self:report(self.session.commands[name], result)
+    self:report(self.session.commands[name], result, args)
     return result
   end
   self:fail(result)
@@ -145,7 +143,10 @@ local function draw_world(self, ui)
     self:home()
   end
   local c = self.camera
-  ui:show(world, {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic})
+  local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
+  for name, value in pairs(self.display) do options[name] = value end
+  if self.shown_forces and self.shown_forces.stamp == self.stamp then options.forces = self.shown_forces.forces end
+  ui:show(world, options)
 end
 
 -- a window follows the clock, by which double clicks are told from single ones
@@ -268,7 +269,7 @@ end
 return function(options)
   local session = options.session
   local view = setmetatable({
-    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
+    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
     panels_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
@@ -278,6 +279,7 @@ return function(options)
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event) echo.changed(view, event) end)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.level) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()
