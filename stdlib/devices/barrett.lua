@@ -171,8 +171,8 @@ Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
 --- > simulated:unplug()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 9600, 1, 10000000)
-  local hand = {timeout = o:positive("timeout", 0.5, 3600), move_timeout = o:positive("move_timeout", 20, 3600), attempts = o:count("attempts", 10, 1, 1000)}
+  local given, baud = o:raw "port", o:get "baud"
+  local hand = {timeout = o:get "timeout", move_timeout = o:get "move_timeout", attempts = o:get "attempts"}
   o:done()
   hand.port, hand.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   return setmetatable(hand, Barrett)

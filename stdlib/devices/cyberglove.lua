@@ -90,8 +90,8 @@ Glove.__close = function(self) self:close() end
 --- > simulated:close()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 38400, 1, 10000000)
-  local glove = {timeout = o:positive("timeout", 0.5, 3600), attempts = o:count("attempts", 10, 1, 1000), readings = o:count("readings", 1, 1, 99)}
+  local given, baud = o:raw "port", o:get "baud"
+  local glove = {timeout = o:get "timeout", attempts = o:get "attempts", readings = o:get "readings"}
   o:done()
   glove.port, glove.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   return setmetatable(glove, Glove)

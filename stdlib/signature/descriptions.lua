@@ -21,11 +21,11 @@ local function doc_of_engine(name)
   return docs[name]
 end
 
--- "clench.plan.sample" lies in plan/sample.lua, "clench.csv.read" in csv.lua
+-- "clench.plan.sample" lies in plan/sample.lua, "clench.devices.simulated.flock" in devices/simulated/flock.lua, "clench.csv.read" in csv.lua
 local function doc_of_stdlib(name)
-  local module, unit = name:match "^clench%.([%w_]+)%.?([%w_]*)$"
-  if not module then return nil end
-  for _, path in ipairs {module .. "/" .. unit .. ".lua", module .. ".lua"} do
+  local inner = name:match "^clench%.([%w_.]+)$"
+  if not inner then return nil end
+  for _, path in ipairs {inner:gsub("%.", "/") .. ".lua", inner:match "^[^.]+" .. ".lua"} do
     local text = packed_text(path)
     for _, entry in ipairs(text and packed_docs.of {path = path, text = text} or {}) do
       if "clench." .. entry.name == name then return entry.doc end
