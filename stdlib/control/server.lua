@@ -202,7 +202,7 @@ local function read_options(options)
   local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, jobs = {}, job_count = 0, folder = read_folder(o),
                   max_clients = o:get "max_clients", max_line = o:get "max_line",
                   max_queue = o:get "max_queue", on_connect = o:get "on_connect", on_close = o:get "on_close"}
-  local stdio = o:get "stdio" or false
+  local stdio = o:get "stdio"
   o:done()
   if stdio then
     if path ~= nil or host ~= nil then o:fail "stdio: expected either stdio, or a path, or host and port" end
@@ -221,8 +221,8 @@ end
 ---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
----@option stdio? boolean  true: JSON-RPC over standard input and output with the program that has started this one, without a token
----@option token? string|false  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
+---@option stdio? boolean = false  true: JSON-RPC over standard input and output with the program that has started this one, without a token
+---@option token? string|boolean  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
 ---@option folder? string  below which requests may read and write files; none by default
 ---@option max_clients? integer [1 to 1000] = 64  connected at one time
 ---@option max_line? integer [1000 to 268435456, bytes] = 1048576  longest request

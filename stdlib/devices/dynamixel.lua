@@ -204,8 +204,8 @@ end
 
 local packet_doc = [[
 @param options table
-@option id integer [0 to 254]  of a motor; 254: all
-@option instruction string  name of an instruction: "ping", "read", "write", ...
+@option id? integer [0 to 254] = 0  of a motor
+@option instruction string  its name
 @option parameters? string  bytes]]
 
 -- the packet of {id, instruction, parameters}
@@ -257,7 +257,7 @@ end
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"
-  local mode, current, velocity = o:raw "mode", o:raw "current", o:raw "velocity"
+  local mode = o:raw "mode"
   local bus = {ids = check_ids(o), names = {}, low = {}, high = {}, packet = packet_of, mode = mode,
                current = o:get "current", velocity = o:get "velocity",
                watchdog = math.ceil(o:get "watchdog" / 0.02), timeout = o:get "timeout", attempts = o:get "attempts"}
