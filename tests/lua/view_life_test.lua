@@ -63,11 +63,17 @@ test("a file that cannot be written is named, and the world stays", function(t)
   local session, view, path = open()
   local world = session.world
   move(session)
-  session.path = "no/such/folder/a.wld"
-  view:key "ctrl+n"
-  view:click_label "Save"
-  t.ok(is_shown(view, "no such folder: no/such/folder"))
-  t.ok(session.world == world and session:is_modified())
+  local full = os.tmpname() .. ".wld"
+  os.execute("ln -s /dev/full " .. full)
+  for file, reason in pairs {["no/such/folder/a.wld"] = "no such folder: no/such/folder", [full] = "got a special file"} do
+    session.path = file
+    view:key "ctrl+n"
+    view:click_label "Save"
+    t.ok(is_shown(view, reason), file)
+    t.ok(session.world == world and session:is_modified())
+    view:click_label "Cancel"
+  end
+  os.remove(full)
   view:close()
   os.remove(path)
 end)
