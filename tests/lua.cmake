@@ -28,6 +28,9 @@ foreach(kind CXX C)
 endforeach()
 
 file(GLOB app_sources CONFIGURE_DEPENDS app/*_test.cpp)
+if(NOT CLENCH_VIEWER)
+  set_source_files_properties(app/view_verb_test.cpp PROPERTIES HEADER_FILE_ONLY ON)
+endif()
 clench_test_program(test_app ${app_sources})
 # grasps' epsilon by a program that shares no code with the engine
 pkg_check_modules(QHULL_R REQUIRED IMPORTED_TARGET qhull_r)

@@ -33,7 +33,10 @@ int run_scripts(const RunOptions& options) {
     if (ok && !options.file.empty()) ok = report(state.run_file(options.file, options.arguments));
     signal = running.signal();
   }
-  if (options.view && !report(state.call("host.view", "beside", {}))) return 1;
+  if (options.view) {
+    const auto opened = state.call("host.view", "beside", {});
+    if (!report(opened) || opened.values.at(0) != "0") return 1;
+  }
   // a console also opens after errors, to inspect the state
   if (options.console) return run_console(state);
   // as a shell reports a program that was ended by a signal

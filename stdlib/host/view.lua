@@ -70,11 +70,17 @@ local function run(root, folder, package, unit, strict, ...)
 end
 
 --- Opens an empty world in a window beside the console, which gets `session` and `view`.
+---@return string  the exit code
 function view.beside()
   local opened = clench.session()
   opened:run "world.new"
-  _G.view = clench.view.open(opened)
-  _G.session = opened
+  local ok, shown = pcall(clench.view.open, opened)
+  if ok then
+    _G.session, _G.view = opened, shown
+    return "0"
+  end
+  io.stderr:write("clench repl: ", printable(in_utf8(error_text(shown)), "\n"), "\n")
+  return "1"
 end
 
 --- Shows the file until its window is closed.

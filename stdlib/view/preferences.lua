@@ -14,17 +14,19 @@ local function sorted_keys(set)
   return list
 end
 
--- lists stay lists in JSON when they are empty
 local function text_of(view)
   local size = view.ui.size
-  return clench.json.encode({dark = view.dark, units = view.units, hidden = table.concat(sorted_keys(view.hidden), "\n"),
-                             size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = table.concat(view.recent, "\n")}, {indent = 2}) .. "\n"
+  return clench.json.encode({dark = view.dark, units = view.units, hidden = sorted_keys(view.hidden),
+                             size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = view.recent}, {indent = 2}) .. "\n"
 end
 
-local function lines_of(text)
-  local lines = {}
-  for line in tostring(text or ""):gmatch "[^\n]+" do lines[#lines + 1] = line end
-  return lines
+-- the texts of a list; none of anything else
+local function texts_of(list)
+  local texts = {}
+  for _, text in ipairs(type(list) == "table" and list or {}) do
+    if type(text) == "string" then texts[#texts + 1] = text end
+  end
+  return texts
 end
 
 --- Reads the settings of a file; an empty table if there is none. Raises an error where it is damaged.
@@ -53,8 +55,8 @@ local function apply(view, said)
   if type(said.dark) == "boolean" and not view.has_theme then view:set_theme(said.dark) end
   local units = type(said.units) == "table" and said.units or {}
   if units.length == "m" or units.length == "mm" then view.units.length = units.length end
-  for _, name in ipairs(lines_of(said.hidden)) do view.hidden[name] = true end
-  view.recent = lines_of(said.recent)
+  for _, name in ipairs(texts_of(said.hidden)) do view.hidden[name] = true end
+  view.recent = texts_of(said.recent)
 end
 
 --- Notes a file that was opened.

@@ -94,13 +94,7 @@ end
 function Viewer:open_palette() self.palette = {text = "", index = 1} end
 
 --- Writes the session as a script.
-function Viewer:save_script(path)
-  local file, message = io.open(path, "w")
-  if not file then raise("view: the script cannot be written: " .. message) end
-  local ok, reason = file:write(self.session:script())
-  local closed, at_close = file:close()
-  if not (ok and closed) then raise(("view: the script cannot be written: %s"):format(reason or at_close)) end
-end
+function Viewer:save_script(path) clench.files.save_text(path, self.session:script() .. "\n") end
 
 local function own_key(self, shortcut)
   if shortcut == "ctrl+q" then self.wants_exit = true return true end

@@ -63,11 +63,17 @@ test("a file that cannot be written is named, and the world stays", function(t)
   local session, view, path = open()
   local world = session.world
   move(session)
-  session.path = "no/such/folder/a.wld"
-  view:key "ctrl+n"
-  view:click_label "Save"
-  t.ok(is_shown(view, "no such folder: no/such/folder"))
-  t.ok(session.world == world and session:is_modified())
+  local full = os.tmpname() .. ".wld"
+  os.execute("ln -s /dev/full " .. full)
+  for file, reason in pairs {["no/such/folder/a.wld"] = "no such folder: no/such/folder", [full] = "got a special file"} do
+    session.path = file
+    view:key "ctrl+n"
+    view:click_label "Save"
+    t.ok(is_shown(view, reason), file)
+    t.ok(session.world == world and session:is_modified())
+    view:click_label "Cancel"
+  end
+  os.remove(full)
   view:close()
   os.remove(path)
 end)
@@ -234,5 +240,16 @@ test("dropped files are opened or imported, others refused", function(t)
   drop(path)
   t.equal(session.path, path)
   view:close()
+  os.remove(path)
+end)
+
+test("the session's script is written whole, or not at all", function(t)
+  local session, view, path = open()
+  local file = os.tmpname()
+  view:save_script(file)
+  t.equal(text_at(file), session:script() .. "\n")
+  t.fails(function() view:save_script "no/such/folder/a.lua" end, "no such folder: no/such/folder")
+  view:close()
+  os.remove(file)
   os.remove(path)
 end)

@@ -22,6 +22,15 @@ for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
 [ -s "$folder/display" ] || { echo "skipped: Xvfb does not start"; exit 77; }
 export DISPLAY=:$(cat "$folder/display")
 
+# an OpenGL that is too old is refused, in one sentence
+said=$(MESA_GL_VERSION_OVERRIDE=2.1 timeout 60 "$clench" view 2>&1)
+code=$?
+if [ $code != 1 ] || [ "$(wc -l <<<"$said")" != 1 ] || [[ "$said" != *"the viewer needs OpenGL 3.3"* ]]; then fail "OpenGL 2.1: $code $said"; fi
+# a window beside a console, which draws it
+said=$(echo 'view:frame() print(view.frames > 0, session.world)' | timeout 60 "$clench" repl --view 2>&1)
+code=$?
+if [ $code != 0 ] || [[ "$said" != "true"*"world"* ]]; then fail "repl --view: $code $said"; fi
+
 "$clench" view worlds/barrett_mug.wld --root . --script tests/scripts/window.lua >"$folder/said" 2>&1 &
 viewer=$!
 children+=($viewer)
