@@ -1,4 +1,5 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
+local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local menus = require "clench.view.menus"
@@ -117,6 +118,7 @@ local function draw_bar(view, ui, y, width)
       choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
       choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
       selection.draw_bar(view, ui)
+      context.draw(view, ui)
     end
   end)
 end
