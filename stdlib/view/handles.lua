@@ -56,6 +56,14 @@ function handles.at(list, x, y)
   return best
 end
 
+--- Draws a text on a light ground, legible over any picture.
+---@param color? number[]
+function handles.label(ui, x, y, text, color)
+  local width, height = utf8.len(text) * 0.28 * ui.line_height + 4, 0.62 * ui.line_height
+  ui:line({x - 4, y - 2, x + width, y - 2, x + width, y + height, x - 4, y + height}, {color = {1, 1, 1, 0.8}, filled = true})
+  ui:label(x, y, text, {color = color or {0.1, 0.1, 0.1, 1}})
+end
+
 local function draw_head(ui, line, color)
   local n = #line
   local x, y = line[n - 1], line[n]
@@ -77,7 +85,7 @@ function handles.draw(ui, list, hovered)
     if handle.head then draw_head(ui, handle.line, color) end
     for _, tick in ipairs(handle.ticks or {}) do ui:line(tick, {color = handle.color, width = 3}) end
     if handle.knob then ui:circle(handle.x, handle.y, is_hovered and 8 or 6, {color = color, filled = true}) end
-    if is_hovered then ui:label(handle.x + 14, handle.y - 20, handle.text or handle.name, {color = {0.1, 0.1, 0.1, 1}}) end
+    if is_hovered then handles.label(ui, handle.x + 14, handle.y - 24, handle.text or handle.name) end
   end
 end
 

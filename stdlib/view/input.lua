@@ -1,4 +1,5 @@
 --- Synthetic input of a view, as a user's mouse and keyboard would give it. Each function returns when all of it has been handled.
+local context = require "clench.view.context"
 local keys = require "clench.view.keys"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
@@ -12,6 +13,7 @@ local function settle(view)
     count = count + 1
   until not view.ui:poll() or count > 1000
   view:frame()
+  while context.appears(view) and view.panels_visible do view:frame() end
 end
 input.settle = settle
 

@@ -1,5 +1,6 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
 local autosave = require "clench.view.autosave"
+local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
@@ -139,6 +140,7 @@ local function draw_bar(view, ui, y, width)
       choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
       choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
       selection.draw_bar(view, ui)
+      context.draw(view, ui)
     end
   end)
 end

@@ -1,5 +1,6 @@
 --- The measuring tool: two clicks measure the distance of two points, a third one the angle at the second.
 local camera = require "clench.view.camera"
+local handles = require "clench.view.handles"
 local measure = {}
 
 local color = {0.45, 0.1, 0.5, 1}
@@ -49,10 +50,10 @@ function measure.draw(view, ui)
   for i = 2, #points do
     local a, b = pixels[i - 1], pixels[i]
     ui:line({a[1], a[2], b[1], b[2]}, {color = color, width = 2})
-    ui:label((a[1] + b[1]) / 2 + 8, (a[2] + b[2]) / 2 - 8, shown(view, (points[i] - points[i - 1]):norm()), {color = color})
+    handles.label(ui, (a[1] + b[1]) / 2 + 10, (a[2] + b[2]) / 2 - 8, shown(view, (points[i] - points[i - 1]):norm()), color)
   end
   local _, angle = measure.values(points)
-  if angle then ui:label(pixels[2][1] + 12, pixels[2][2] + 8, ("%.2f°"):format(math.deg(angle)), {color = color}) end
+  if angle then handles.label(ui, pixels[2][1] + 12, pixels[2][2] - 24, ("%.2f°"):format(math.deg(angle)), color) end
 end
 
 return measure

@@ -1,6 +1,7 @@
 --- Tools of the picture: what a click and a drag on the picture do. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag what
 --- is selected until it touches something, "Measure" measures distances and angles. The middle and right buttons and the wheel always move the camera.
 local camera = require "clench.view.camera"
+local context = require "clench.view.context"
 local drags = require "clench.view.drags"
 local handles = require "clench.view.handles"
 local joint_handles = require "clench.view.joint_handles"
@@ -78,6 +79,7 @@ end
 
 local function end_press(view, press, mouse)
   if press.kind == "drag" then view.session:end_gesture() end
+  if press.opens_menu and view.panels_visible then context.open(view, mouse.x, mouse.y) end
   if press.kind == "seek" then navigation.seek_pixel(view, mouse.x, mouse.y) end
   if press.kind == "measure" then measure.click(view, mouse.x, mouse.y) end
   -- a click with the Translate or Rotate tool selects: a link shows the handles of its joints
@@ -96,11 +98,12 @@ function tools.update(view)
   end
   if not view.session.world then return end
   if mouse.left.clicked then view.press = begin_press(view, mouse) end
-  if mouse.right.clicked or mouse.middle.clicked then view.press = {kind = "camera"} end
+  if mouse.right.clicked or mouse.middle.clicked then view.press = {kind = "camera", opens_menu = mouse.right.clicked} end
   local press = view.press
   if not press then return end
   local moved = mouse.dx ~= 0 or mouse.dy ~= 0
   if press.kind == "camera" and moved then
+    press.opens_menu = false
     navigation.drag(view, mouse, ctrl_down(ui), shift_down(ui))
   elseif press.kind == "drag" and moved then
     move_drag(view, press, mouse)

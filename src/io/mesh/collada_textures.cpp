@@ -24,9 +24,9 @@ std::string path_of(std::string uri) {
   std::string out;
   for (size_t i = 0; i < uri.size(); ++i) {
     unsigned value = 0;
-    const char* digits = uri.data() + i + 1;
+    const char* hexadecimal = uri.data() + i + 1;
     if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+        std::from_chars(hexadecimal, hexadecimal + 2, value, 16).ptr == hexadecimal + 2) {
       out.push_back(static_cast<char>(value));
       i += 2;
     } else {
