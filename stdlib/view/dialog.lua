@@ -1,9 +1,11 @@
 --- Dialogs of commands, made from their parameters.
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
+local results = require "clench.view.planner_results"
+local variables = require "clench.view.planner_variables"
 local dialog = {}
 
-local planner_group = "^planner%."
+local function is_planner(command) return command.name:find "^planner%." ~= nil end
 
 -- what a field shows for a value of any type
 local function shown(value)
@@ -52,7 +54,7 @@ local function draw_field(view, ui, state, parameter)
   ui:text(name:gsub("_", " ") .. (parameter.unit and (" [%s]"):format(parameter.unit) or ""))
   if parameter.text then ui:tooltip(parameter.text) end
   ui:next_column()
-  ui:width(-1)
+  ui:width(210)
   local choices = parameter.choices or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter.type)
   if choices and #choices > 0 then
     draw_choice(ui, state, parameter, choices)
@@ -75,8 +77,8 @@ local function run(view, command, state)
     state.error = tostring(result)
     return
   end
-  view:report(command, result)
-  if command.name:find(planner_group) then state.job = result else view.dialogs[command.name] = nil end
+  view:report(command, result, args)
+  if is_planner(command) then state.job, state.rank = result, nil else view.dialogs[command.name] = nil end
 end
 
 local leaving = {["world.new"] = "new", ["world.open"] = "open"}  -- commands that leave the world
@@ -98,40 +100,41 @@ function dialog.fill(view, command)
   if not asks then return view:run(command.name) end
   local state = {texts = {}}
   for _, parameter in ipairs(command.parameters or {}) do state[parameter.name] = parameter.default end
+  if is_planner(command) then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window a search is watched and stopped by hand: its time, not its steps, bounds it
-  if command.name:find(planner_group) and state.steps then state.steps, state.seconds = 10000000, 60 end
+  if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
   view.dialogs[command.name] = state
 end
 
 local function title(command) return (command.label or command.name):gsub("…", "") .. "##" .. command.name end
 
-local function draw(view, ui, command, state)
-  if command.parameters and #command.parameters > 0 then
-    local rows = #command.parameters
-    ui:child("fields", {height = math.min(rows * ui.line_height + 8, 420), width = 440}, function(ui)
-      ui:table("parameters", {"##name", "##value"}, {}, function(ui)
-        for _, parameter in ipairs(command.parameters) do draw_field(view, ui, state, parameter) end
-      end)
+local function draw_fields(view, ui, command, state, height)
+  if not command.parameters or #command.parameters == 0 then return end
+  ui:child("fields", {height = height}, function(ui)
+    ui:table("parameters", {"##name", "##value"}, {}, function(ui)
+      for _, parameter in ipairs(command.parameters) do
+        if not variables.shows(command, parameter) then draw_field(view, ui, state, parameter) end
+      end
     end)
-  end
+  end)
+end
+
+-- a planner's dialog stays open: its controls stand above the fields
+local function draw_planner(view, ui, command, state)
+  results.draw(view, ui, state, function() run(view, command, state) end)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
-  local is_planner = command.name:find(planner_group)
-  if is_planner then
-    local running = state.job and (state.job.state == "running" or state.job.state == "queued")
-    ui:disabled(running == true, function(ui)
-      if ui:button("Start", {width = 90}) then run(view, command, state) end
-    end)
-    ui:same_line()
-    ui:disabled(not running, function(ui)
-      if ui:button("Stop", {width = 90}) then state.job:stop() end
-    end)
-    ui:same_line()
-    if state.job then ui:text(("%s, %d grasps"):format(state.job.state, #view.session:grasps_of(state.job))) end
-  else
-    if ui:button("OK", {width = 90}) then run(view, command, state) end
-    ui:same_line()
-    if ui:button("Cancel", {width = 90}) then view.dialogs[command.name] = nil end
-  end
+  ui:separator()
+  if variables.has(command) then variables.draw(view, ui, state) end
+  draw_fields(view, ui, command, state, 0)
+end
+
+local function draw(view, ui, command, state)
+  if is_planner(command) then return draw_planner(view, ui, command, state) end
+  draw_fields(view, ui, command, state, math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420))
+  if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
+  if ui:button("OK", {width = 90}) then run(view, command, state) end
+  ui:same_line()
+  if ui:button("Cancel", {width = 90}) then view.dialogs[command.name] = nil end
 end
 
 --- Draws the open dialogs.
@@ -141,7 +144,7 @@ function dialog.draw(view, ui)
   table.sort(names)
   for i, name in ipairs(names) do
     local command, state = view.session.commands[name], view.dialogs[name]
-    local open = ui:window(title(command), {x = 320 + 24 * i, y = 120 + 24 * i, width = 470, height = 0, movable = true, resizable = true, can_close = true},
+    local open = ui:window(title(command), {x = 320 + 24 * i, y = 120 + 24 * i, width = 470, height = is_planner(command) and 520 or 0, movable = true, resizable = true, can_close = true},
                            function(ui) draw(view, ui, command, state) end)
     if not open then view.dialogs[name] = nil end
   end

@@ -139,7 +139,12 @@ local function draw_world(self, ui)
   local c = self.camera
   local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
   for name, value in pairs(self.display) do options[name] = value end
-  if self.shown_forces and self.shown_forces.stamp == self.stamp then options.forces = self.shown_forces.forces end
+  local shown = self.shown_forces
+  if shown and shown.stamp ~= self.stamp then
+    -- forces are those of one state of the world
+    if world:hash() == shown.hash then shown.stamp = self.stamp else self.shown_forces, shown = nil, nil end
+  end
+  if shown then options.forces = shown.forces end
   ui:show(world, options)
 end
 

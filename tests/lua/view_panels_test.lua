@@ -187,3 +187,51 @@ test("an arch is built from the menu, stands on its supports, and refuses bad ra
   t.fails(function() clench.build_arch "x" end, "expected a world, got 'x'")
   view:close()
 end)
+
+test("a planner is started, its results are stepped through, and targets become its arguments", function(t)
+  local session, view = open()
+  view:menu "Grasp/EigenGrasp Planner…"
+  local state = view.dialogs["planner.anneal"]
+  view:click_label "Variables"
+  local searched = item(view, "^Tz$")
+  view:click(searched.x + 8, searched.y + 8)
+  t.equal(state.fixed, {"Tz"})
+  view:click(searched.x + 8, searched.y + 8)
+  t.equal(state.fixed, nil)
+  state.steps, state.seconds = 3000, nil
+  view:click_label "Start"
+  t.equal(state.error, nil)
+  state.job:wait(60)
+  view:frame()
+  local grasps = session:grasps_of(state.job)
+  t.ok(#grasps >= 2, #grasps)
+  view:click_label "Best"
+  local best = session.world:hash()
+  view:click_label ">"
+  t.equal(state.rank, 2)
+  view:click_label "<"
+  t.equal(session.world:hash(), best)
+  view:close()
+end)
+
+test("optimal forces are shown until something moves, and what yields is named", function(t)
+  local session, view = open()
+  session:run "grasp.autograsp"
+  view:click_label "Forces"
+  view:click_label "Optimize"
+  t.equal(view.forces.result.status, "optimal")
+  t.equal(#view.shown_forces.forces, #session.world:contacts(session.hand, session.object))
+  view.forces.max_force = 1e-3
+  view:click_label "Optimize"
+  view:frame()
+  t.equal(view.forces.result.status, "infeasible")
+  t.ok(texts_of(view):find "The contact of barrett_chain%d_link%d yields first", texts_of(view))
+  view.forces.max_force = 0
+  view:click_label "Stability"
+  t.equal(view.forces.result.status, "stable")
+  view:menu "Grasp/Auto Open"
+  view:frame()
+  t.equal(view.shown_forces, nil)
+  t.ok(texts_of(view):find "Something has moved since")
+  view:close()
+end)
