@@ -167,8 +167,8 @@ Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
 --- > barrett:initialize()
 --- > barrett:move {0.5, 1, 1, 1}
 --- > math.abs(barrett:read()[2] - 1) < 2e-4  --> true
+--- > simulated:close()
 --- > barrett:move {9, 0, 0, 0}  --> error: spread: expected 0 to 3.14159 rad, got 9
---- > simulated:unplug()
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"

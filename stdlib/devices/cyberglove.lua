@@ -86,8 +86,10 @@ Glove.__close = function(self) self:close() end
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
 --- > simulated = clench.devices.simulated.cyberglove {sensors = {10, 20, 30}}
 --- > glove = clench.devices.cyberglove {port = simulated.path}
---- > glove:is_ready(), glove:read()[2], #glove:read()  --> true, 20, 22
+--- > glove:is_ready()  --> true
+--- > raw = glove:read()
 --- > simulated:close()
+--- > raw[2], #raw  --> 20, 22
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"

@@ -252,8 +252,8 @@ end
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > bus = clench.devices.dynamixel {port = simulated.path, ids = {1, 2}}
 --- > bus.packet {id = 1, instruction = "ping"} == "\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E"  --> true
---- > bus:write_positions {0.5, 4}  --> error: motor 2: expected -3.14159 to 3.14006 rad, got 4
 --- > simulated:close()
+--- > bus:write_positions {0.5, 4}  --> error: motor 2: expected -3.14159 to 3.14006 rad, got 4
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"

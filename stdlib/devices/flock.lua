@@ -124,8 +124,9 @@ end
 ---@return flock flock # `read`, `close`
 --- > simulated = clench.devices.simulated.flock {poses = {clench.pose {xyz = {0.3, 0.1, 0.2}}}}
 --- > flock = clench.devices.flock {port = simulated.path}
---- > (flock:read()[1].position - clench.vec3(0.3, 0.1, 0.2)):norm() < 3e-4  --> true
+--- > pose = flock:read()[1]
 --- > simulated:close()
+--- > (pose.position - clench.vec3(0.3, 0.1, 0.2)):norm() < 3e-4  --> true
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"

@@ -113,10 +113,8 @@ end
 ---@option max_speed? number [rad/s or m/s, > 0] = 1  of each value that is sent
 ---@option interval? number [s, > 0] = 0.1  longest time for which one call of push moves
 ---@return mirror mirror # `pull`, `push`
---- > simulated = clench.devices.simulated.barrett {}
---- > barrett = clench.devices.barrett {port = simulated.path}
---- > clench.devices.mirror {hand = hand, device = barrett, dofs = {1, 1}}  --> error: dofs[2] must be another number
---- > simulated:close()
+--- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}
+--- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be another number
 return function(options)
   local o = new_options(subject, options)
   local mirror = {hand = o:get "hand", device = o:raw "device", max_speed = o:get "max_speed", interval = o:get "interval"}

@@ -112,8 +112,8 @@ Robotiq.__gc = function(self) device.send_last(self.port, last_frame(self)) end
 --- > gripper = clench.devices.robotiq {port = simulated.path}
 --- > gripper:activate()
 --- > math.abs(gripper:move(0.04).opening - 0.04) < 2e-4  --> true
---- > gripper:move(0.1)  --> error: opening: expected 0 to 0.085 m, got 0.1
 --- > simulated:close()
+--- > gripper:move(0.1)  --> error: opening: expected 0 to 0.085 m, got 0.1
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"

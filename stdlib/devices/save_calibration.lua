@@ -21,7 +21,7 @@ end
 --- > path = os.tmpname()
 --- > clench.devices.save_calibration(path, {slopes = {{0.1, 0}}, intercepts = {1 / 3}})
 --- > clench.files.glove_calibration(path).intercepts[1] == 1 / 3  --> true
---- > os.remove(path)
+--- > os.remove(path)  --> true
 return function(path, calibration)
   if type(path) ~= "string" or path == "" then raise("devices.save_calibration: path: expected the name of a file, got " .. described(path)) end
   local count = check(calibration)

@@ -55,7 +55,7 @@ end
 --- > device:write "?"
 --- > device:read_line(1)  --> ready
 --- > device:read_line(1)  --> nil, closed
---- > os.remove(path)
+--- > os.remove(path)  --> true
 return function(path, options)
   check.string("clench.port.replay", "path", path)
   local o = new_options("clench.port.replay", options or {})
