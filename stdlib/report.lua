@@ -1,5 +1,6 @@
 --- What a file holds, as tables: what `clench check` prints, or writes as JSON.
 local blamed = require "clench.blamed"
+local collected_log = require "clench.collected_log"
 local drives = require "clench.drives"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
@@ -23,8 +24,10 @@ end
 
 -- what is logged while a file is read, by what it is about; a script's own messages by their level
 local function listen(run)
-  local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}}
-  clench.log.sink(function(level, text, about)
+  local collect, diagnostics = collected_log()
+  local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}, diagnostics = diagnostics}
+  clench.log.sink(function(level, text, about, diagnostic)
+    collect(level, text, about, diagnostic)
     local list = heard[about] or level == "info" and heard.inferred or level == "warning" and heard.ignored
     if list then list[#list + 1] = text end
   end)
@@ -298,9 +301,10 @@ local readers = {
 --- One file, parsed: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
 --- `parsed` is a table of what its kind holds, all in meters, kilograms and radians; without it `error` says why.
 --- With `strict` so does the first sentence of what was repaired, not used or suspicious.
+--- `diagnostics` holds what was inferred, repaired, ignored and suspicious as values, as `clench.log.collect` returns them.
 ---@param path string  file to check
 ---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used
----@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], error: string?}
+---@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], diagnostics: table[], error: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
 --- > r.kind, #r.parsed.dofs, r.parsed.dofs[2].unit  --> robot, 4, rad
 --- > clench.report.of("no/such.urdf").error  --> no such file: no/such.urdf
@@ -321,7 +325,7 @@ function report.of(path, options)
   local told = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
   if told then ok, result = false, told end
   return {file = path, kind = kind, parsed = ok and result or nil, inferred = heard.inferred, repaired = heard.repaired,
-          ignored = heard.ignored, suspicious = heard.suspicious,
+          ignored = heard.ignored, suspicious = heard.suspicious, diagnostics = heard.diagnostics,
           error = not ok and (blamed(result) or error_text(result)) or nil}
 end
 

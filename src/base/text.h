@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clench/base/error.h"
+#include "clench/base/placed_error.h"
 
 namespace clench {
 
@@ -69,7 +69,7 @@ class Line {
   Line(const std::string* file, int number, std::string_view text);
 
   int number() const { return number_; }           ///< from 1
-  std::string place() const;                       ///< "Barrett.cfg:31"
+  Place place() const;                             ///< Barrett.cfg:31
   std::string_view text() const { return text_; }  ///< without blanks at its ends
   bool blank() const { return text_.empty(); }
   int size() const;  ///< words
@@ -77,8 +77,8 @@ class Line {
   std::string_view word(int i) const;
   /// The same line without the words from the first that begins with `mark` on.
   Line before(char mark) const;
-  /// What to warn of when only the first `used` words are: "Barrett.cfg:31: 2 surplus words are not
-  /// used"; empty when there are no more, but for a comment that begins with '#'.
+  /// What to warn of when only the first `used` words are: "2 surplus words are not used"; empty
+  /// when there are no more, but for a comment that begins with '#'.
   std::string surplus(int used) const;
 
   /// throws Error  "Barrett.cfg:31: Kp: expected a number, got 'x'"
@@ -89,7 +89,7 @@ class Line {
   /// throws Error  "Barrett.cfg:31: joint 2: min 144 exceeds max 0 [deg]"
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+    throw PlacedError(place(), fmt::format(format, std::forward<Args>(args)...));
   }
 
  private:
