@@ -12,7 +12,7 @@ print(("%s has %d DOFs; %s weighs %.3f kg"):format(hand.name, #hand.dofs, flask.
 hand:autograsp()
 assert(#world:colliding() == 0, "closing stops at the surface, never inside")
 
--- where the hand touches: the normal points into the flask, in meters and unit length
+-- contacts of the hand on the flask: points [m], unit normals into the flask
 local contacts = world:contacts(hand, flask)
 print(("%d contacts"):format(#contacts))
 for _, c in ipairs(contacts) do
@@ -20,7 +20,7 @@ for _, c in ipairs(contacts) do
     c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, c.mu))
 end
 
--- what those contacts can resist, by pushing with normal forces that sum to one
+-- wrenches that these contacts can resist with normal forces that sum to one
 local grasp = clench.grasp(hand, flask)
 local space = grasp:wrench_space()
 local worst = space:weakest()
@@ -29,7 +29,7 @@ print(("volume        %.4f   of all wrenches that it resists"):format(grasp:qual
 print(("force closure %s"):format(grasp:is_force_closure() and "yes" or "no"))
 print(("weakest along force (%.2f, %.2f, %.2f), torque (%.2f, %.2f, %.2f)"):format(table.unpack(worst.direction)))
 
--- friction cones show at the contacts; the flask is drawn transparent
+-- friction cones at the contacts; the flask is drawn transparent
 clench.render(world, {
   size = {960, 720}, samples = 4, eye = {0.42, -0.42, 0.38}, target = {-0.02, 0, 0.1}, field_of_view = 0.45,
 }):save(picture)

@@ -1,10 +1,10 @@
--- How round a rubber fingertip should be: the torsion that it resists on a flat, a round and a hollow place.
+-- Torsional friction of rubber fingertips of several radii on a plate, on a ball and inside a ring.
 --   clench run examples/02_soft_fingers.lua [PICTURE]
 local clench = require "clench"
 local picture = arg and arg[1] or "build/soft_fingers.png"
 local force, modulus, gap = 5, 1.5e6, 5e-5  -- N, Pa, m
 
--- a ball of rubber just above a body whose highest, or lowest, place is at the origin
+-- a ball of rubber just above a body whose surface passes through the origin
 local function press(tip, place)
   local world = clench.world()
   local body = world:add_object(place, {material = "wood"})
@@ -16,7 +16,8 @@ local function press(tip, place)
   return contact.patch, world
 end
 
--- a plate, a ball of 30 mm, and the inside of a ring whose tube has 10 mm: hollow one way, round the other
+-- a plate, a ball of radius 30 mm, and the inside of a ring with a tube radius of 10 mm, which is concave in one direction and
+-- convex in the other
 local shapes = clench.shapes
 local ring = shapes.turn(shapes.torus {0.06, 0.01, segments = 200, sides = 48}, {1, 0, 0}, math.pi / 2)
 local places = {
@@ -41,7 +42,7 @@ end
 print(("relative radii are within %.2f %% of 1 / (1/tip + 1/place)"):format(100 * worst))
 print(("torsion from %.1f to %.1f N mm: it grows with the fourth root of the radii only"):format(1000 * least, 1000 * most))
 
--- the patch lies in the transparent body, with the rim of the ellipse that presses
+-- the fitted patch inside the transparent body, with the boundary of the contact ellipse
 local _, world = press(0.02, places[2][2])
 clench.render(world, {size = {640, 480}, patches = true, eye = {0.02, -0.06, -0.05}, target = {0, 0, 0}}):save(picture)
 print("picture " .. picture)

@@ -1,4 +1,4 @@
--- Two fingers on springs, pulled by one tendon, wrap themselves around what they meet; what the springs press with.
+-- Two fingers on springs, pulled by one tendon, wrap around an object; the forces with which the springs press.
 --   clench run examples/11_adaptive_fingers.lua [PICTURE]
 local clench = require "clench"
 local picture = arg and arg[1] or "build/adaptive.png"
@@ -6,7 +6,7 @@ local picture = arg and arg[1] or "build/adaptive.png"
 local world = clench.load("worlds/tendon_cylinder.wld", {root = "."})
 local gripper, cylinder = world.robots[1], world.objects[1]
 
--- rods before the palm: the wider, the sooner they hold the proximal links, and the further the distal ones go on
+-- rods in front of the palm: the wider the rod, the earlier it stops the proximal links, and the farther the distal ones close
 local proximal = {}
 for i, radius in ipairs {0.03, 0.024, 0.018} do
   local trial = world:clone()
@@ -21,7 +21,7 @@ for i, radius in ipairs {0.03, 0.024, 0.018} do
 end
 assert(proximal[1] < proximal[2] and proximal[2] < proximal[3])
 
--- what contacts hold winds the springs up, and that presses
+-- joints that contacts hold back deflect their springs, which press on the rod
 gripper:autograsp()
 for _, joint in ipairs(gripper.chains[1].joints) do
   print(("wound up by %.3f rad: %.2f N mm"):format(joint.spring_deflection, 1000 * joint.spring * joint.spring_deflection))

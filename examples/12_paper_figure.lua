@@ -1,4 +1,4 @@
--- A figure fit for a paper: a grasp with its forces as cones, beside what the grasp is worth with less friction.
+-- A figure for a paper: a grasp with its forces as cones, beside a plot of its epsilon over friction.
 --   clench run examples/12_paper_figure.lua [PICTURE]
 local clench = require "clench"
 local path = arg and arg[1] or "build/figure.png"
@@ -12,13 +12,13 @@ local firm = grasp:contact_forces {
 }
 assert(firm.status == "optimal")
 
--- white, with lines, parallel lines parallel; the height of a cone tells the normal force
+-- white background, outlines, parallel projection; the height of a cone is proportional to the normal force
 local picture = clench.render(world, {
   size = {720, 600}, background = "white", outline = 2, orthographic = true,
   forces = firm.forces, arrows = false, cones = "force", cone_height = 0.035,
 })
 
--- the same contacts with other friction
+-- the same contacts with different friction
 local friction, epsilon = {}, {}
 for i = 1, 16 do
   local points = grasp.points

@@ -1,4 +1,4 @@
--- A planner of one's own: a mug on a table, taken from above or from the side, never from below.
+-- A custom planner: a mug on a table, grasped from above or from the side, never from below.
 --   clench run examples/13_own_planner.lua [SEED]
 local clench = require "clench"
 local seed = math.tointeger(arg and arg[1] or 1)
@@ -6,12 +6,12 @@ local seed = math.tointeger(arg and arg[1] or 1)
 local world = clench.load("worlds/barrett_mug.wld", {root = "."})
 local hand, mug = world.robots[1], world.objects[1]
 
--- what a good state is: fingers near the mug and facing it, the hand above the table, coming from above or level
+-- the energy of a state: fingers near the mug and facing it, the hand above the table, approaching from above or horizontally
 local make = clench.energy
 local energy = make.contact {hand = hand, object = mug}
              + 50 * make.approach_cone {hand = hand, axis = {0, 0, -1}, angle = clench.rad(100)}
 
--- chains of annealing, each from another start; what one has found the next ones avoid
+-- chains of annealing, each from another start; later chains avoid the states that earlier ones have found
 local chains, steps = 4, 5000
 local starts = {}
 for chain = 1, chains do
@@ -24,7 +24,7 @@ for chain = 1, chains do
   for _, state in ipairs(search.best) do starts[#starts + 1] = state end
 end
 
--- each state is tried: on to the first touch, closed, and, where that holds nothing, from a little further back
+-- tries each state: approach until contact, close, and, if the grasp fails, try again from slightly farther back
 local found = clench.grasps()
 for _, state in ipairs(starts) do
   for back = 0, 0.03, 0.01 do

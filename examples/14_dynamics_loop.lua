@@ -1,16 +1,16 @@
--- The loop of GraspIt!'s manual, section 13.2, where a script makes every step itself: bodies move, velocities are solved for, and the hand's motors
--- get new forces by what its fingertips feel. world:run with the same controller gives the same trajectory.
+-- The loop of GraspIt!'s manual, section 13.2, in which a script makes every step: bodies move, velocities are solved for, and the hand's motors
+-- get new forces from the contact forces at its fingertips. world:run with the same controller gives the same trajectory.
 --   clench run examples/14_dynamics_loop.lua [LOG.csv]
 local clench = require "clench"
 
 local function scene()
   local world = clench.load("worlds/barrett_glass_table.wld", {root = "."})
   local hand = world.robots[1]
-  hand.controller = "none"  -- motors give what set_forces says, and nothing else
+  hand.controller = "none"  -- motors exert only the forces of set_forces
   return world, hand
 end
 
--- each finger closes with 0.2 N m until its tip feels something, then with half of that
+-- each finger closes with 0.2 N m until its tip is in contact, then with half of that
 local function controller(world, hand)
   local tips = {}
   for i, chain in ipairs(hand.chains) do tips[i] = chain.links[#chain.links] end
@@ -21,14 +21,14 @@ local function controller(world, hand)
   end
 end
 
--- the old loop
+-- the loop of the manual
 local seconds = 0.5
 local world, hand = scene()
 local set_forces, steps = controller(world, hand), 0
 local step = world.time_step
 while seconds - world.time > 1e-9 do
   set_forces()
-  -- bodies that meet end a step early; the next one is its rest, as in a run
+  -- a collision ends a step early; the next step is its remainder, as in a run
   local left = math.min((math.floor(world.time / step + 1e-6) + 1) * step, seconds) - world.time
   local passed = world:move_bodies(math.abs(left - step) < 1e-6 * step and step or left)
   world:solve_velocities(passed)
@@ -36,7 +36,7 @@ while seconds - world.time > 1e-9 do
 end
 print(("%d steps by hand: fingers at %s"):format(steps, clench.json.encode(hand.dofs)))
 
--- the same by world:run, with a log beside it
+-- the same by world:run, with a log
 local other, same = scene()
 other:on_step(controller(other, same))
 local log = other:log {rate = 100, quantities = {same, "energy", "contacts"}}

@@ -8,7 +8,7 @@ local hand, mug = world.robots[1], world.objects[1]
 mug.mass = 0.1
 local run = clench.plan.sample {hand = hand, object = mug, count = 4, candidates = 100, refine = 0, verify = false}
 
--- which measure would have told who survives?
+-- which measure predicts survival?
 local study = clench.study.predictors(run.grasps, {hand = hand, object = mug, measures = {"epsilon", "load_margin"},
                                                    shake = {force = 2, grip_force = 5, seconds = 0.5, settle = 0.5}})
 print(study)

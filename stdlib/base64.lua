@@ -1,8 +1,8 @@
 -- stdlib/base64.lua
---- Bytes as base64 (RFC 4648, section 4), as pages inline them.
+--- Encodes bytes as base64 (RFC 4648, section 4), for inline data of pages.
 local letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
 
--- both letters of every 12 bits
+-- both letters for every 12 bits
 local pair = {}
 for n = 0, 4095 do
   local high, low = n // 64 + 1, n % 64 + 1

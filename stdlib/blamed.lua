@@ -1,5 +1,5 @@
---- What an error of ours says that blames the script's present call into the standard library. Nil of others: what a script's own function raised
---- knows its line, and faults of the library and Ctrl-C are kept as they are.
+--- The sentence of an error of Clench that refers to the script's present call into the standard library; nil for other errors: errors raised in the script's
+--- functions have a line, and internal errors and Ctrl-C are passed on unchanged.
 local error_value = require "clench.error_value"
 local is_stopped = require "clench.is_stopped"
 local script_line = require "clench.script_line"

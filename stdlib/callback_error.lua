@@ -1,5 +1,5 @@
---- The error of a script's function that Clench called. An error with a message is returned unchanged; an error without one, and a yield, become a
---- sentence that names the caller. Runs as a message handler, so the script's line is that of the error.
+--- The error of a script's function that Clench called. An error with a message is returned unchanged; an error without one, and a yield, become a sentence
+--- that names the caller. Runs as a message handler, so the script's line is that of the error.
 local error_value = require "clench.error_value"
 local script_line = require "clench.script_line"
 local show = require "clench.show"
@@ -7,7 +7,7 @@ local getmetatable = debug.getmetatable
 local type, pcall, tostring, rawget, setmetatable = type, pcall, tostring, rawget, setmetatable
 
 local no_yield = "a function that does not yield, got a yield"
--- Lua's messages that name neither the function nor a line
+-- messages of Lua that name neither the function nor a line
 local unplaced = {
   ["attempt to yield across a C-call boundary"] = no_yield,
   ["attempt to yield from outside a coroutine"] = no_yield,
@@ -20,7 +20,7 @@ local function shown(problem)
   return (kind == "nil" or kind == "boolean") and tostring(problem) or "a " .. kind
 end
 
--- "X, got Y" of an error without a message; nil of others
+-- "X, got Y" for an error without a message; nil for others
 local function fault_of(problem)
   local kind = type(problem)
   if kind == "string" then return unplaced[problem] end
@@ -30,7 +30,7 @@ local function fault_of(problem)
   return not pcall(tostring, problem) and ("an error with a message, got a %s whose __tostring fails"):format(kind) or nil
 end
 
----@param problem any  what the function raised
+---@param problem any  error value that the function raised
 ---@param subject string  names the function, "recording:each"
 ---@param place? string  "a.lua:3: ", instead of the line where the error is handled
 ---@return any  `problem`, or an error value whose field `cause` is `problem`

@@ -1,11 +1,11 @@
---- Creates a class of the standard library. Methods defined on it check that they are called with a colon, on a value of the class.
+--- Creates a class of the standard library. Its methods check that they are called with a colon, on an object of the class.
 local classes = require "clench.classes"
 local raise = require "clench.raise"
 local described = require "clench.described"
 local getmetatable, rawset, type = debug.getmetatable, rawset, type
 
 ---@param name string  "recording", for messages
----@return table # a metatable; its own __index
+---@return table # a metatable that is also its own __index
 return function(name)
   local class = {__name = name}
   class.__index = class

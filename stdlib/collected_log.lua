@@ -1,5 +1,5 @@
---- A sink for the log that collects its messages as values: {severity =, file =, line =, subject =, text =, about =, count =}. Equal problems of one
---- file are one, the first, with their count.
+--- A log sink that collects messages as values: {severity =, file =, line =, subject =, text =, about =, count =}. Equal messages of one file are merged
+--- and counted.
 ---@return fun(level: string, text: string, about: string?, diagnostic: table?) sink, table[] list
 return function()
   local list, seen = {}, {}

@@ -1,4 +1,4 @@
---- A vec3 as a list {x, y, z}; anything else as it is.
+--- Converts a vec3 to a list {x, y, z}; other values are returned unchanged.
 
 ---@param value any
 ---@return any

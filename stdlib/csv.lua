@@ -1,5 +1,5 @@
---- Tables of results as comma-separated values (RFC 4180), with their types: numbers come back to the bit, integers as integers, and text
---- that looks like a number is quoted.
+--- Tables of results as comma-separated values (RFC 4180) that preserve types: numbers are read back bit-exactly, integers as integers, and text that looks
+--- like a number is quoted.
 local raise = require "clench.raise"
 local column_names = require "clench.column_names"
 local described = require "clench.described"
@@ -7,7 +7,7 @@ local on_behalf_of = require "clench.on_behalf_of"
 local read_options = require "clench.options"
 local csv = {}
 
--- what a field says without quotes; text says itself
+-- the value of a field without quotes; text that is not another value is returned unchanged
 local function plain_value(word)
   if word == "" then return nil end
   if word == "true" then return true end
@@ -53,12 +53,12 @@ local function separator_of(read)
   return separator
 end
 
---- Writes rows to a file, whole or not at all: what stood there stays when something is wrong.
+--- Writes rows to a file. The write is atomic: after an error an existing file is unchanged.
 ---@param path string  file to write
----@param rows table[]  of names and values: numbers, texts, true, false; what a row lacks stays empty
----@param options? table  form of the file
----@option columns? string[]  in this order, by their names unless given
----@option separator? string = ","  between cells: ",", ";" or a tab
+---@param rows table[]  rows of names and values: numbers, texts, true, false; missing values give empty cells
+---@param options? table  format of the file
+---@option columns? string[]  names in the order of the columns; all names, sorted, by default
+---@option separator? string = ","  separator of cells: ",", ";" or a tab
 --- > clench.csv.write("build/table.csv", {{object = "mug", epsilon = 0.25}, {object = "flask", note = "7"}})
 --- > rows = clench.csv.read "build/table.csv"
 --- > table.concat(rows.columns, " ")  --> epsilon note object
@@ -85,12 +85,12 @@ function csv.write(path, rows, options)
   clench.files.save_text(path, table.concat(lines, "\n") .. "\n")
 end
 
---- Reads such a file, or anyone's: numbers, true and false as such, what stands in quotes as text, empty cells as nil.
+--- Reads a CSV file, also of other programs: numbers, true and false as values, quoted cells as text, empty cells as nil.
 ---@param path string  file to read
----@param options? table  form and place of the file
----@option separator? string = ","  between cells: ",", ";" or a tab
----@option confine? string  the folder below which it may lie
----@return table[] rows  of names and values, with the names in order as `columns`
+---@param options? table  format and location of the file
+---@option separator? string = ","  separator of cells: ",", ";" or a tab
+---@option confine? string  folder that must contain the file, directly or in subfolders
+---@return table[] rows  rows of names and values; the field `columns` has the names in order
 --- > clench.csv.read "no/such.csv"  --> error: no/such.csv
 function csv.read(path, options)
   if type(path) ~= "string" then raise("csv.read: path: expected a name, got " .. described(path)) end
@@ -109,8 +109,8 @@ function csv.read(path, options)
     known[column], rows.columns[c] = true, column
   end
   for i, record in ipairs(all) do
-    all[i] = false  -- long files are held once
-    -- an empty line is none
+    all[i] = false  -- lets the memory be freed early
+    -- an empty line is not a row
     local is_empty = #record == 1 and record[1] == "" and not record.quoted[1]
     if not (is_empty and #header > 1) then
       if #record ~= #header then fail(record.line, "expected %d cells, got %d", #header, #record) end

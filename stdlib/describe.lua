@@ -5,7 +5,7 @@ local raise = require "clench.raise"
 local suggest = require "clench.suggest"
 local getupvalue, insert, ipairs, type = debug.getupvalue, table.insert, ipairs, type
 
--- name, doc, and the function or the id of its closure, of every entry, in the order of the pages
+-- name, doc, and function or closure id of every entry, in the order of the pages
 local function list_entries()
   local all, list = clench.entries(), {}
   local function add(owner, mark, entries, kind)
@@ -35,7 +35,7 @@ local function describe(entry)
     parsed.settable = entry.settable == true
     parsed.effect = parsed.effect or "reads"
     for key, value in pairs(parsed.type or {}) do
-      -- the sentence of a field is its doc; what its @type line adds follows it
+      -- the text of a field is its doc, followed by the prose of its @type line
       if key ~= "text" then parsed[key] = value elseif value ~= "" then parsed.text = parsed.text .. " " .. value end
     end
   end
@@ -48,18 +48,18 @@ local function is_entry(entry, x, id)
 end
 
 local function fail_unknown(x, list)
-  if type(x) ~= "string" then raise("describe: no entry of clench is this function; functions of scripts are not described") end
+  if type(x) ~= "string" then raise("describe: this function is not an entry of clench; functions of scripts have no description") end
   local names = {}
   for i, entry in ipairs(list) do names[i] = entry.name end
   raise(("describe: there is no entry '%s'%s; names are as in clench.rad, hand:autograsp and hand.dofs"):format(x, suggest(x, names)))
 end
 
---- A function, method or field as data: `name`, `kind` ("function", "method", "field" or "operator"), `text`, `parameters`, `returns`,
---- `examples` ({prepare, code, result} each), and `effect` ("reads", "edits", "files" or "long") where its doc states one. A parameter
---- has `name`, `type`, `optional`, `text`, and where they are stated `unit`, `min`, `max` (`min_open`, `max_open`: the bound itself is
---- excluded), `default` and `fields`, the options of a table, each described the same way. A field has `type`, `unit` and `settable`.
----@param entry? function|string  or its name: "clench.rad", "hand:autograsp", "hand.dofs"; without it, all are described
----@return table # one description, or the list of all
+--- Describes a function, method or field as data: `name`, `kind` ("function", "method", "field" or "operator"), `text`, `parameters`, `returns`, `examples`
+--- ({prepare, code, result} each), and `effect` ("reads", "edits", "files" or "long") if its doc states one. A parameter has `name`, `type`, `optional`,
+--- `text`, and if stated `unit`, `min`, `max` (`min_open`, `max_open`: the bound itself is excluded), `default` and `fields`, the options of a table, described
+--- in the same form. A field has `type`, `unit` and `settable`.
+---@param entry? function|string  the function or its name: "clench.rad", "hand:autograsp", "hand.dofs"; by default all entries are described
+---@return table # one description, or a list of all
 ---@effect reads
 --- > clench.describe(clench.rad).parameters[1].unit  --> degrees
 --- > clench.describe("clench.plan.sample").parameters[1].fields[3].default  --> 100

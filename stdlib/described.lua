@@ -1,5 +1,5 @@
 -- stdlib/described.lua
---- A value as an error message shows it, on one short line: 3, 'abc', a table of 2, nothing.
+--- A value in the form for error messages, on one short line: 3, 'abc', a table of 2, nothing.
 local module_name = require "clench.module_name"
 local printable = require "clench.printable"
 
@@ -7,7 +7,7 @@ local printable = require "clench.printable"
 ---@return string
 return function(value)
   if type(value) == "number" then
-    -- whole numbers have no point, however large
+    -- integral numbers have no decimal point, whatever their size
     local whole = math.tointeger(value)
     if value ~= value then return "nan" end
     return whole and ("%d"):format(whole) or ("%.10g"):format(value)

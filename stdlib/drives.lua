@@ -30,15 +30,15 @@ function drives.missing(hand)
   return #parts > 0 and table.concat(parts, "; ") or nil
 end
 
--- The reason why a closed hand exerts no grip force; nil if a motor closes it, or no DOF does.
+-- The reason why a closed hand exerts no grip force; nil if a motor closes it, or if no DOF closes.
 --@return string?
 function drives.no_force(hand)
   local missing = drives.missing(hand)
   if not missing or drives.close(hand) then return nil end
-  return ("no grasp of %s can be verified, for it exerts no force: %s"):format(hand.name, missing)
+  return ("no grasp of %s can be verified, as it exerts no force: %s"):format(hand.name, missing)
 end
 
--- Has the hand neither motors nor springs? Then its links push on nothing.
+-- Does the hand have neither motors nor springs? Then its links exert no forces.
 function drives.is_inert(hand)
   for _, info in ipairs(hand.dof_info) do
     if info.driven then return false end
@@ -51,14 +51,14 @@ function drives.is_inert(hand)
   return true
 end
 
--- Names of the DOFs whose motors have no limit; nil if there are none.
+-- Names of the DOFs whose motors have no limit; nil if all have limits.
 --@return string[]?
 function drives.unlimited(hand)
   local names = names_of(hand, function(_, range) return range[1] == -math.huge or range[2] == math.huge end)
   return #names > 0 and names or nil
 end
 
--- States which efforts have no limit.
+-- States that these efforts have no limit.
 --@param names string[]?  of drives.unlimited
 --@return string?
 function drives.unlimited_text(names)

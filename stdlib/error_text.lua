@@ -1,9 +1,9 @@
---- What an error says, whatever its value: one that cannot be printed is an error still.
+--- The text of an error of any type, even if it cannot be printed.
 local show = require "clench.show"
 local type, pcall, tostring, rawget = type, pcall, tostring, rawget
 local getmetatable, format, sub = debug.getmetatable, string.format, string.sub
 
-local longest = 4000  -- characters; what says more says it to nobody
+local longest = 4000  -- maximum length [characters]
 
 local function words_of(value)
   local kind = type(value)

@@ -1,9 +1,9 @@
--- What Clench raises: the script's line (`place`, "a.lua:3: "), what went wrong there (`sentence`) and its `kind`. It prints, joins and is
--- searched as the string that both make, its `text`.
+-- Errors of Clench: the script's line (`place`, "a.lua:3: "), the message (`sentence`) and the `kind`. For printing, concatenation and string methods the value
+-- acts as the string `text`, which consists of place and sentence.
 local value = {__name = "error"}
 
 local methods = {}
--- a host may have opened no libraries
+-- a host may not have opened the string library
 for name, fn in (next or function() end), string or {} do
   methods[name] = function(self, ...) return fn(self.text, ...) end
 end

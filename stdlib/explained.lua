@@ -4,8 +4,8 @@ local error_text = require "clench.error_text"
 local error_value = require "clench.error_value"
 local is_stopped = require "clench.is_stopped"
 
----@param problem any  what the function raised
----@param name string  of the function: "task of world:spawn"
+---@param problem any  error value that the function raised
+---@param name string  name of the function: "task of world:spawn"
 ---@param trace string  its traceback
 ---@param place? string  "a.lua:3: ", which replaces the line where the error is handled
 ---@return any

@@ -1,4 +1,4 @@
---- "held in 5 of 6 directions": the outcome of a test that moves a grasp, in the words of tables, pages, sheets and verdicts.
+--- "held in 5 of 6 directions": the outcome of a test that moves a grasp, for tables, pages, sheets and verdicts.
 ---@param held integer
 ---@param count integer
 ---@param noun? string  plural; "directions" by default

@@ -1,5 +1,5 @@
 -- stdlib/in_utf8.lua
---- JSON and pages are UTF-8: bytes of names and messages that are none stand as \xE9.
+--- JSON and pages must be UTF-8: invalid bytes in names and messages are written as \xE9.
 local function escape_bytes(text)
   local parts, at = {}, 1
   while true do
@@ -11,7 +11,7 @@ local function escape_bytes(text)
   end
 end
 
---- A text, or a table whose texts are changed in place, keys excepted.
+--- Converts a text, or the texts of a table in place, except keys.
 local function in_utf8(value)
   if type(value) == "string" then return escape_bytes(value) end
   if type(value) ~= "table" then return value end

@@ -1,5 +1,4 @@
---- True of errors that stop Lua: by Ctrl-C or the end of the host (kind "stopped"), or by a deadline (kind "timeout"). No metamethod of a
---- user's table is called.
+--- True for errors that stop Lua: by Ctrl-C or the end of the host (kind "stopped"), or by a deadline (kind "timeout"). Calls no metamethods of a user's table.
 local type, rawget = type, rawget
 
 ---@param problem any  an error value

@@ -1,4 +1,4 @@
---- True of errors by which a deadline stops Lua, false of those of Ctrl-C. No metamethod of a user's table is called.
+--- True for errors by which a deadline stops Lua, false for those of Ctrl-C. Calls no metamethods of a user's table.
 local type, rawget = type, rawget
 
 ---@param problem any  an error value

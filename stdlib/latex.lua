@@ -1,4 +1,4 @@
---- Tables of results for papers: rows as clench.csv takes them, as a LaTeX table with the rules of the package booktabs.
+--- Tables of results for papers: rows in the form of clench.csv, as a LaTeX table with the rules of the package booktabs.
 local raise = require "clench.raise"
 local column_names = require "clench.column_names"
 local described = require "clench.described"
@@ -9,7 +9,7 @@ local escapes = {["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}", ["$
                  ["_"] = "\\_", ["^"] = "\\textasciicircum{}", ["~"] = "\\textasciitilde{}", ["\n"] = " "}
 local function escaped(text) return (text:gsub("[\\{}$&#%%_^~\n]", escapes)) end
 
--- 1.5e-07 as a power of ten
+-- a number as text: 1.5e-07 as a power of ten
 local function number_text(value, format)
   if value ~= value then return "--" end
   if value - value ~= 0 then return value > 0 and "$\\infty$" or "$-\\infty$" end
@@ -44,7 +44,7 @@ local function check_formats(read, formats)
   end
 end
 
--- "r" where all values of the column are numbers, else "l"
+-- "r" if all values of the column are numbers, else "l"
 local function alignments(rows, columns)
   local out = {}
   for c, name in ipairs(columns) do
@@ -78,14 +78,15 @@ local function body_of(rows, columns, headings, formats)
   return table.concat(lines, "\n")
 end
 
---- Rows as the text of a LaTeX table. Columns of numbers are aligned right; texts are escaped; a value that is missing is a dash. The document needs the package booktabs.
----@param rows table[]  of names and values: numbers, texts, true, false
----@param options? table  what the table has
----@option columns? string[]  these, in this order; all by their names by default
----@option headings? table<string, string>  LaTeX in place of names of columns
----@option formats? table<string, string>  of numbers, by column, "%.3g" by default
----@option caption? string  makes a floating table
----@option label? string  of a floating table, which other text refers to
+--- Converts rows to the text of a LaTeX table. Columns of numbers are right-aligned; texts are escaped; missing values are dashes. The document needs the
+--- package booktabs.
+---@param rows table[]  rows of names and values: numbers, texts, true, false
+---@param options? table  format of the table
+---@option columns? string[]  names in the order of the columns; all names, sorted, by default
+---@option headings? table<string, string>  headings in LaTeX that replace names of columns
+---@option formats? table<string, string>  formats of numbers by column, "%.3g" by default
+---@option caption? string  caption of a floating table
+---@option label? string  label of a floating table, for references
 ---@return string
 --- > text = clench.latex.table({{object = "mug_2", epsilon = 0.25}, {object = "flask"}}, {columns = {"object", "epsilon"}, headings = {epsilon = "$\\epsilon$"}, formats = {epsilon = "%.3f"}})
 --- > text:find("mug\\_2 & 0.250", 1, true) ~= nil, text:find("flask & --", 1, true) ~= nil  --> true, true
@@ -106,10 +107,10 @@ function latex.table(rows, options)
   return ("\\begin{table}\n\\centering\n%s%s%s\\end{table}\n"):format(caption_line, label_line, text)
 end
 
---- Writes such a table to a file, whole or not at all.
+--- Writes a LaTeX table to a file. The write is atomic: after an error an existing file is unchanged.
 ---@param path string  file to write
 ---@param rows table[]  one table per row
----@param options? table  those of `table`
+---@param options? table  options of `clench.latex.table`
 --- > clench.latex.write("build/table.tex", {{object = "mug", epsilon = 0.25}})
 --- > clench.latex.write("no/such/folder/a.tex", {{a = 1}})  --> error: no such folder: no/such/folder
 function latex.write(path, rows, options)

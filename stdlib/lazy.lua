@@ -1,8 +1,8 @@
 -- stdlib/lazy.lua
---- A module whose names are loaded when they are first used.
+--- A module whose members are loaded on first use.
 ---@param subject string  the module's name, in clench and for messages
 ---@param names string[]  in order
----@param home? table  in which file a name lies, unless in one of its own
+---@param home? table  file of each name that has no separate file
 local name_list = require "clench.name_list"
 local sealed = require "clench.sealed"
 local raise = require "clench.raise"
@@ -23,7 +23,7 @@ return function(subject, names, home)
     return value
   end})
 
-  --- all names in order, loaded or not, so that tables and consoles can list them
+  --- Iterates over all names in order, loaded or not, for tables and consoles.
   local function list()
     local i = 0
     return function()

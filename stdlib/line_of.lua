@@ -1,4 +1,4 @@
---- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if it has no such line.
+--- "a.lua:3: ", the innermost line of a script in a suspended or failed coroutine; "" if there is none.
 ---@param thread thread
 ---@return string
 return function(thread)

@@ -1,5 +1,5 @@
---- The event loop of a script: coroutines that wait for times, for descriptors and for jobs. A host with a loop of its own polls
---- `descriptor()` and then calls `run(0)`. It follows the clock; simulated time is that of `world:spawn`.
+--- The event loop of a script: coroutines that wait for times, descriptors and jobs. A host with a separate event loop polls `descriptor()` and then calls
+--- `run(0)`. The loop uses the clock; tasks in simulated time belong to `world:spawn`.
 local class = require "clench.class"
 local clock = clench.clock
 local described = require "clench.described"
@@ -15,7 +15,7 @@ local loop = {}
 local ready = {}           -- tasks to resume, in order
 local timed = new_queue()  -- tasks that wait for a time
 local for_jobs = {}        -- tasks that wait for a job, by task: true
-local waiting_count = 0    -- number of tasks that wait
+local waiting_count = 0    -- number of waiting tasks
 local watches = {}         -- by descriptor: {readable = handles, writable = handles}
 local count = 0            -- number of tasks created; orders tasks of equal times
 local running, in_run, stop_asked = nil, false, false
@@ -34,7 +34,7 @@ local function drop(task)
   task.at, task.job, task.watch = nil, nil, nil
 end
 
---- Ends a task that waits.
+--- Ends a waiting task.
 function Task:remove()
   if self == running then self.is_removed = true end  -- at its next wait
   if self.status ~= "waiting" then return end
@@ -55,7 +55,7 @@ end
 
 --- Ends the watch.
 function Watch:remove()
-  if self.is_removed then return end  -- the number may be another descriptor's by now
+  if self.is_removed then return end  -- the number may belong to another descriptor by now
   self.is_removed = true
   local of = watches[self.descriptor]
   local list = of and of[self.event] or {}
@@ -85,7 +85,7 @@ local function check_event(what, event)
   return event or "readable"
 end
 
--- is_wait: of a coroutine, which goes on when the descriptor is released
+-- is_wait: the watch belongs to a waiting coroutine, which continues when the descriptor is released
 local function add_watch(descriptor, event, f, is_wait)
   local watch = setmetatable({descriptor = descriptor, event = event, fn = f, is_wait = is_wait}, Watch)
   watches[descriptor] = watches[descriptor] or {readable = {}, writable = {}}
@@ -117,7 +117,7 @@ local function wake(task, ...)
   add_ready(task)
 end
 
---- Seconds of a clock that never goes back.
+--- Time of a monotonic clock.
 ---@return number  [s]
 --- > clench.loop.time() <= clench.loop.time()  --> true
 function loop.time() return clock() end
@@ -149,7 +149,7 @@ end
 -- the task whose coroutine is running; nil in other coroutines and outside of the loop
 local function calling() return running and coroutine.running() == running.thread and running or nil end
 
---- Waits for so long. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop runs.
+--- Waits for a time. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop runs.
 ---@param seconds number  [s]
 --- > clench.loop.sleep(-1)  --> error: expected a time >= 0 in seconds, got -1
 function loop.sleep(seconds)
@@ -183,12 +183,11 @@ local function wait_outside(what, is_job, last, event)
   return true
 end
 
---- Waits for the end of a job, or until a descriptor is ready. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop
---- runs.
----@param what job|integer  a descriptor of a socket, a pipe, a terminal or a device
----@param timeout? number  waits at most so long [s]
----@param event? "readable"|"writable"  of a descriptor; "readable" by default
----@return boolean ready  false: the time is over
+--- Waits for the end of a job, or until a descriptor is ready. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop runs.
+---@param what job|integer  a job, or the descriptor of a socket, a pipe, a terminal or a device
+---@param timeout? number  maximum waiting time [s]
+---@param event? "readable"|"writable"  event of a descriptor, "readable" by default
+---@return boolean ready  false: timeout
 --- > job = clench.job(function() return 3 end)
 --- > clench.loop.wait(job, 10), job:result()  --> true, 3
 --- > job = clench.job(function() while true do end end)
@@ -230,18 +229,18 @@ local function add_timer(name, seconds, f, period)
   return task
 end
 
---- Calls a function after some time, once.
----@param seconds number  [s]
----@param f function  called once
+--- Calls a function once, after a delay.
+---@param seconds number  delay [s]
+---@param f function  function to call
 ---@return table task # `task:remove()` ends it
 --- > clench.loop.after(0.01, function() late = true end)
 --- > clench.loop.run()
 --- > late  --> true
 function loop.after(seconds, f) return add_timer("after", seconds, f) end
 
---- Calls a function again and again.
----@param seconds number  between two calls, and before the first [s]
----@param f function  called again and again
+--- Calls a function periodically.
+---@param seconds number  period, and delay before the first call [s]
+---@param f function  function to call
 ---@return table task # `task:remove()` ends it
 --- > calls = 0
 --- > timer = clench.loop.every(0.01, function() calls = calls + 1 end)
@@ -255,9 +254,9 @@ function loop.every(seconds, f)
 end
 
 --- Calls a function whenever a descriptor is ready.
----@param descriptor integer  of a socket, a pipe, a terminal or a device
+---@param descriptor integer  descriptor of a socket, a pipe, a terminal or a device
 ---@param f fun(descriptor: integer)  called with the descriptor when it is ready
----@param event? "readable"|"writable"  "readable" by default
+---@param event? "readable"|"writable"  event, "readable" by default
 ---@return table watch # `watch:remove()` ends it
 --- > clench.loop.on(-1, print)  --> error: expected a descriptor >= 0, got -1
 --- > clench.loop.on(99999, print)  --> error: descriptor 99999 is not open
@@ -268,8 +267,8 @@ function loop.on(descriptor, f, event)
   return add_watch(descriptor, event, f)
 end
 
---- Ends all watches of a descriptor, to be called before it is closed. Coroutines that wait for it go on, as if it were ready.
----@param descriptor integer  of a socket, a pipe, a terminal or a device
+--- Ends all watches of a descriptor, to be called before it is closed. Coroutines that wait for it continue as if it were ready.
+---@param descriptor integer  descriptor of a socket, a pipe, a terminal or a device
 --- > clench.loop.release(5)
 --- > clench.loop.release "5"  --> error: expected a descriptor, got '5'
 function loop.release(descriptor)
@@ -283,8 +282,8 @@ function loop.release(descriptor)
   end
 end
 
---- The descriptor of the loop: readable when a time has come, a descriptor is ready or a job has something new. A host with a loop of its own
---- polls it and calls `run(0)`.
+--- The descriptor of the loop: readable if a time has come, a descriptor is ready, or a job has news. A host with a separate event loop polls it and calls
+--- `run(0)`.
 ---@return integer
 --- > math.type(clench.loop.descriptor())  --> integer
 function loop.descriptor() return poller:descriptor() end
@@ -294,7 +293,7 @@ function loop.descriptor() return poller:descriptor() end
 --- > clench.loop.run()
 function loop.stop() stop_asked = true end
 
--- wakes, in order of time and number, tasks whose time has come or whose job is over
+-- wakes, in order of time and number, tasks whose time has come or whose job has ended
 local function wake_due()
   local now, due = clock(), {}
   for task in pairs(for_jobs) do
@@ -330,7 +329,7 @@ local function resume(task)
   end
   task.status = "waiting"
   if task.is_removed then return task:remove() end
-  -- a yield of nothing waits for the next round
+  -- a yield without values waits for the next round
   if problem ~= task then wake(task) end
 end
 
@@ -351,7 +350,7 @@ local function round(patience)
   for i, task in ipairs(now_ready) do
     local ok, problem = pcall(resume, task)
     if not ok or stop_asked then
-      -- tasks that were not resumed stay before those that became ready meanwhile
+      -- tasks that were not resumed precede those that became ready meanwhile
       local later = ready
       ready = table.move(now_ready, i + 1, #now_ready, 1, {})
       table.move(later, 1, #later, #ready + 1, ready)
@@ -373,7 +372,7 @@ local function arm()
   poller:set_timer(#ready > 0 and 0 or first and math.max(0, first - clock()) or -1)
 end
 
--- as loop.run, or until is_over() says so
+-- as loop.run, or until is_over() returns true
 function run(seconds, is_over)
   if in_run then raise "loop.run: the loop runs already" end
   in_run, stop_asked = true, false
@@ -388,9 +387,9 @@ function run(seconds, is_over)
   until stop_asked or last and clock() >= last or is_over and is_over() or not has_work()
 end
 
---- Runs the loop: until nothing is left to wait for, or for so long, or until `stop`. An error of a coroutine ends it, and the others run on at
---- the next call. Jobs of the script count as something to wait for.
----@param seconds? number  0: what is ready, without waiting [s]
+--- Runs the loop until nothing is left to wait for, until a time limit, or until `stop`. An error of a coroutine ends the call; the other coroutines continue
+--- at the next call. Unfinished jobs of the script count as something to wait for.
+---@param seconds? number  time limit, 0 to run what is ready without waiting [s]
 --- > clench.loop.run(0)
 --- > clench.loop.run "1"  --> error: expected a time >= 0 in seconds, got '1'
 function loop.run(seconds)

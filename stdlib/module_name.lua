@@ -1,4 +1,4 @@
---- "clench.stats" of that table, as it arrives where a function of it is called with a colon; nil of all else.
+--- The name of a table that is a module, "clench.stats", to recognize functions that are called with a colon; nil for all other values.
 ---@param value any
 ---@return string?
 return function(value)

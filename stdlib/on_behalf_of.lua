@@ -1,10 +1,10 @@
---- Calls a function with what a script gave. An error that blames the script for this call says for whom the function was called.
+--- Calls a function with arguments of a script. An error that blames the script for this call is prefixed by the subject.
 local blamed = require "clench.blamed"
 local raise = require "clench.raise"
 
 ---@param subject string  "plan.anneal"
 ---@param fn function
----@return any ... # what the function returns
+---@return any ... # results of the function
 return function(subject, fn, ...)
   local results = table.pack(pcall(fn, ...))
   if results[1] then return table.unpack(results, 2, results.n) end

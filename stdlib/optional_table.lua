@@ -1,4 +1,4 @@
---- The optional table of options of a function that passes it on; a new table where none is given.
+--- The optional table of options of a function that passes it on; a new table if it is nil.
 local raise = require "clench.raise"
 local described = require "clench.described"
 local module_name = require "clench.module_name"

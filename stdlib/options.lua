@@ -1,7 +1,6 @@
 -- stdlib/options.lua
---- Reads the one table that a function is called with, as the description of the function says: each value by name, of its type and
---- within its range, or its default; a key that is not described is an error. Names in `places` may also be given by position: {0.02} is
---- {radius = 0.02}.
+--- Reads the table of options that a function is called with, according to the function's description: each value by name, with the described type and range,
+--- or its default; a key without description is an error. Names in `places` may also be given by position: {0.02} is {radius = 0.02}.
 local raise = require "clench.raise"
 local coordinates = require "clench.coordinates"
 local described = require "clench.described"
@@ -16,7 +15,7 @@ Options.__index = Options
 
 local function is_number(x) return type(x) == "number" and -math.huge < x and x < math.huge end
 
---- is this {number, number, ...} with `least` to `most` finite numbers, each up to `largest`?
+--- Is this {number, number, ...} with `least` to `most` finite numbers, each up to `largest` in magnitude?
 local function is_point(value, least, most, largest)
   if type(value) ~= "table" or #value < least or #value > most then return false end
   for i = 1, #value do
@@ -27,7 +26,7 @@ end
 
 function Options:fail(format, ...) raise(("%s: " .. format):format(self.subject, ...)) end
 
---- The description of an option; that there is none is a mistake of ours.
+--- The description of an option; a missing one is an internal error.
 function Options:described(name)
   for _, option in ipairs(self.fields) do
     if option.name == name then return option end
@@ -43,7 +42,7 @@ function Options:has(name)
   return false
 end
 
---- the raw value of a name, wherever it stands; nil when it was not given
+--- The raw value of a name, given by name or by position; nil if it was not given.
 function Options:raw(name)
   if type(name) == "string" then self:described(name) end
   local place = self.places[name]
@@ -59,7 +58,7 @@ end
 
 function Options:expected(name, what, value) self:fail("%s must be %s, got %s", name, what, described(value)) end
 
---- The given value of a name, which is checked; nil when it was not given, whatever its default is.
+--- The given value of a name, after a check; nil if it was not given, regardless of defaults.
 function Options:checked(name)
   local option, value = self:described(name), self:raw(name)
   local fault = value ~= nil and fitting.fault(option, value, self.largest)
@@ -67,8 +66,8 @@ function Options:checked(name)
   return value
 end
 
---- The value of a name, or its default: the described one, else `default`; nil where there is neither. Whole numbers are integers, whatever
---- their subtype was.
+--- The value of a name, or its default: the described one, else `default`; nil if there is neither. Whole numbers of options of type integer are returned as
+--- integers.
 function Options:get(name, default)
   local option, value = self:described(name), self:raw(name)
   if value == nil then
@@ -81,13 +80,13 @@ function Options:get(name, default)
   return option.type == "integer" and math.tointeger(value) or value
 end
 
---- The options in the table of that name, read in the same way; an empty one where it is no table.
+--- The options in the table of that name, read in the same way; no options if it is not a table.
 function Options:table(name)
   local value = self:raw(name)
   return Options.new(self.subject .. ": " .. name, type(value) == "table" and value or {}, self:described(name).fields, {}, self.largest)
 end
 
---- a point {x, y, z}; nil when it was not given and there is no default
+--- A point {x, y, z}; `default` if it was not given.
 function Options:point(name, default)
   local value = coordinates(self:raw(name))
   if value == nil then return default end
@@ -97,7 +96,7 @@ end
 
 local max_points = 100000
 
---- a list of at least `least` points with `size` numbers each
+--- A list of at least `least` points with `size` numbers each.
 function Options:points(name, least, size)
   local value = self:raw(name)
   local form = size == 2 and "{x, y}" or "{x, y, z}"
@@ -105,7 +104,7 @@ function Options:points(name, least, size)
     self:expected(name, ("a list of at least %d points %s"):format(least, form), value)
   end
   if #value > max_points then self:expected(name, ("a list of at most %d points"):format(max_points), value) end
-  -- a hole in the list is a point that is missing
+  -- a hole in the list is a missing point
   local points = {}
   for i = 1, #value do
     points[i] = size == 3 and coordinates(value[i]) or value[i]
@@ -116,12 +115,12 @@ function Options:points(name, least, size)
   return points
 end
 
---- refuses keys that are not described, the first in order of their names
+--- Rejects keys that are not described, the first one in alphabetical order.
 function Options:done()
   local strange, known = {}, {}
   for _, option in ipairs(self.fields) do
     known[#known + 1] = option.name
-    if not self.read[option.name] then raise(("%s: nobody reads the option '%s'"):format(self.subject, option.name), "internal") end
+    if not self.read[option.name] then raise(("%s: the option '%s' is never read"):format(self.subject, option.name), "internal") end
   end
   for key in pairs(self.given) do
     if not self.read[key] then strange[#strange + 1] = type(key) == "string" and key or described(key) end
@@ -141,7 +140,7 @@ function Options.new(subject, given, fields, places, largest)
   return self
 end
 
--- the options that the entry of a message's subject takes: "plan.sample", "world:on_step", "clench.energy.dynamic"
+-- the options of the entry that a message's subject names: "plan.sample", "world:on_step", "clench.energy.dynamic"
 local function fields_of(subject)
   local entry = descriptions.of((subject:find ":" or subject:find "^clench%.") and subject or "clench." .. subject)
   for _, item in ipairs(entry and entry.parameters or {}) do
@@ -151,16 +150,16 @@ local function fields_of(subject)
   raise(("%s: it is not described"):format(subject), "internal")
 end
 
-local fields_of_doc = {}  -- what the docs of functions that are no entries describe
+local fields_of_doc = {}  -- options described by the docs of functions that are not entries
 local function fields_in(doc)
   fields_of_doc[doc] = fields_of_doc[doc] or descriptions.parse(doc).parameters[1].fields
   return fields_of_doc[doc]
 end
 
----@param subject string  the function's name, for messages and of its description
----@param given table  what the caller wrote
+---@param subject string  the function's name, for messages and to find its description
+---@param given table  table that the caller passed
 ---@param places? string[]  names of the values that may be given by position
----@param largest? number  of all numbers
+---@param largest? number  bound of all numbers
 ---@param doc? string  "@param options table\n@option ...", of a function that is no entry
 return function(subject, given, places, largest, doc)
   return Options.new(subject, given, doc and fields_in(doc) or fields_of(subject), places or {}, largest or math.huge)

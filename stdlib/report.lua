@@ -1,4 +1,4 @@
---- What a file holds, as tables: what `clench check` prints, or writes as JSON.
+--- The content of a file as tables, which `clench check` prints or writes as JSON.
 local blamed = require "clench.blamed"
 local collected_log = require "clench.collected_log"
 local drives = require "clench.drives"
@@ -22,7 +22,7 @@ local function pass_stop(ok, problem)
   if not ok and is_stopped(problem) then error(problem, 0) end
 end
 
--- what is logged while a file is read, by what it is about; a script's own messages by their level
+-- messages logged while a file is read, by their subject; messages of scripts by their level
 local function listen(run)
   local collect, diagnostics = collected_log()
   local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}, diagnostics = diagnostics}
@@ -49,11 +49,11 @@ local function of_body(body)
           inertia = body.inertia, elastic_modulus = body.elastic_modulus, mesh = of_mesh(body.mesh), tracker = body.tracker}
 end
 
--- boxes, spheres, cylinders and cones that a planner would find, by their kind; nil when there are none
+-- counts of boxes, spheres, cylinders and cones that a planner would find; nil if there are none
 local function of_primitives(path, options)
   local counts = {}
   if not path:lower():find "%.iv$" then return nil end
-  local before = clench.log.level "quiet"  -- what is no primitive is the rule here
+  local before = clench.log.level "quiet"  -- most nodes are not primitives: no messages
   local ok, list = pcall(clench.files.primitives, path, {root = options.root, confine = options.confine})
   clench.log.level(before)
   pass_stop(ok, list)
@@ -73,7 +73,7 @@ local function of_dofs(robot)
   return dofs
 end
 
--- a DOF moves in meters when its joints slide
+-- a DOF moves in meters if its joints are prismatic
 local function units_of(robot)
   local units = {}
   for _, chain in ipairs(robot.chains) do
@@ -98,7 +98,7 @@ local function of_chains(robot)
   return chains
 end
 
--- what its file describes and nothing acts on; nil when there is nothing
+-- elements of its file that are kept without effect; nil if there are none
 local function of_kept(robot)
   local kept = {
     tendons = #robot.tendons > 0 and names(robot.tendons) or nil,
@@ -110,7 +110,7 @@ local function of_kept(robot)
   return next(kept) and kept
 end
 
--- DOFs that would close the robot, or all where actuators drive none, and that no motor closes, in a sentence; nil: there are none
+-- DOFs that close the robot, or all if actuators drive none, and that no motor closes, in a sentence; nil: there are none
 local function of_closing(robot)
   local closes = #robot.actuators > 0
   for _, info in ipairs(robot.dof_info) do closes = closes or info.default_velocity ~= 0 end
@@ -127,8 +127,8 @@ local function of_robot(robot)
           actuators = #robot.actuators, kept = of_kept(robot), not_closed = of_closing(robot)}
 end
 
--- tells of sets for grasping that no file gives; of a robot that never closes, none
-local function tell_generated(robot, subject)
+-- logs the sets for grasping that were generated instead of read from a file; nothing for a robot that never closes
+local function report_generated(robot, subject)
   local closes = false
   for _, info in ipairs(robot.dof_info) do closes = closes or info.default_velocity ~= 0 end
   if not closes then return end
@@ -155,7 +155,7 @@ local function overlaps_of(world)
 end
 
 local function of_world(world, path)
-  for _, robot in ipairs(world.robots) do tell_generated(robot, ("%s: '%s'"):format(file_name(path), robot.name)) end
+  for _, robot in ipairs(world.robots) do report_generated(robot, ("%s: '%s'"):format(file_name(path), robot.name)) end
   local objects, obstacles, robots, keyframes = {}, {}, {}, {}
   for i, body in ipairs(world.objects) do objects[i] = of_body(body) end
   for i, body in ipairs(world.obstacles) do obstacles[i] = of_body(body) end
@@ -169,7 +169,7 @@ local function of_world(world, path)
           gravity = numbers(world.gravity), keyframes = keyframes}
 end
 
--- MJCF holds one robot, or a scene: a world of several things
+-- an MJCF file describes one robot, or a scene: a world of several things
 local function is_mjcf(path)
   local file = io.open(path, "rb")
   local head = file and file:read(65536) or ""
@@ -177,16 +177,16 @@ local function is_mjcf(path)
   return head:find "<mujoco" ~= nil
 end
 
--- nil when it is one robot alone
+-- nil if the file describes only one robot
 local function of_scene(path, options)
-  local world = clench.load(path, reading("robot", options))  -- its meshes, too, may lie elsewhere
+  local world = clench.load(path, reading("robot", options))  -- its meshes may also be in other folders
   if #world.robots == 1 and #world.objects == 0 and #world.obstacles == 0 then return nil end
   local parsed = of_world(world, path)
   parsed.is_scene = true
   return parsed
 end
 
--- ranges of numbers by name, of the first names; those of further names are counted
+-- ranges of numbers by name, for the first names; further names are counted
 local max_ranges = 100
 local function new_ranges() return {by_name = {}, order = {}, others = {}, more = 0} end
 
@@ -215,7 +215,7 @@ local function of_grasps(list, format)
   local pairs_of, labels, dofs, measures, notes = {}, {}, new_ranges(), new_ranges(), new_ranges()
   local counts = {unnamed_dofs = 0, without_pose = 0, with_contacts = 0, with_pregrasp = 0, collision_free = 0, in_collision = 0}
   local function count(key, is) if is then counts[key] = counts[key] + 1 end end
-  local unnamed = 0  -- DOFs beyond those that are listed
+  local unnamed = 0  -- DOFs that are not listed
   local best_epsilon  -- kept separately: only the first measures are listed
   for _, grasp in ipairs(list) do
     local hand, object = grasp.hand_name, grasp.object_name
@@ -259,7 +259,7 @@ local readers = {
   end,
   robot = function(path, options)
     local robot = clench.world():add_robot(path, options)
-    tell_generated(robot, file_name(path))
+    report_generated(robot, file_name(path))
     return of_robot(robot)
   end,
   world = function(path, options) return of_world(clench.load(path, options), path) end,
@@ -298,12 +298,11 @@ local readers = {
   end,
 }
 
---- One file, parsed: what `clench check` says of it. Loaded by require "clench.report" or as clench.report.
---- `parsed` is a table of what its kind holds, all in meters, kilograms and radians; without it `error` says why.
---- With `strict` so does the first sentence of what was repaired, not used or suspicious.
---- `diagnostics` holds what was inferred, repaired, ignored and suspicious as values, as `clench.log.collect` returns them.
+--- Parses one file and returns the content of the report of `clench check`. Available by require "clench.report" or as clench.report. `parsed` is a table of
+--- the content, which depends on the kind of file, in meters, kilograms and radians; if it is absent, `error` states the reason. With `strict`, `error` is the
+--- first sentence about repaired, ignored or suspicious content, if there is any. `diagnostics` contains all messages as values, like `clench.log.collect`.
 ---@param path string  file to check
----@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  those that its kind takes are used
+---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  options that do not apply to the kind of file are ignored
 ---@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], diagnostics: table[], error: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
 --- > r.kind, #r.parsed.dofs, r.parsed.dofs[2].unit  --> robot, 4, rad
@@ -321,9 +320,9 @@ function report.of(path, options)
   elseif ok and result.robots then
     kind = "world"
   end
-  -- a world in Lua tells what its own files have wrong
-  local told = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
-  if told then ok, result = false, told end
+  -- a world in Lua reports faults of the files that it loads
+  local fault = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
+  if fault then ok, result = false, fault end
   return {file = path, kind = kind, parsed = ok and result or nil, inferred = heard.inferred, repaired = heard.repaired,
           ignored = heard.ignored, suspicious = heard.suspicious, diagnostics = heard.diagnostics,
           error = not ok and (blamed(result) or error_text(result)) or nil}

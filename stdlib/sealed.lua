@@ -1,8 +1,8 @@
 -- stdlib/sealed.lua
---- A module as scripts have it: its names are read, one that is not there is an error, and none can be set.
+--- A read-only view of a module for scripts: unknown names raise an error, and no name can be set.
 ---@param name string  "clench.csv"
----@param contents table  what it reads from; with a metatable of its own where names are loaded when first used
----@param list? function  what pairs of it gives; without: the contents
+---@param contents table  contents; has a metatable if names are loaded on first use
+---@param list? function  iterator for pairs; the contents by default
 ---@return table
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
@@ -24,7 +24,7 @@ return function(name, contents, list)
       raise(("%s.%s cannot be set: %s"):format(name, key, how))
     end
     local near = type(key) == "string" and suggest(key, known) or ""
-    raise(("%s has no '%s' to set%s; a script keeps its values in variables of its own"):format(name, tostring(key), near))
+    raise(("%s has no '%s' to set%s; a script keeps its values in its own variables"):format(name, tostring(key), near))
   end
 
   if not getmetatable(contents) then

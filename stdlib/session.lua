@@ -15,7 +15,7 @@ function Session:__tostring()
   return ("session of %d commands%s"):format(#self.history.done, self.world and ", " .. tostring(self.world) or ", no world is open")
 end
 
-local groups = {"world", "settings", "file", "edit", "select", "body", "grasp", "quality", "planner", "dynamics"}
+local groups = {"world", "settings", "file", "edit", "select", "body", "grasp", "quality", "planner", "dynamics", "virtual", "misc"}
 local events = {changed = true, diagnostic = true, progress = true, result = true}
 
 local function command_named(self, name)
@@ -34,18 +34,18 @@ local function check_enabled(self, command)
   raise(("session:run: %s: the command cannot run now%s"):format(command.name, type(reason) == "string" and ": " .. reason or ""))
 end
 
-local max_depth = 20  -- of commands that run commands
+local max_depth = 20  -- nesting depth of commands that run commands
 
 local function run_within(self, command, args)
   if self.depth >= max_depth then
-    raise(("session:run: %s: commands that run commands are more than %d deep; does one run itself?"):format(command.name, max_depth))
+    raise(("session:run: %s: commands that run commands are nested more than %d deep; does one run itself?"):format(command.name, max_depth))
   end
   self.depth = self.depth + 1
   local _ <close> = setmetatable({}, {__close = function() self.depth = self.depth - 1 end})
   return command.run(self, args)
 end
 
--- Runs a command; what it logs becomes events if someone has subscribed to them, and is printed otherwise.
+-- Runs a command; its log messages become events if there are subscribers, and are printed otherwise.
 local function run_heard(self, command, args)
   if #(self.subscribers.diagnostic or {}) == 0 then return run_within(self, command, args) end
   local ok, result
@@ -55,7 +55,7 @@ local function run_heard(self, command, args)
   return result
 end
 
--- the name of another command with the shortcut
+-- the name of another command with this shortcut
 local function user_of(self, shortcut, name)
   for _, other in ipairs(self.order) do
     if shortcut and self.commands[other].shortcut == shortcut and other ~= name then return other end
@@ -69,16 +69,17 @@ end
 
 --- Registers a command.
 ---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
----  name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =, type =, unit =, min =, max =, default =,
----  optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of Lua that do the same,
----  logged instead of the resulting state; replace: it may take the place of a command of the same name; long: it may take seconds, so a server runs it as a job (it needs script)
+--- name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
+--- type =, unit =, min =, max =, default =, optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
+--- Lua with the same effect, logged instead of the resulting state; replace: it may replace a command of the same name; long: it may take seconds, so a server
+--- runs it as a job (requires script)
 function Session:command(command)
   arguments.check_command(command)
   if self.commands[command.name] and not command.replace then
-    raise(("session:command: there is a command '%s' already; replace = true puts another in its place"):format(command.name))
+    raise(("session:command: there is a command '%s' already; replace = true replaces it"):format(command.name))
   end
   local user = user_of(self, command.shortcut, command.name)
-  if user then raise(("session:command: %s: shortcut: '%s' is that of %s"):format(command.name, command.shortcut, user)) end
+  if user then raise(("session:command: %s: shortcut: '%s' belongs to %s"):format(command.name, command.shortcut, user)) end
   add_command(self, command)
 end
 
@@ -97,9 +98,9 @@ function Session:menus()
   return menus
 end
 
---- Calls a function at events: "changed" after each command, undo, redo and gesture that changes the session, and while dynamics play;
---- "result" with what a command returned, and at the end of a job; "progress" of jobs, while `clench.loop` runs; "diagnostic" with each message
---- that a command logs, which is then not printed.
+--- Calls a function at events: "changed" after each command, undo, redo and gesture that changes the session, and during playback; "result" with the result of
+--- a command, and at the end of a job; "progress" of jobs, while `clench.loop` runs; "diagnostic" with each message that a command logs, which is then not
+--- printed.
 ---@param event "changed"|"diagnostic"|"progress"|"result"
 ---@param f fun(value: table)
 ---@return fun() unsubscribe
@@ -121,10 +122,10 @@ function Session:emit(event, value)
   for _, f in ipairs {table.unpack(self.subscribers[event] or {})} do f(value) end
 end
 
---- Runs a command. If it fails, the session is as it was before.
+--- Runs a command. If it fails, the session is restored.
 ---@param name string
----@param args? table  by name
----@return any result  of the command
+---@param args? table  arguments by name
+---@return any result  result of the command
 function Session:run(name, args)
   local command = command_named(self, name)
   args = arguments.read(command, args)
@@ -134,14 +135,14 @@ function Session:run(name, args)
     self:emit("result", {command = name, result = result})
     return result
   end
-  -- a command that another one runs is part of that one
+  -- a command that another command runs is part of it
   if self.is_running then return run_within(self, command, args) end
   self:end_gesture()
   local before = history.state_of(self)
   self.is_running = true
   local lines
   local ok, result = pcall(function()
-    -- the lines are made before the command runs, as it may change names
+    -- the lines are created before the command runs, as it may change names
     lines = command.script and command.script(self, args)
     local result = run_heard(self, command, args)
     lines = lines or script.of_change(self, before)
@@ -160,7 +161,7 @@ function Session:run(name, args)
 end
 
 --- Undoes the last command.
----@return string? label  nil: there was none
+---@return string? label  nil: nothing was undone
 function Session:undo()
   if self.is_running then raise "session:undo: a command is running" end
   self:end_gesture()
@@ -169,8 +170,8 @@ function Session:undo()
   return label
 end
 
---- Repeats the command that was undone last.
----@return string? label  nil: there was none
+--- Repeats the last command that was undone.
+---@return string? label  nil: nothing was repeated
 function Session:redo()
   if self.is_running then raise "session:redo: a command is running" end
   self:end_gesture()
@@ -179,32 +180,32 @@ function Session:redo()
   return label
 end
 
---- Begins a change of many small parts, such as a drag: until `end_gesture` the script changes the world itself, and all of it is one step of
---- undo. Any command that changes the session ends it first.
----@param label string  of the step of undo
----@param lines? fun(): string  lines of Lua that do the same; by default the resulting poses, DOFs, masses and materials are logged
+--- Begins a gesture, a sequence of many small changes such as a drag: until `end_gesture` the script changes the world directly, and all changes form one step
+--- of undo. Any command that changes the session ends the gesture first.
+---@param label string  label of the undo step
+---@param lines? fun(): string  returns lines of Lua with the same effect; by default the resulting poses, DOFs, masses and materials are logged
 ---@param over? fun()  called when it ends or is cancelled
 function Session:begin_gesture(label, lines, over)
   if type(label) ~= "string" then raise("session:begin_gesture: label: expected a string, got " .. described(label)) end
   gesture.begin(self, label, lines, over)
 end
 
---- Ends the gesture, if one is open.
+--- Ends the open gesture, if there is one.
 function Session:end_gesture() gesture.finish(self) end
 
---- Ends the gesture, if one is open, and takes back its changes.
+--- Ends the open gesture, if there is one, and reverts its changes.
 function Session:cancel_gesture() gesture.cancel(self) end
 
 --- Adds a job to `session.jobs`; its progress and its end become events while `clench.loop` runs.
 ---@param job job
----@param name? string  of a command, for the events
+---@param name? string  name of a command, for the events
 ---@return job
 function Session:add_job(job, name)
   if clench.type(job) ~= "job" then raise("session:add_job: expected a job, got " .. described(job)) end
   return jobs.add(self, job, name)
 end
 
---- Grasps of a planner's job: those of its result, the best first, or those that were found until now.
+--- Grasps of a planner's job: those of its result, best first, or those found so far.
 ---@param job job  one of session.jobs
 ---@return grasp[]
 function Session:grasps_of(job)
@@ -212,23 +213,32 @@ function Session:grasps_of(job)
   return jobs.grasps(self, job)
 end
 
---- Opens a world file in place of the world that is open.
+--- Opens a world file, which replaces the open world.
 ---@param path string
----@param options? table  of clench.load
+---@param options? table  options of clench.load
 function Session:open(path, options) return self:run("world.open", {path = path, options = options}) end
 
 --- Saves the world.
----@param path? string  the file that was opened or saved last, unless given
+---@param path? string  the file; by default the one that was opened or saved last
 function Session:save(path) return self:run("world.save", {path = path}) end
 
---- Has the session changed since it was opened or saved?
-function Session:is_modified() return self.gesture ~= nil or self.saved_at ~= self.history.done[#self.history.done] end
+--- Has the session changed since it was opened or saved? A selection is no change.
+---@return boolean
+function Session:is_modified()
+  if self.gesture then return true end
+  local done = self.history.done
+  for i = #done, 1, -1 do
+    if done[i] == self.saved_at then return false end
+    if done[i].lines ~= "" then return true end
+  end
+  return self.saved_at ~= nil
+end
 
---- The commands done and not undone, as a script of plain calls that makes the same world.
+--- The commands in the history that were not undone, as a script of plain calls that creates the same world.
 ---@return string
 function Session:script() return script.of(self) end
 
---- The body, robot or link of an address: "flask", "dlr", "dlr/chain0_link2". A slash within a name is written as "\/".
+--- The body, robot or link with an address: "flask", "dlr", "dlr/chain0_link2". A slash within a name is written as "\/".
 ---@param address string
 function Session:find(address) return arguments.find(self, address) end
 

@@ -1,6 +1,6 @@
---- A value as text for people: tables with their contents, keys sorted, a few levels deep.
+--- Converts a value to text for readers: tables with their contents, sorted by keys, up to five levels deep.
 ---@param value any
----@param width? integer  about how many characters, default 400; what does not fit is counted
+---@param width? integer  approximate number of characters, 400 by default; omitted items are counted
 ---@return string
 local type, tostring, next, rawlen, rawget = type, tostring, next, rawlen, rawget
 local getmetatable, format, find, concat, sort = debug.getmetatable, string.format, string.find, table.concat, table.sort
@@ -27,13 +27,13 @@ end
 
 local show
 
--- a table says its own text if it has one, except for lists that ask us
+-- does a table have a text from __tostring? Lists of clench, which have __contents, are shown here
 local function has_own_text(value)
   local meta = getmetatable(value)
   return type(meta) == "table" and rawget(meta, "__tostring") ~= nil and rawget(meta, "__contents") == nil
 end
 
--- what a library of clench reads from; any other table is shown as it is, and none of its code runs
+-- the contents of a library of clench; any other table is shown raw, and none of its code runs
 local function contents_of(value)
   local meta = getmetatable(value)
   local name = type(meta) == "table" and rawget(meta, "__name")

@@ -1,4 +1,4 @@
---- What a list of measured numbers says.
+--- Statistics of lists of numbers.
 local raise = require "clench.raise"
 local described = require "clench.described"
 local module_name = require "clench.module_name"
@@ -27,7 +27,7 @@ local function sorted_copy(values)
   return sorted
 end
 
--- of a sorted list, linear between neighbors
+-- of a sorted list, by linear interpolation
 local function quantile_of(sorted, part)
   local at = 1 + part * (#sorted - 1)
   local low = math.floor(at)
@@ -45,7 +45,7 @@ local function std_of(values)
   local mean, largest, squares = mean_of(values), 0, 0
   for _, value in ipairs(values) do largest = math.max(largest, math.abs(value - mean)) end
   if largest == 0 or #values == 1 then return 0 end
-  -- in parts of the largest, whose square may be more than there is a number for
+  -- scaled by the largest deviation, whose square may overflow
   for _, value in ipairs(values) do squares = squares + ((value - mean) / largest) ^ 2 end
   return largest * math.sqrt(squares / (#values - 1))
 end
@@ -60,7 +60,7 @@ function stats.mean(values)
   return mean_of(values)
 end
 
---- The standard deviation of the sample: divided by one less than their number. 0 of a single number.
+--- The sample standard deviation, with denominator n - 1; 0 for a single number.
 ---@param values number[]  at least one
 ---@return number
 --- > clench.stats.std {1, 3}  --> 1.4142135623731
@@ -69,9 +69,9 @@ function stats.std(values)
   return std_of(values)
 end
 
---- The number below which a part of all lie, linear between neighbors.
+--- The quantile: the number below which a given fraction of the values lies, by linear interpolation.
 ---@param values number[]  at least one
----@param part number  0 the least, 0.5 the median, 1 the largest
+---@param part number  fraction in [0, 1]; 0: minimum, 0.5: median, 1: maximum
 ---@return number
 --- > clench.stats.quantile({5, 1, 2, 4, 3}, 0.5)  --> 3.0
 --- > clench.stats.quantile({1, 2}, 50)  --> error: stats.quantile: part: expected a number from 0 to 1, got 50
@@ -83,7 +83,7 @@ function stats.quantile(values, part)
   return quantile_of(sorted_copy(values), part)
 end
 
---- All at once: how many they are, mean, standard deviation of the sample, least, largest, median, and what 5 and 95 % lie below.
+--- Summary statistics: count, mean, sample standard deviation, minimum, maximum, median, and 5th and 95th percentiles.
 ---@param values number[]  at least one
 ---@return {count: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number}
 --- > s = clench.stats.summary {4, 1, 3, 2, 5}
@@ -96,14 +96,14 @@ function stats.summary(values)
           max = sorted[#sorted]}
 end
 
---- How many numbers lie in each of some intervals of the same width, each with its lower end, the last with both. Without `bins` there are
---- as many as Sturges (1926) recommends, 1 + log2 of the count, rounded up; numbers outside `low` and `high` are counted beside them.
+--- Counts the numbers in intervals of equal width; each includes its lower edge, the last one both edges. The default number of bins is that of Sturges (1926),
+--- 1 + log2 of the count, rounded up; numbers outside of `low` and `high` are counted separately.
 ---@param values number[]  at least one
----@param options? table  the intervals
+---@param options? table  settings of the intervals
 ---@option bins? integer [1 to 100000]  number of intervals, by default by Sturges' rule
----@option low? number  where the first begins, the least of the numbers by default
----@option high? number  where the last ends, the largest of the numbers by default
----@return {edges: number[], counts: integer[], below: integer, above: integer}  one edge more than counts
+---@option low? number  lower edge of the first interval, by default the minimum
+---@option high? number  upper edge of the last interval, by default the maximum
+---@return {edges: number[], counts: integer[], below: integer, above: integer}  edges: one more than counts; below, above: numbers outside of the intervals
 --- > h = clench.stats.histogram({0, 1, 1, 2, 3, 4}, {bins = 2})
 --- > h.edges  --> {0.0, 2.0, 4.0}
 --- > h.counts  --> {3, 3}
@@ -116,7 +116,7 @@ function stats.histogram(values, options)
   local bins = read:get("bins", math.max(1, math.ceil(1 + math.log(#values, 2))))
   local low, high = read:get("low", least), read:get("high", largest)
   read:done()
-  -- equal numbers need a width, too
+  -- equal numbers also need an interval with a width
   if low == high then low, high = low - 0.5, high + 0.5 end
   if low > high then fail("histogram", "expected low below high, got %s and %s", described(low), described(high)) end
   local out = {edges = {}, counts = {}, below = 0, above = 0}
@@ -129,7 +129,7 @@ function stats.histogram(values, options)
       out.above = out.above + 1
     else
       local bin = math.min(bins, 1 + math.floor((value - low) / (high - low) * bins))
-      -- where rounding has put it beside an edge
+      -- corrects bins at edges for rounding errors
       while bin > 1 and value < out.edges[bin] do bin = bin - 1 end
       while bin < bins and value >= out.edges[bin + 1] do bin = bin + 1 end
       out.counts[bin] = out.counts[bin] + 1
@@ -138,7 +138,7 @@ function stats.histogram(values, options)
   return out
 end
 
---- The interval that holds a probability with 95 % confidence, after so many successes in so many trials. Source: Wilson (1927).
+--- The 95 % confidence interval of a probability, from the numbers of successes and trials. Source: Wilson (1927).
 ---@param successes integer [>= 0]  number of successes
 ---@param trials integer [>= 0]  number of trials
 ---@return {low: number, high: number}
@@ -154,7 +154,7 @@ function stats.interval(successes, trials)
   check_count("successes", successes)
   check_count("trials", trials)
   if trials == 0 or successes > trials then
-    fail("interval", "expected at least one trial, and no more successes than trials, got %d of %d", successes, trials)
+    fail("interval", "expected at least one trial, and at most as many successes as trials, got %d of %d", successes, trials)
   end
   local z = 1.959963984540054
   local p, n = successes / trials, trials

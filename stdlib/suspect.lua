@@ -1,13 +1,13 @@
---- Warns, once each, of numbers that are more likely degrees or millimeters, as the engine does of poses.
+--- Warns once of a number that is probably in degrees, and once of one in millimeters, as the engine does for poses.
 local script_line = require "clench.script_line"
 local suspect = {}
 
 local max_turn, max_distance = 2 * math.pi, 10
-local told = {}
+local warned = {}
 
 local function warn_once(kind, format, ...)
-  if told[kind] then return end
-  told[kind] = true
+  if warned[kind] then return end
+  warned[kind] = true
   clench.log.warning(script_line() .. format:format(...))
 end
 
@@ -17,7 +17,7 @@ function suspect.degrees(subject, name, angle)
   warn_once("degrees", "%s: %s is %.6g: radians? clench.rad(%.6g) is %.4g", subject, name, angle, angle, math.rad(angle))
 end
 
--- length [m]; size: of the object that it belongs to, 10 m by default [m]
+-- length [m]; size: size of the object that it refers to, 10 m by default [m]
 function suspect.millimeters(subject, name, length, size)
   if length <= math.min(size or max_distance, max_distance) then return end
   local why = size and size <= max_distance and (", more than the object's size of %.3g m"):format(size) or ""

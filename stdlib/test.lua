@@ -1,5 +1,5 @@
---- Tests as claims: `test("a ring of contacts balances", function(t) t.close(sum, 0, 1e-12) end)`. Each runs where it
---- stands; `clench test` counts them, file by file.
+--- Tests as claims: `test("a ring of contacts balances", function(t) t.close(sum, 0, 1e-12) end)`. Each test runs immediately; `clench test` counts them per
+--- file.
 local described = require "clench.described"
 local error_text = require "clench.error_text"
 local printable = require "clench.printable"
@@ -7,12 +7,12 @@ local raise = require "clench.raise"
 local show = require "clench.show"
 local test = {passed = 0, failed = 0, skipped = 0}
 
-local skip = {}  -- the mark of a test that stops because it cannot run here
+local skip = {}  -- marks a test that stops because it cannot run here
 local failure = {__tostring = function(self) return self.message end}
 
 local function fail(format, ...) error(setmetatable({message = format:format(...)}, failure), 0) end
 
--- a text in quotes, anything else as the console shows it
+-- a text in quotes; other values as in the console
 local function shown(x) return type(x) == "string" and "'" .. x .. "'" or show(x) end
 
 local function equal(a, b)
@@ -27,7 +27,7 @@ local function equal(a, b)
   return true
 end
 
--- of a list or a vector; of anything else nil
+-- of a list or a vector; nil for other values
 local function length(x)
   if type(x) == "table" then return #x end
   if type(x) ~= "userdata" then return nil end
@@ -35,7 +35,7 @@ local function length(x)
   return ok and count or nil
 end
 
--- the largest difference of two numbers or of two lists of them, vectors too
+-- the maximum difference of two numbers, or of two lists or vectors of them
 local function difference(a, b)
   if type(a) == "number" and type(b) == "number" then
     if a == b then return 0 end
@@ -52,22 +52,22 @@ local function difference(a, b)
   return worst
 end
 
---- what a test is given
+--- The argument of a test.
 local t = {}
 
---- the value must be true, or at least not nil or false
+--- The value must be true, or at least not nil or false.
 ---@param ok any
 ---@param message? string
 function t.ok(ok, message)
   if not ok then fail("%s", message or "expected true, got " .. show(ok)) end
 end
 
---- the same value; tables with the same contents
+--- The values must be equal; tables must have equal contents.
 function t.equal(got, want)
   if not equal(got, want) then fail("expected %s, got %s", shown(want), shown(got)) end
 end
 
---- numbers, vectors or lists of numbers, nowhere further apart than tolerance
+--- Numbers, vectors or lists of numbers must agree within the tolerance.
 function t.close(got, want, tolerance)
   if math.type(tolerance) == nil or not (tolerance >= 0 and tolerance < math.huge) then
     fail("close: expected a tolerance of at least 0, got %s", shown(tolerance))
@@ -78,7 +78,7 @@ function t.close(got, want, tolerance)
   end
 end
 
---- fn must raise an error whose message contains each of the texts; returns the message
+--- fn must raise an error whose message contains each of the texts; returns the message.
 function t.fails(fn, ...)
   if type(fn) ~= "function" then fail("fails: expected a function, got %s", shown(fn)) end
   for i = 1, select("#", ...) do
@@ -94,7 +94,7 @@ function t.fails(fn, ...)
   return message
 end
 
---- runs fn; returns the warnings that it logs, a list of texts
+--- Runs fn; returns the warnings that it logs, as a list of texts.
 function t.warnings(fn)
   local said = {}
   clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)
@@ -104,17 +104,17 @@ function t.warnings(fn)
   return said
 end
 
---- ends the test without a verdict
+--- Ends the test as skipped.
 function t.skip(reason) error({mark = skip, reason = reason or "no reason given"}, 0) end
 
--- by Ctrl-C: no test comes after it
+-- raised by Ctrl-C: no further test runs
 local interrupted = setmetatable({}, {__tostring = function() return "interrupted" end})
 
 local function explain(message)
   if message == interrupted or type(message) == "table" and rawget(message, "kind") == "stopped" then return interrupted end
   if type(message) == "table" and rawequal(rawget(message, "mark"), skip) then return message end
   if getmetatable(message) == failure then
-    -- the line of the test that failed is what is looked for
+    -- finds the line of the failed test
     for level = 3, 12 do
       local info = debug.getinfo(level, "Sl")
       if info and info.currentline > 0 and not info.source:find "^@stdlib/test%.lua" then
@@ -126,7 +126,7 @@ local function explain(message)
   return debug.traceback(error_text(message), 2)
 end
 
--- t:ok(x) would take t itself for x
+-- t:ok(x) would pass t as the value
 for name, claim in pairs(t) do
   t[name] = function(first, ...)
     if rawequal(first, t) then fail("expected t.%s(...), got t:%s(...)", name, name) end
@@ -134,15 +134,15 @@ for name, claim in pairs(t) do
   end
 end
 
--- the folder of temporary files, which is removed when Lua's state closes, and how many there are
+-- folder of temporary files, which is removed when the Lua state closes, and number of paths
 local folder, paths = nil, 0
 local tmpname = os.tmpname
 
 local function make_folder(path) assert(os.execute("mkdir " .. path), "the folder " .. path .. " could not be made") end
 
---- A new temporary path with this ending; with a text, that of a file that holds it. It is removed at the end of `clench test`.
+--- A new temporary path with this ending; with a text, the file is created with this content. It is removed at the end of `clench test`.
 ---@param ending? string  such as ".urdf"
----@param text? string  contents of the file; without it no file is written
+---@param text? string  content of the file; without it no file is written
 ---@return string
 function test.path(ending, text)
   if not folder then
@@ -157,7 +157,7 @@ function test.path(ending, text)
   return path
 end
 
---- A new empty folder, which is removed with all in it at the end of `clench test`.
+--- A new empty folder, which is removed with its content at the end of `clench test`.
 ---@return string
 function test.folder()
   local path = test.path()
@@ -165,7 +165,7 @@ function test.folder()
   return path
 end
 
----@param claim string  what holds
+---@param claim string  the claim that is tested
 ---@param fn fun(t: table)
 local function run(_, claim, fn)
   if type(claim) ~= "string" or type(fn) ~= "function" then error("test: expected a claim and a function", 2) end
@@ -182,11 +182,11 @@ local function run(_, claim, fn)
   end
 end
 
---- runs a file of tests, for `clench test`; returns how many passed, failed, were skipped
+--- Runs a file of tests, for `clench test`; returns the numbers of passed, failed and skipped tests.
 function test.run_file(path)
   if type(path) ~= "string" then raise("test.run_file: path: expected a name, got " .. described(path)) end
   package.loaded.test = test
-  -- a file that ends the program would hide the tests after it
+  -- a file that ends the program would hide the tests of the files after it
   local exit <close> = setmetatable({exit = os.exit}, {__close = function(saved) os.exit = saved.exit end})
   os.exit = function() error("os.exit: a file of tests cannot end the run", 2) end
   local chunk, message = loadfile(path, "t")

@@ -1,4 +1,4 @@
---- Things that wait for times, the earliest first; those of equal times in the order of their numbers. Adding and removing take logarithmic time.
+--- A queue of things by time, earliest first; things with equal times in the order of their numbers. Adding and removing take logarithmic time.
 local class = require "clench.class"
 
 local Queue = class "time queue"
@@ -12,7 +12,7 @@ local function put(self, entry, place)
   self.places[entry.thing] = place
 end
 
--- moves an entry from a place of the binary heap towards its root, as far as it is before its parents
+-- moves an entry from a place of the binary heap towards its root, while it precedes its parent
 local function rise(self, entry, place)
   local heap = self.heap
   while place > 1 and comes_before(entry, heap[place // 2]) do
@@ -22,7 +22,7 @@ local function rise(self, entry, place)
   put(self, entry, place)
 end
 
--- moves an entry from a place away from the root, as far as its children are before it
+-- moves an entry from a place away from the root, while a child precedes it
 local function sink(self, entry, place)
   local heap = self.heap
   while true do
@@ -38,7 +38,7 @@ end
 --- Adds a thing that is not in the queue.
 ---@param thing any
 ---@param at number  its time
----@param number integer  its order among those of this time
+---@param number integer  its order among things with the same time
 function Queue:add(thing, at, number) rise(self, {thing = thing, at = at, number = number}, #self.heap + 1) end
 
 --- Removes a thing, if it is in the queue.
@@ -57,8 +57,8 @@ end
 ---@return number?
 function Queue:first_time() return self.heap[1] and self.heap[1].at end
 
---- Takes the first thing out if its time is not after `now`.
----@return any thing, number at  nil: no time has come
+--- Removes and returns the first thing if its time is at most `now`.
+---@return any thing, number at  nil: no time has been reached
 function Queue:take(now)
   local first = self.heap[1]
   if not first or first.at > now then return nil end

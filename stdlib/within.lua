@@ -1,4 +1,4 @@
---- Is x a number from -largest to largest? math.abs would let the least integer pass, whose opposite it is itself.
+--- Is x a number from -largest to largest? Does not use math.abs, which returns the smallest integer unchanged.
 ---@param x any
 ---@param largest number
 ---@return boolean

@@ -11,7 +11,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-/// Does the file hold that text already?
+/// Does the file already contain that text?
 static bool holds(const fs::path& path, const std::string& text) {
   std::error_code error;
   return fs::is_regular_file(path, error) && read_bytes(path) == text;
@@ -40,8 +40,7 @@ int write_docs(const std::string& given, bool check) {
       if (holds(path, pages.values[i + 1])) continue;
       ++different;
       if (check)
-        std::fprintf(stderr, "clench doc: %s is not what the bindings say; run clench doc\n",
-                     path.c_str());
+        std::fprintf(stderr, "clench doc: %s is out of date; run clench doc\n", path.c_str());
       else
         write_file(path, pages.values[i + 1]);
     } catch (const Error& fault) {

@@ -1,4 +1,4 @@
-// The verbs that read files: what they do and say is in stdlib/host.
+// Verbs that read files; their behavior and output are implemented in stdlib/host.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -35,7 +35,7 @@ static int run_in_state(const std::string& verb, std::vector<std::string> argume
 
 static int run_host(const std::string& verb, const std::vector<std::string>& arguments,
                     const ReadingOptions& reading) {
-  // finalizers run as the state closes, and may ask, too
+  // finalizers run when the state is closed, and may check for interrupts, too
   std::string exit_asked;
   const int code = run_in_state(verb, arguments, reading, exit_asked);
   if (code != 0 || exit_asked.empty()) return code;

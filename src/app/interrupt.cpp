@@ -6,7 +6,7 @@
 
 namespace clench {
 
-// a signal handler has no arguments: what it needs must lie outside
+// a signal handler has no arguments: its data must be global
 static State* volatile target = nullptr;
 static volatile std::sig_atomic_t presses = 0, deadly_press = 0, first_signal = 0;
 
@@ -20,7 +20,7 @@ static void on_interrupt(int signal) {
   if (target) target->interrupt();
 }
 
-// without SA_RESTART, so that waiting for a key ends
+// without SA_RESTART, so that waiting for a key is interrupted
 static void catch_signal(int signal) {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;

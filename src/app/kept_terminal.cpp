@@ -10,11 +10,11 @@ namespace clench {
 
 static constexpr int ending_signals[] = {SIGTERM, SIGHUP, SIGQUIT};
 
-// a signal handler has no arguments: what it needs must lie outside
+// a signal handler has no arguments: its data must be global
 static termios found_terminal;
 static volatile std::sig_atomic_t marks = 0;
 
-// also in a signal handler
+// also called in a signal handler
 static void write_mark(bool on) {
   if (!isatty(STDOUT_FILENO)) return;
   [[maybe_unused]] const auto written =
@@ -28,9 +28,10 @@ void mark_pastes(bool on) {
 
 static void on_end(int number) {
   if (marks) write_mark(false);
-  // not TCSADRAIN, which would wait for a terminal that is perhaps gone
+  // not TCSADRAIN, which would wait for a terminal that may no longer exist
   tcsetattr(STDIN_FILENO, TCSANOW, &found_terminal);
-  // it waits until this returns, and then ends the program as if nobody had caught it
+  // the raised signal is delivered when this returns, and then ends the program as if it were not
+  // caught
   std::signal(number, SIG_DFL);
   std::raise(number);
 }
@@ -54,7 +55,7 @@ static void on_stop(int number) {
   sigemptyset(&only);
   sigaddset(&only, number);
   std::raise(number);
-  sigprocmask(SIG_UNBLOCK, &only, &before);  // here it stops, and goes on
+  sigprocmask(SIG_UNBLOCK, &only, &before);  // the process stops here until it is continued
   sigprocmask(SIG_SETMASK, &before, nullptr);
   set_handler(number, on_stop);
   if (known) tcsetattr(STDIN_FILENO, TCSANOW, &now);
@@ -64,7 +65,7 @@ static void on_stop(int number) {
 
 static void catch_signal(int number, void (*handler)(int), struct sigaction& before) {
   sigaction(number, nullptr, &before);
-  // what nohup or a shell has switched off stays so
+  // signals ignored by nohup or a shell stay ignored
   if (before.sa_handler != SIG_IGN) set_handler(number, handler);
 }
 

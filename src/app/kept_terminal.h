@@ -1,12 +1,12 @@
-// The terminal as it was found, for whatever ends the program while a line is edited.
+// Restores the original terminal settings when the program ends while a line is edited.
 #pragma once
 #include <csignal>
 
 namespace clench {
 
-/// While it lives, a signal that ends or stops the program (SIGTERM, SIGHUP, SIGQUIT, SIGTSTP)
-/// gives the terminal back first. A program that goes on has the line editor's again. Of these at
-/// most one lives at a time.
+/// During its lifetime, a signal that ends or stops the program (SIGTERM, SIGHUP, SIGQUIT, SIGTSTP)
+/// first restores the terminal; when the program continues, the settings of the line editor are set
+/// again. At most one may exist at a time.
 class KeptTerminal {
  public:
   KeptTerminal();
@@ -18,11 +18,10 @@ class KeptTerminal {
   struct sigaction before_[4];
 };
 
-/// Asks the terminal to put marks around pasted text, or no longer to; what gives it back does so,
-/// too.
+/// Switches bracketed paste of the terminal on or off; restoring the terminal switches it off.
 void mark_pastes(bool on);
 
-/// Signals that end the program wait as long as it lives: no file stays half-written.
+/// Blocks signals that end the program during its lifetime, so that no file is left half-written.
 class SignalsLater {
  public:
   SignalsLater();

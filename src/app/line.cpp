@@ -26,7 +26,7 @@ namespace clench {
 namespace fs = std::filesystem;
 
 struct LineEditor::Terminal {
-  KeptTerminal kept;  // before the editor changes anything
+  KeptTerminal kept;  // settings before the editor changes them
   EditLine* edit = nullptr;
   History* history = nullptr;
   HistEvent event = {};
@@ -35,8 +35,8 @@ struct LineEditor::Terminal {
   Background background;
   std::string prompt;
   bool interrupted = false;
-  bool pasting = false;  // is what comes pasted text?
-  std::string pending;   // bytes that were read, and come before those of the terminal
+  bool pasting = false;  // is the input pasted text?
+  std::string pending;   // bytes already read, returned before those of the terminal
 
   static Terminal* of(EditLine* edit) {
     void* data = nullptr;
@@ -55,7 +55,7 @@ static size_t common_start(const std::vector<std::string>& words) {
   return size;
 }
 
-// below the line, as many columns as fit
+// lists words below the line, in as many columns as fit
 static void list_words(const std::vector<std::string>& words) {
   size_t widest = 0;
   for (const auto& word : words) widest = std::max(widest, word.size() + 2);
@@ -87,7 +87,7 @@ static unsigned char complete_word(EditLine* edit, int) {
   return CC_REDISPLAY;
 }
 
-// clears the line that is typed, lets the background print, and shows the line again
+// clears the typed line, lets the background print, and shows the line again
 template <class Terminal>
 static void run_background(Terminal& terminal) {
   std::fputs("\r\x1b[K", stdout);
@@ -96,11 +96,10 @@ static void run_background(Terminal& terminal) {
   el_set(terminal.edit, EL_REFRESH);
 }
 
-// a byte of the terminal: 1, its end: 0, Ctrl-C or a failure: -1
+// reads a byte from the terminal: 1, end of input: 0, Ctrl-C or a failure: -1
 template <class Terminal>
 static int read_byte(Terminal& terminal, char& byte) {
-  // the signal is let in while poll waits and at no other time, so that none comes unnoticed just
-  // before
+  // the signal is unblocked only while poll waits, so that none is missed immediately before
   sigset_t only, before;
   sigemptyset(&only);
   sigaddset(&only, SIGINT);
@@ -126,16 +125,16 @@ static int read_byte(Terminal& terminal, char& byte) {
   return count;
 }
 
-// what a terminal puts around pasted text
+// markers of bracketed paste
 static constexpr std::string_view paste_begins = "\x1b[200~", paste_ends = "\x1b[201~";
 
-// does a byte follow at once, as those of one key do?
+// does a byte follow immediately, as in the sequence of a key?
 static bool goes_on() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   return poll(&input, 1, 20) == 1;
 }
 
-// as read_byte; of pasted text a tab is quoted, so that it completes nothing
+// as read_byte; tabs in pasted text are quoted, so that they do not trigger completion
 template <class Terminal>
 static int next_byte(Terminal& terminal, char& byte) {
   std::string& pending = terminal.pending;
@@ -165,7 +164,7 @@ static int next_byte(Terminal& terminal, char& byte) {
   }
 }
 
-// one character from the terminal; Ctrl-C ends the waiting
+// reads one character from the terminal; Ctrl-C ends the wait
 template <class Terminal>
 static int read_character(EditLine* edit, wchar_t* out) {
   Terminal* terminal = Terminal::of(edit);
@@ -175,7 +174,7 @@ static int read_character(EditLine* edit, wchar_t* out) {
     const int count = next_byte(*terminal, byte);
     if (count <= 0) return count;
     const size_t used = std::mbrtowc(out, &byte, 1, &partial);
-    if (used == static_cast<size_t>(-2)) continue;  // the beginning of a character
+    if (used == static_cast<size_t>(-2)) continue;  // incomplete character
     if (used == static_cast<size_t>(-1)) partial = {}, *out = L'?';
     return 1;
   }
@@ -216,7 +215,8 @@ LineEditor::Key LineEditor::read(const std::string& prompt, std::string& line) {
   t.prompt = prompt;
   t.interrupted = false;
   take_interrupt();
-  // before the prompt shows, or a key pressed right then goes by the terminal's own rules
+  // set before the prompt is shown, otherwise a key pressed at that time would be handled by the
+  // terminal
   el_set(t.edit, EL_PREP_TERM, 1);
   mark_pastes(true);
   int count = 0;

@@ -1,4 +1,4 @@
-// A line typed at a terminal: editing, history, completion. The one file that knows libedit.
+// Reads a line typed at a terminal: editing, history, completion. The only file that uses libedit.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -10,7 +10,7 @@ namespace clench {
 
 class LineEditor {
  public:
-  /// What the cursor's word may become: first the word as far as it is typed, then whole words.
+  /// Completions of the word at the cursor: first its part up to the cursor, then complete words.
   using Complete = std::function<std::vector<std::string>(const std::string& before_cursor)>;
   enum class Key { line, interrupted, end };
   /// Background work while a line is typed: `run` is called whenever the descriptor is readable. It
@@ -20,7 +20,7 @@ class LineEditor {
     std::function<void()> run;
   };
 
-  /// history  a file; made when something is remembered, and ignored when it cannot be
+  /// history  a file; created when a line is first remembered, and ignored if that fails
   LineEditor(std::filesystem::path history, Complete complete, Background background);
   ~LineEditor();
 
@@ -33,8 +33,8 @@ class LineEditor {
   std::unique_ptr<Terminal> terminal_;
 };
 
-/// $XDG_STATE_HOME/clench/history, else ~/.local/state/clench/history where that folder exists,
-/// else ~/.clench_history.
+/// $XDG_STATE_HOME/clench/history; otherwise ~/.local/state/clench/history if that folder exists,
+/// or ~/.clench_history.
 std::filesystem::path history_file();
 
 }  // namespace clench

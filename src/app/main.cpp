@@ -20,11 +20,11 @@
 namespace clench {
 
 struct CommandLine {
-  std::vector<std::string> ours;    ///< up to and with the script's name
-  std::vector<std::string> script;  ///< what follows it belongs to the script
+  std::vector<std::string> ours;    ///< up to and including the script's name
+  std::vector<std::string> script;  ///< the rest, passed to the script
 };
 
-// `clench run FILE --x 1`: everything after FILE is the script's own, whatever it looks like
+// `clench run FILE --x 1`: everything after FILE is passed to the script unchanged
 static CommandLine split(int argc, char** argv) {
   CommandLine line;
   bool run = false, file = false;
@@ -45,19 +45,19 @@ static CommandLine split(int argc, char** argv) {
   return line;
 }
 
-// what --help says of every verb that loads
+// text in --help of every verb that loads files
 static const std::string trust =
-    "\n\nScripts and worlds in Lua are programs; files of every other format run nothing, and may "
-    "have regular files read that they name, with --confine only those below FOLDER. See "
+    "\n\nScripts and worlds in Lua are programs; files of every other format run nothing, and can "
+    "only name other regular files to be read, with --confine only files below FOLDER. See "
     "docs/guide/trust.md.";
 
-// the program or the verb that was read
+// the parsed verb, or the program if there is none
 static const CLI::App& verb_of(const CLI::App& app) {
   const auto verbs = app.get_subcommands();
   return verbs.empty() ? app : *verbs.front();
 }
 
-// Says what is wrong with the command line, and where to read more.
+// Prints an error in the command line, and a reference to --help.
 static int refuse(const CLI::App& app, const std::string& why) {
   const CLI::App& verb = verb_of(app);
   const std::string name = &verb == &app ? "clench" : "clench " + verb.get_name();
@@ -66,11 +66,11 @@ static int refuse(const CLI::App& app, const std::string& why) {
   return 2;
 }
 
-// What neither the program nor the verb that was read takes: the first of it, and the option that
-// it may have meant.
+// Prints the first word that neither the program nor the parsed verb accepts, and suggests the
+// option that may have been meant.
 static int refuse_extra(const CLI::App& app) {
   const auto extras = app.remaining(true);
-  // an option rather than what would have been its value
+  // an option rather than the word that would have been its value
   const auto option =
       std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with('-'); });
   const std::string word = option != extras.end() ? *option : extras.front();
@@ -83,7 +83,7 @@ static int refuse_extra(const CLI::App& app) {
                                  did_you_mean(word.substr(0, word.find('=')), known)));
 }
 
-// what the options of all verbs say
+// parsed options of all verbs
 struct Said {
   RunOptions run;
   CheckOptions check;
@@ -101,26 +101,27 @@ struct Said {
 static void add_script_verbs(CLI::App& app, Said& said) {
   auto* run = app.add_subcommand("run", "run a script");
   run->add_option("FILE", said.run.file,
-                  "a Lua script, or - for stdin; what follows are its arguments")
+                  "a Lua script, or - for stdin; all further words are its arguments")
       ->required()
       ->check(named);
   run->footer("Examples:\n  clench run grasp.lua\n  clench run plan.lua mug.iv --seconds 10" +
               trust);
   auto* repl = app.add_subcommand("repl", "open a console");
+  repl->add_flag("--view", said.run.view,
+                 "open a window beside the console; session and view are defined");
   repl->footer(
-      "Examples:\n  clench repl\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
+      "Examples:\n  clench repl\n  clench repl --view\n  echo '=clench.rad(90)' | clench repl\n\nIn a console: =x or x "
       "prints, help(x) explains, Tab completes, Ctrl-C interrupts, Ctrl-D leaves." +
       trust);
   auto* test = app.add_subcommand("test", "run every *_test.lua of a folder");
   test->add_option("DIR", said.test_path, "a folder, or one file")->required()->check(named);
   test->footer("Example:\n  clench test tests/lua" + trust);
   auto* doc = app.add_subcommand("doc", "write the pages of the Lua API and the editor's stub");
-  doc->add_option("DIR", said.doc_folder, "where to; default: docs/api, where there is one")
+  doc->add_option("DIR", said.doc_folder, "folder to write to; default: docs/api, if it exists")
       ->check(named);
-  doc->add_flag("--check", said.check_docs,
-                "write nothing; fail when a page is not what it should be");
+  doc->add_flag("--check", said.check_docs, "write nothing; fail if a page is out of date");
   doc->footer("Examples:\n  clench doc\n  clench doc --check");
-  auto* describe = app.add_subcommand("describe", "print what a function or field is and takes");
+  auto* describe = app.add_subcommand("describe", "print the description of a function or field");
   describe->add_option("NAME", said.described, "an entry of the Lua API; default: all")
       ->check(named);
   describe->add_flag("--json", said.describe_json, "as JSON");
@@ -129,7 +130,7 @@ static void add_script_verbs(CLI::App& app, Said& said) {
 }
 
 static void add_check(CLI::App& app, CheckOptions& check) {
-  auto* verb = app.add_subcommand("check", "read files and say what was parsed");
+  auto* verb = app.add_subcommand("check", "read files and report what was parsed");
   verb->add_option("FILE", check.files,
                    "robots, bodies, worlds, eigengrasps, virtual contacts, lists of grasps")
       ->required();
@@ -137,28 +138,28 @@ static void add_check(CLI::App& app, CheckOptions& check) {
   verb->add_flag("--json", check.json, "as JSON");
   verb->footer(
       "Examples:\n  clench check hand.urdf\n  clench check --json mug.stl worlds/dlr_flask.wld\n\n"
-      "Exit code: 1 when a file could not be read; with --strict also when something in one was "
+      "Exit code: 1 if a file could not be read; with --strict also if something in one was "
       "repaired, is not used or looks wrong." +
       trust);
 }
 
 static void add_convert(CLI::App& app, ConvertOptions& convert) {
-  auto* verb = app.add_subcommand("convert", "write what a file holds as another format");
-  verb->add_option("IN", convert.from, "a file of any kind that is read")->required();
-  verb->add_option("OUT", convert.to, "what to write; its ending says how")->required();
+  auto* verb = app.add_subcommand("convert", "convert a file to another format");
+  verb->add_option("IN", convert.from, "a file of any supported kind")->required();
+  verb->add_option("OUT", convert.to, "file to write; its ending selects the format")->required();
   add_reading(*verb, convert.reading);
-  verb->add_option(
-      "--format", convert.format,
-      "of a list of grasps: jsonl csv npz isaac_grasp graspgen multigripper graspit; of an .xml "
-      "world: mjcf graspit");
+  verb->add_option("--format", convert.format,
+                   "format of a list of grasps: jsonl csv npz isaac_grasp graspgen multigripper "
+                   "graspit; of an .xml "
+                   "world: mjcf graspit");
   verb->add_option("--dof-order", convert.dof_order,
-                   "names of a list's DOFs, with commas, where the file has none");
+                   "names of a list's DOFs, separated by commas, if the file has none");
   verb->footer(
       "Examples:\n  clench convert --unit mm mug.stl mug.xml\n"
       "  clench convert models/hands/barrett/barrett.cfg barrett.urdf\n"
       "  clench convert worlds/dlr_flask.wld dlr_flask.lua\n"
       "  clench convert --format graspgen grasps.jsonl grasps.json\n\n"
-      "What the new format cannot hold is told in warnings." +
+      "Warnings report everything that the new format cannot represent." +
       trust);
 }
 
@@ -171,7 +172,8 @@ static void add_plan(CLI::App& app, PlanOptions& plan) {
       "flask.jsonl\n"
       "  clench plan --seconds 30 --unit mm hand.urdf mug.stl --obstacle table.iv --report "
       "mug.html\n\n"
-      "Exit code: 1 when nothing was found, and the report says why; 130 after Ctrl-C, 143 after "
+      "Exit code: 1 if nothing was found, with the reason in the report; 130 after Ctrl-C, 143 "
+      "after "
       "SIGTERM, 129 after SIGHUP, with the grasps so far written. See docs/guide/plan_command.md." +
       trust);
 }
@@ -184,13 +186,13 @@ static void add_render(CLI::App& app, RenderVerbOptions& render) {
       "Examples:\n  clench render worlds/dlr_flask.wld -o flask.png\n"
       "  clench render flask.jsonl --pick 1,4,7 -o grasps.png\n"
       "  clench render flask.jsonl --pick 1 --background white --outline 1.5 -o figure.png\n\n"
-      "Of a list one picture per grasp, on a sheet where there are several. See "
+      "Of a list, one picture per grasp, on a sheet if there are several. See "
       "docs/guide/pictures.md." +
       trust);
 }
 
 static void add_serve(CLI::App& app, ServeOptions& serve) {
-  auto* verb = app.add_subcommand("serve", "let other programs command a world");
+  auto* verb = app.add_subcommand("serve", "serve a world to other programs");
   add_serve_options(*verb, serve.words);
   add_world_reading(*verb, serve.reading);
   verb->footer(
@@ -215,7 +217,7 @@ static void add_all(CLI::App& app, Said& said) {
   app.footer(
       "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
       "clench -i scene.lua\n"
-      "  clench repl\n\nExit code: 0 done, 1 failed, 2 wrong usage. `clench VERB --help` says "
+      "  clench repl\n\nExit code: 0 done, 1 failed, 2 wrong usage. `clench VERB --help` shows "
       "more.");
   app.set_version_flag("--version", "clench " CLENCH_VERSION);
   app.require_subcommand(0, 1);
@@ -239,7 +241,7 @@ static void add_all(CLI::App& app, Said& said) {
   }
 }
 
-// Says what is wrong when the first word should be a verb and is none.
+// Prints an error if the first word should be a verb but is not.
 static bool refuse_verb(const CLI::App& app, const std::string& first) {
   std::vector<std::string> verbs;
   for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
@@ -251,12 +253,12 @@ static bool refuse_verb(const CLI::App& app, const std::string& first) {
   return true;
 }
 
-// scripts and consoles: the verbs run and repl, or none
+// runs scripts and consoles: the verbs run and repl, or no verb
 static int run_scripts_of(const CLI::App& app, Said& said) {
   const bool repl = app.got_subcommand("repl"), terminal = isatty(STDIN_FILENO);
   const bool nothing =
       !repl && !app.got_subcommand("run") && said.run.code.empty() && said.interactive.empty();
-  // clench < script.lua, as Lua does; in the background there is no input
+  // clench < script.lua runs standard input, like Lua; in the background there is no input
   bool piped = false;
   if (nothing && !terminal) {
     const int first = std::getc(stdin);
@@ -302,16 +304,16 @@ static int main_of(int argc, char** argv) {
     if (refuse_verb(app, first)) return 2;
   }
   try {
-    // it takes the words from the back
+    // parse() expects the words in reverse order
     std::vector<std::string> words(line.ours.rbegin(), line.ours.rend());
     app.parse(words);
   } catch (const CLI::ParseError& e) {
-    // help and the version are no mistakes
+    // --help and --version are not errors
     if (e.get_exit_code() == 0) return app.exit(e);
-    // a word that nobody takes explains what else is missing
+    // an unknown word explains what else is missing
     if (!app.remaining(true).empty()) return refuse_extra(app);
     std::string why = e.what();
-    // of CLI11: "--count: 1 required N:INTEGER missing"
+    // message of CLI11: "--count: 1 required N:INTEGER missing"
     if (why.ends_with(" missing"))
       why = why.substr(0, why.find(':')) + ": expected a value, got none";
     return refuse(app, why);
@@ -330,8 +332,8 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     pollfd output{STDOUT_FILENO, 0, 0};
     const bool unread = ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR);
-    std::fprintf(stderr, "clench: the output could not be written whole: %s\n",
-                 unread ? "nobody reads it any more" : "is the disk full?");
+    std::fprintf(stderr, "clench: the output could not be written completely: %s\n",
+                 unread ? "its reader is closed" : "is the disk full?");
     return code == 0 ? 1 : code;
   } catch (const std::bad_alloc&) {
     std::fputs("clench: not enough memory\n", stderr);

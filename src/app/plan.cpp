@@ -1,4 +1,4 @@
-// `clench plan`: what it does and says is in stdlib/host/plan.lua.
+// `clench plan`: its behavior and output are implemented in stdlib/host/plan.lua.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ static std::string call(State& state, const std::string& function, const Words& 
                         const Interruptible* running = nullptr) {
   const auto result = state.call("host.plan", function, words);
   std::fflush(stdout);
-  // a search that a signal ended needs no message
+  // a search ended by a signal needs no message
   const bool ended = running && running->pressed();
   if (!result.ok && !ended)
     fmt::print(stderr, "clench plan: {}\n", printable(result.error, "\n\t"));
@@ -54,7 +54,7 @@ static int run_plan(State& state, const Words& words) {
 
 int plan_grasps(const PlanOptions& options) {
   State state;
-  std::string exit_asked;  // no script runs here
+  std::string exit_asked;  // no script is running
   state.refuse_exit(exit_asked);
   if (options.quiet) state.set_quiet();
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);

@@ -31,11 +31,11 @@ static bool leaves(const std::string& line) {
   return line == "exit" || line == "quit" || line == "exit()" || line == "quit()";
 }
 
-// chunks from anything that is no terminal
+// reads chunks from input that is not a terminal
 static int run_piped(State& state) {
   std::string chunk, line;
   bool open = false;
-  int begin = 1;  // the chunk's first line in the input
+  int begin = 1;  // line of the input at which the chunk begins
   for (int number = 1; std::getline(std::cin, line); ++number) {
     if (!open && leaves(line)) return 0;
     if (!open) begin = number;
@@ -57,7 +57,8 @@ static void add_names(const fs::path& folder, const std::string& typed,
   }
 }
 
-// the beginning of a path's last name, then what it may become: here, else in the catalog
+// the beginning of a path's last name, then its completions: in this state, otherwise in the
+// catalog
 static std::vector<std::string> file_names(const std::string& path) {
   const size_t slash = path.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);

@@ -5,8 +5,8 @@ namespace clench {
 
 class State;
 
-/// Until the input ends. On a terminal with editing, history and completion; otherwise line by
-/// line, silently.
+/// Runs until the end of input: on a terminal with editing, history and completion; otherwise line
+/// by line, without prompts or echo.
 /// returns  the exit code
 int run_console(State& state);
 

@@ -20,10 +20,10 @@ int run_scripts(const RunOptions& options) {
   State state;
   if (options.quiet) state.set_quiet();
   if (!options.confine.empty()) state.set_confine(options.confine);
-  state.set_script("here");  // what is typed or piped stands where we stand
+  state.set_script("here");  // typed or piped code is treated as a script in the current folder
   catch_interrupts();
   if (!options.console) catch_endings();
-  // typed on the command line as into the console
+  // expressions given on the command line run like those typed at the console
   if (!options.code.empty()) state.call("host.help", "install", {});
   bool ok = true;
   int signal = 0;
@@ -33,9 +33,10 @@ int run_scripts(const RunOptions& options) {
     if (ok && !options.file.empty()) ok = report(state.run_file(options.file, options.arguments));
     signal = running.signal();
   }
-  // a console is for looking at what went wrong, too
+  if (options.view && !report(state.call("host.view", "beside", {}))) return 1;
+  // a console also opens after errors, to inspect the state
   if (options.console) return run_console(state);
-  // as a shell reports a program that a signal has ended
+  // as a shell reports a program that was ended by a signal
   if (signal) return 128 + signal;
   return ok ? 0 : 1;
 }

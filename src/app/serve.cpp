@@ -1,4 +1,4 @@
-// `clench serve`: what it does and says is in stdlib/host/serve.lua.
+// `clench serve`: its behavior and output are implemented in stdlib/host/serve.lua.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -14,19 +14,19 @@ namespace clench {
 
 int serve_world(const ServeOptions& options) {
   State state;
-  std::string exit_asked;  // a world in Lua does not end the server
+  std::string exit_asked;  // an error in a world in Lua does not end the server
   state.refuse_exit(exit_asked);
   if (options.quiet) state.set_quiet();
   if (!options.reading.confine.empty()) state.set_confine(options.reading.confine);
   catch_interrupts();
   catch_endings();
-  std::signal(SIGPIPE, [](int) {});  // nobody need read what is printed
+  std::signal(SIGPIPE, [](int) {});  // a closed output pipe does not end the server
   std::vector<std::string> words = words_of(options.reading);
   words.insert(words.end(), options.words.begin(), options.words.end());
   const Interruptible running(state, 2);
   const auto result = state.call("host.serve", "main", words);
   std::fflush(stdout);
-  // a signal is how a server ends
+  // a signal is the regular end of a server
   if (running.pressed()) return 0;
   if (!result.ok) fmt::print(stderr, "clench serve: {}\n", printable(result.error, "\n\t"));
   return result.ok && result.values.size() == 1 ? std::atoi(result.values[0].c_str()) : 1;

@@ -38,18 +38,19 @@ static const CLI::Validator unit(
     "");
 
 void add_world_reading(CLI::App& verb, ReadingOptions& reading) {
-  verb.add_option("--root", reading.root, "where names in the files count from")
+  verb.add_option("--root", reading.root, "folder that names in the files are relative to")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
-  verb.add_option("--unit", reading.unit, "of meshes: mm cm m inch foot")
+  verb.add_option("--unit", reading.unit, "unit of meshes: mm cm m inch foot")
       ->type_name("UNIT")
       ->check(unit);
-  verb.add_flag("--strict", reading.strict, "what would be warned of is an error");
+  verb.add_flag("--strict", reading.strict, "treat warnings as errors");
 }
 
 void add_reading(CLI::App& verb, ReadingOptions& reading) {
   add_world_reading(verb, reading);
-  verb.add_option("--folder", reading.folder, "where names in a robot's file are looked up, too")
+  verb.add_option("--folder", reading.folder,
+                  "additional search folder for names in a robot's file")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
   verb.add_option("--package", reading.package, "folder of the packages that a URDF names")
@@ -103,7 +104,7 @@ static const CLI::Validator list_format(
     },
     "");
 
-// a function that adds the name of an option and its value
+// returns a function that appends the name of an option and its value
 static auto noted_as(const char* option, std::vector<std::string>& words) {
   std::string name = lower_case(option);
   name.erase(0, name.find_first_not_of('-'));
@@ -136,18 +137,18 @@ struct Adder {
 };
 
 void add_scene(const Adder& add) {
-  add.several("--obstacle", "a body that stands in the way; may be repeated")
+  add.several("--obstacle", "a body to be avoided; may be repeated")
       ->type_name("FILE")
       ->check(named);
-  add("--pose", "where the object stands [m, degrees]; default: at 0,0,0")
+  add("--pose", "pose of the object [m, degrees]; default: at 0,0,0")
       ->type_name("X,Y,Z[,ROLL,PITCH,YAW]");
-  add.several("--obstacle-pose", "the same of each obstacle, in their order")->type_name("POSE");
+  add.several("--obstacle-pose", "poses of the obstacles, in their order")->type_name("POSE");
 }
 
 void add_drawing(const Adder& add, const char* size, const char* quality) {
   add("--quality", quality)->type_name("NAME")->check(CLI::IsMember({"paper", "draft"}));
   add("--size", size)->type_name("WIDTHxHEIGHT");
-  add("--frame", "what pictures show: contacts or all; default: contacts")
+  add("--frame", "part of the scene in pictures: contacts or all; default: contacts")
       ->type_name("NAME")
       ->check(CLI::IsMember({"contacts", "all"}));
 }
@@ -159,11 +160,12 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
   add("HAND", "a robot's file")->required()->check(named);
   add("OBJECT", "a body's file, or a mesh")->required()->check(named);
   add_scene(add);
-  add("--mass", "of the object, instead of its file's [kg]")->type_name("KG")->check(mass);
-  add("--friction", "coefficient of friction between hand and object; default: of their materials")
+  add("--mass", "mass of the object, instead of its file's [kg]")->type_name("KG")->check(mass);
+  add("--friction",
+      "coefficient of friction between hand and object; default: from their materials")
       ->type_name("MU")
       ->check(positive);
-  add("--material", "of the object, instead of its file's: rubber, wood, metal ...")
+  add("--material", "material of the object, instead of its file's: rubber, wood, metal ...")
       ->type_name("NAME");
   add("--close", "DOFs that close the hand, by number or name, each with its sign: 1,-2,thumb")
       ->type_name("DOFS");
@@ -174,35 +176,36 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       "or all of --seconds")
       ->type_name("N")
       ->check(whole_number(1, 1000000));
-  add("--seconds", "search no longer than this")->type_name("S")->check(positive);
-  add("--seed", "of the random numbers; default: 1")
+  add("--seconds", "time limit of the search [s]")->type_name("S")->check(positive);
+  add("--seed", "seed of the random numbers; default: 1")
       ->type_name("N")
       ->check(
           whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
-  add("--threads", "default: all cores; the grasps are the same")
+  add("--threads", "number of threads, without effect on the grasps; default: all cores")
       ->type_name("N")
       ->check(whole_number(1, 1024));
   add("--distance",
-      "grasps nearer to each other than this part of the object's radius, of half a turn and of "
-      "the DOFs' ranges are alike; default: 0.1")
+      "grasps that differ by less than this fraction of the object's radius, of half a turn and of "
+      "the DOFs' ranges count as equal; default: 0.1")
       ->type_name("PART")
       ->check(not_negative);
-  add("--contacts", "fingertip: with the last links alone; power: with the palm, too; default: any")
+  add("--contacts", "fingertip: with the last links only; power: also with the palm; default: any")
       ->type_name("KIND")
       ->check(CLI::IsMember({"fingertip", "power", "any"}));
   add("--force-ratio",
-      "times the object's weight that all fingers together press with at most; default: 10")
+      "maximum total force of all fingers, in multiples of the object's weight; default: 10")
       ->type_name("N")
       ->check(positive);
   add("--max-effort",
-      "of motors for which the hand's file gives no limit [N or N m]; default: none")
+      "maximum effort of motors without a limit in the hand's file [N or N m]; default: none")
       ->type_name("N")
       ->check(positive);
   add.several("-o",
               "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json; may be repeated")
       ->type_name("FILE")
       ->check(named);
-  add("--format", "of -o, where the ending does not say, or of a single -o: graspgen ...")
+  add("--format",
+      "format of a single -o, or of those whose ending does not define it: graspgen ...")
       ->type_name("NAME")
       ->check(list_format);
   add("--report", "a page with a table, pictures and each grasp in 3-D")
@@ -212,14 +215,13 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
   add("--table", "the table of the grasps for a paper: .tex or .csv")
       ->type_name("FILE.tex")
       ->check(named);
-  add_drawing(add, "of each picture of --sheet [pixels]; default: 320x240",
-              "of the pictures of --sheet: paper or draft; default: draft");
-  add.flag("--resume", "go on with the search that -o FILE.jsonl is of, where it ended");
+  add_drawing(add, "size of each picture of --sheet [pixels]; default: 320x240",
+              "quality of the pictures of --sheet: paper or draft; default: draft");
+  add.flag("--resume", "continue the search of -o FILE.jsonl from its end");
   add.flag("--overwrite", "replace the list of -o, once there are grasps");
-  add.flag("--verify",
-           "shake each grasp in simulation, too, by the object's weight along six directions");
+  add.flag("--verify", "also simulate each grasp under the object's weight along six directions");
   add.flag("--keep-lost", "with --verify: keep grasps that are lost, and mark them");
-  add.flag("--no-verify", "keep all in force closure, loads and errors unseen");
+  add.flag("--no-verify", "keep all grasps in force closure, without checking loads and errors");
 }
 
 void add_render_options(CLI::App& verb, std::vector<std::string>& words) {
@@ -227,20 +229,20 @@ void add_render_options(CLI::App& verb, std::vector<std::string>& words) {
   add("FILE", "a world, a robot, a body, a mesh or a list of grasps")->required()->check(named);
   add("-o", "the picture")->required()->type_name("FILE.png")->check(named);
   add("--pick", "grasps of the list, by number; default: the first 24")->type_name("N,N...");
-  add("--hand", "of a list; default: the robot's file that it names")
+  add("--hand", "hand of a list; default: the robot's file that it names")
       ->type_name("FILE")
       ->check(named);
-  add("--object", "of a list; default: the body's file that it names")
+  add("--object", "object of a list; default: the body's file that it names")
       ->type_name("FILE")
       ->check(named);
   add_scene(add);
-  add_drawing(add, "of each picture [pixels]; default: 1280x960, of several 320x240",
-              "paper or draft; default: paper, of several draft");
+  add_drawing(add, "size of each picture [pixels]; default: 1280x960, 320x240 for several",
+              "paper or draft; default: paper, draft for several");
   add("--camera",
-      "where it stands, where it looks, which way is up [m]; default: chosen; file: as the world's "
-      "file says")
+      "position, target and up direction [m]; default: computed; file: as in the world's "
+      "file")
       ->type_name("X,Y,Z[,X,Y,Z[,X,Y,Z]]");
-  add("--background", "studio, white or transparent; default: studio, of several white")
+  add("--background", "studio, white or transparent; default: studio, white for several")
       ->type_name("NAME")
       ->check(CLI::IsMember({"studio", "white", "transparent"}));
   add("--outline", "width of lines around bodies [pixels]; default: 0")
@@ -255,14 +257,14 @@ void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
   add("--port", "TCP port; 0: the system chooses one; default: 4765")
       ->type_name("N")
       ->check(whole_number(0, 65535));
-  add("--host", "address to listen on; default: 127.0.0.1, which only this machine reaches")
+  add("--host", "address to listen on; default: 127.0.0.1, reachable only from this machine")
       ->type_name("ADDRESS");
   add("--socket", "a Unix socket instead of a TCP port")->type_name("PATH")->check(named);
   add.flag("--stdio", "JSON-RPC over standard input and output instead");
-  add("--token-file", "where the token is kept; default: in the folder of the user's session")
+  add("--token-file", "file that stores the token; default: in the folder of the user's session")
       ->type_name("FILE")
       ->check(named);
-  add.flag("--no-token", "any program of this machine may command the world");
+  add.flag("--no-token", "any program of this machine may control the world");
   add("--folder", "requests may read and write files below this folder; default: none")
       ->type_name("FOLDER")
       ->check(CLI::ExistingDirectory);

@@ -1,4 +1,4 @@
-// Options of the command line that several verbs share, or that need many lines.
+// Command-line options that are shared by several verbs or have long definitions.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace clench {
 
-/// A path, which is not empty.
+/// A non-empty path.
 extern const CLI::Validator named;
 
 void add_confine(CLI::App& verb, std::string& folder);
 void add_reading(CLI::App& verb, ReadingOptions& reading);
-void add_world_reading(CLI::App& verb, ReadingOptions& reading);  ///< those of worlds alone
+void add_world_reading(CLI::App& verb, ReadingOptions& reading);  ///< only options of worlds
 
-/// Options of `clench plan`, `render`, `serve` and `view`: each that is given adds its name and its value to
-/// the words.
+/// Options of `clench plan`, `render`, `serve` and `view`: each given option appends its name and
+/// its value to the words.
 void add_plan_options(CLI::App& verb, std::vector<std::string>& words);
 void add_render_options(CLI::App& verb, std::vector<std::string>& words);
 void add_serve_options(CLI::App& verb, std::vector<std::string>& words);

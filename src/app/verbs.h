@@ -1,4 +1,4 @@
-// What the command's verbs do. Each returns the exit code: 0 done, 1 failed.
+// Verbs of the command. Each returns the exit code: 0 done, 1 failed.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,35 +7,36 @@ namespace clench {
 
 struct RunOptions {
   std::vector<std::string> code;       ///< chunks to run first
-  std::string file;                    ///< then this, "-" for stdin; empty: none
-  std::vector<std::string> arguments;  ///< the file's
-  bool console = false;                ///< and then a console
-  std::string confine;                 ///< the folder below which files are read; empty: anywhere
+  std::string file;                    ///< file to run next, "-" for stdin; empty: none
+  std::vector<std::string> arguments;  ///< arguments of the file
+  bool console = false;                ///< open a console at the end?
+  bool view = false;                   ///< open a window beside the console?
+  std::string confine;  ///< files outside this folder are not read; empty: no restriction
   bool quiet = false;
 };
 
 int run_scripts(const RunOptions& options);
 
-/// Runs every *_test.lua below a folder, or one file, each in a Lua of its own.
+/// Runs every *_test.lua below a folder, or one file, each in a separate Lua state.
 int run_tests(const std::string& path, const std::string& confine, bool quiet);
 
-/// Writes the API's pages and the editor's stub to a folder; check: compares, and writes nothing.
+/// Writes the API's pages and the editor's stub to a folder; check: only compares them.
 int write_docs(const std::string& given, bool check);
 
-/// Prints the description of an entry of the API, or of all where the name is empty.
+/// Prints the description of an entry of the API, or of all if the name is empty.
 int describe_entry(const std::string& name, bool json);
 
-/// What is said of the files that are read; empty: nothing.
+/// Options for reading files; empty: not given.
 struct ReadingOptions {
-  std::string root;     ///< where names in them count from
-  std::string folder;   ///< where names in a robot's file are looked up, too
+  std::string root;     ///< folder that names in them are relative to
+  std::string folder;   ///< additional search folder for names in a robot's file
   std::string package;  ///< folder of the packages that a URDF names
   std::string unit;     ///< of a mesh
-  std::string confine;  ///< the folder below which files are read
-  bool strict = false;  ///< is what is warned of an error?
+  std::string confine;  ///< files outside this folder are not read
+  bool strict = false;  ///< are warnings errors?
 };
 
-/// As the modules of stdlib/host take them, before all else.
+/// As arguments of the modules of stdlib/host, which precede all others.
 std::vector<std::string> words_of(const ReadingOptions& reading);
 
 struct CheckOptions {
@@ -49,45 +50,46 @@ int check_files(const CheckOptions& options);
 
 struct ConvertOptions {
   std::string from, to;
-  std::string format, dof_order;  ///< of lists of grasps; names of DOFs, separated by commas
+  std::string format, dof_order;  ///< for lists of grasps; names of DOFs, separated by commas
   ReadingOptions reading;
 };
 
-/// Writes what a file holds as another format, and says what that cannot hold.
+/// Converts a file to another format, and reports contents that the format cannot represent.
 int convert_file(const ConvertOptions& options);
 
 struct RenderVerbOptions {
-  std::vector<std::string> words;  ///< as those of PlanOptions
+  std::vector<std::string> words;  ///< as in PlanOptions
   ReadingOptions reading;
 };
 
-/// Draws a file, or grasps of a list.   returns 2 when an option makes no sense
+/// Draws a file, or grasps of a list.
+/// returns  2 if an option is invalid
 int render_file(const RenderVerbOptions& options);
 
 struct PlanOptions {
-  /// Name, value, name, value ... of the options that are said, as they were typed; the command
-  /// line has looked at the numbers.
+  /// Name, value, name, value ... of the given options, as they were typed; numbers have been
+  /// checked by the command line.
   std::vector<std::string> words;
   bool quiet = false;
   ReadingOptions reading;
 };
 
 /// Searches for grasps of a hand on an object.
-/// returns  1 when there are none, 2 when an option makes no sense, 128 + the signal that ended it:
-///          130 after Ctrl-C
+/// returns  1 if there are none, 2 if an option is invalid, 128 + the number of the signal that
+///          ended it: 130 after Ctrl-C
 int plan_grasps(const PlanOptions& options);
 
 struct ServeOptions {
-  std::vector<std::string> words;  ///< as those of PlanOptions
+  std::vector<std::string> words;  ///< as in PlanOptions
   bool quiet = false;
   ReadingOptions reading;
 };
 
-/// Lets other programs command a world, until a signal ends it.
+/// Serves a world to other programs, until a signal ends it.
 int serve_world(const ServeOptions& options);
 
 struct ViewOptions {
-  std::vector<std::string> words;  ///< as those of PlanOptions
+  std::vector<std::string> words;  ///< as in PlanOptions
   bool quiet = false;
   ReadingOptions reading;
 };

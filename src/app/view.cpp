@@ -1,4 +1,4 @@
-// `clench view`: what it does and says is in stdlib/host/view.lua.
+// `clench view`: its behavior and output are implemented in stdlib/host/view.lua.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Which of many numbers belong together, by union and find.
+// Disjoint sets of indices, by union and find.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -6,11 +6,11 @@
 
 namespace clench {
 
-/// Sets of the numbers from 0, each with one number at first. The least number represents its set.
+/// Sets of the indices from 0, initially one per set. The smallest index represents its set.
 class DisjointSets {
  public:
   explicit DisjointSets(size_t count = 0) { reset(count); }
-  /// All apart again; keeps its memory.
+  /// Separates all indices; keeps its memory.
   void reset(size_t count) {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0);

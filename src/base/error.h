@@ -1,4 +1,5 @@
-// The one exception of the engine: a sentence that says where, what was expected and what was got.
+// The only exception type of the engine: a sentence with the place, the expected and the actual
+// value.
 #pragma once
 #include <fmt/format.h>
 
@@ -7,13 +8,13 @@
 
 namespace clench {
 
-/// What went wrong, for who wants to handle it.
+/// Kind of a failure, for error handlers.
 enum class ErrorKind {
-  input,    ///< an argument is not as it should be, or does not fit the world
-  file,     ///< a file cannot be read or written, or does not hold what it should
-  stale,    ///< what is meant is gone, or no longer as it was when it was measured
-  limit,    ///< more than there is memory or time for
-  internal  ///< a fault of ours: rounding broke a result, or a library failed
+  input,    ///< an argument is invalid, or does not fit the world
+  file,     ///< a file cannot be read or written, or has invalid contents
+  stale,    ///< the named thing no longer exists, or has changed since it was measured
+  limit,    ///< memory or time is insufficient
+  internal  ///< an internal error: rounding broke a result, or a library failed
 };
 
 /// what() is one sentence: place, subject, expected, got.
@@ -25,7 +26,7 @@ class Error : public std::runtime_error {
 
  private:
   ErrorKind kind_;
-  // what() would end at the first
+  // what() would end at the first NUL
   static std::string without_zeros(std::string text) {
     for (size_t at = 0; (at = text.find('\0', at)) != std::string::npos;)
       text.replace(at, 1, "\\0");
@@ -39,7 +40,7 @@ template <class... Args>
   throw Error(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// the same, of a kind
+/// the same, with a kind
 template <class... Args>
 [[noreturn]] void fail(ErrorKind kind, fmt::format_string<Args...> format, Args&&... args) {
   throw Error(fmt::format(format, std::forward<Args>(args)...), kind);

@@ -22,7 +22,7 @@ std::string system_reason(int error) { return std::generic_category().message(er
 
 namespace {
 
-/// A file that the system has opened; closed at the end.
+/// An open file, closed by the destructor.
 class OpenFile {
  public:
   explicit OpenFile(int number) : number_(number) {}
@@ -34,7 +34,7 @@ class OpenFile {
 
   int number() const { return number_; }
   explicit operator bool() const { return number_ >= 0; }
-  /// A full disk may show only now.
+  /// A full disk may be reported only here.
   bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:
@@ -59,7 +59,7 @@ void check_regular(const fs::path& path, const struct stat& status) {
 
 /// At most `count` bytes; `status` is the file's.
 std::string read_at_most(const fs::path& path, size_t count, struct stat& status) {
-  // looked at before it is opened, which for a device may have an effect, and again after that
+  // checked before opening, which can have an effect on devices, and again afterwards
   if (::stat(path.c_str(), &status) != 0) fail_read(path, errno);
   check_regular(path, status);
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -106,7 +106,7 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A hidden name in the same folder, as long as any folder takes it.
+/// A hidden name in the same folder, short enough for any file system.
 fs::path unused_name(const fs::path& beside) {
   constexpr size_t max_stem = 100, max_ending = 20;
   std::random_device random;
@@ -129,7 +129,7 @@ bool write_all(int file, std::string_view text) {
 }  // namespace
 
 Draft::Draft(const fs::path& beside, std::string_view text, unsigned mode) {
-  // a name that stands there already, as a link perhaps, is never used
+  // an existing name, possibly a link, is never used
   constexpr int max_names = 100;
   int number = -1;
   for (int i = 0; number < 0 && i < max_names; ++i) {
@@ -156,15 +156,15 @@ void Draft::move_to(const fs::path& target) {
   path_.clear();
 }
 
-/// As move_to, with the permissions of what stands there, which the text has from the beginning,
-/// but for those to run it as its owner: they were given to another text.
+/// As move_to, with the permissions of the existing file, which the text has from the beginning,
+/// except set-user-ID and similar bits: they were granted to another text.
 static void write_over(const fs::path& target, std::string_view text, mode_t mode) {
   Draft draft(target, text, mode & 0777);
   ::chmod(draft.path().c_str(), mode & 0777);
   draft.move_to(target);
 }
 
-/// Where the text goes: the file itself, or the one that a link leads to.
+/// Destination of the text: the file itself, or the target of a link.
 static fs::path target_of(const fs::path& path) {
   if (!fs::is_symlink(fs::symlink_status(path))) return path;
   const fs::path next = folder_of(path) / fs::read_symlink(path);
@@ -182,7 +182,7 @@ void check_folder_of(const fs::path& file) {
 }
 
 /// Rejects folders, special files and files without write permission.
-/// returns  the file that the path leads to, and its status if there is one
+/// returns  the file that the path leads to, and its status if it exists
 static std::pair<fs::path, std::optional<struct stat>> find_target(const fs::path& path) {
   struct stat before;
   if (path.empty()) fail(ErrorKind::file, "expected the name of a file, got nothing");
@@ -246,7 +246,7 @@ void append_file(const fs::path& path, std::string_view text) {
 }
 
 FileSet::~FileSet() {
-  // the last first: a folder is empty when its turn comes; what fails here has no better way
+  // in reverse order, so that folders are empty when removed; failures here cannot be reported
   for (auto it = undo_.rbegin(); it != undo_.rend(); ++it) {
     try {
       if (it->before)
@@ -274,7 +274,7 @@ void FileSet::write(const fs::path& path, std::string_view text) {
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists) {
     write_file(path, text);
-    // a link that led nowhere stays
+    // a dangling link is kept
     undo_.push_back({fs::weakly_canonical(path), nullptr});
     return;
   }

@@ -1,4 +1,4 @@
-// Files read and written. What the system refuses is told with its reason: "Permission denied".
+// Reads and writes files. Errors state the system's reason: "Permission denied".
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -8,28 +8,30 @@
 
 namespace clench {
 
-/// The system's words for an error number: "No space left on device".
+/// The system's message for an error number: "No space left on device".
 std::string system_reason(int error);
 
-/// A whole file as it stands.
-/// throws Error when it does not exist, is no regular file, cannot be read or is larger than 1 GB
+/// Complete contents of a file.
+/// throws Error if it does not exist, is not a regular file, cannot be read or is larger than 1 GB
 std::string read_bytes(const std::filesystem::path& path);
-/// At most the first `count` bytes.   throws as read_bytes, but for its size
+/// At most the first `count` bytes.
+/// throws  as read_bytes, except for the size
 std::string read_start(const std::filesystem::path& path, size_t count);
 
-/// A file beside another, of a name that nobody else has; gone at the end.
+/// A temporary file next to another, with a unique name; deleted by the destructor.
 class Draft {
  public:
   /// "out/w.wld" gives "out/.w.1f2e3d4c5b6a7988.wld", on the disk when this returns.
   /// throws Error  "out/w.wld: the file cannot be written: Permission denied"
-  /// `mode`: permissions, of which the user's mask takes some
+  /// `mode`: permissions, reduced by the user's umask
   Draft(const std::filesystem::path& beside, std::string_view text, unsigned mode = 0666);
   ~Draft();
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Takes that file's place.   throws Error as the constructor
+  /// Replaces the target by this file.
+  /// throws  Error as the constructor
   void move_to(const std::filesystem::path& target);
 
  private:
@@ -39,8 +41,9 @@ class Draft {
 /// throws Error  "out/a.vgr: the file cannot be written: no such folder: out"
 void check_folder_of(const std::filesystem::path& file);
 
-/// Writes beside the file and then takes its place: whatever goes wrong, the old file stays as it
-/// was. A link is followed; a file keeps its permissions, and one that must not be written is not.
+/// Writes a temporary file and then replaces the target: after any failure the old file is
+/// unchanged. Links are followed; a file keeps its permissions, and a read-only file is not
+/// written.
 /// throws Error  "out/a.vgr: the file cannot be written: Permission denied"
 void write_file(const std::filesystem::path& path, std::string_view text);
 
@@ -48,22 +51,23 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// throws Error as write_file
 void check_writable(const std::filesystem::path& path);
 
-/// Appends a text that begins on a new line and ends with the end of a line, in one call of the
-/// system: a process that is killed leaves all of it or nothing. Creates the file if there is none.
+/// Appends a text that begins on a new line and ends with a line end, in one system call: if the
+/// process is killed, the text is written completely or not at all. Creates the file if necessary.
 /// If only a part fits on the disk, that part is removed again.
 /// throws Error as write_file
 void append_file(const std::filesystem::path& path, std::string_view text);
 
-/// Files that belong together: all stay, or none. Each is there as soon as it is written.
+/// Files that belong together: all are kept, or none. Each exists as soon as it is written.
 class FileSet {
  public:
   FileSet() = default;
-  /// unless they were kept: new files and folders go, older files are as they were
+  /// unless keep() was called: removes new files and folders, restores older files
   ~FileSet();
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
 
-  /// Makes the folders that lack.   throws Error as write_file
+  /// Creates missing folders.
+  /// throws  Error as write_file
   void write(const std::filesystem::path& path, std::string_view text);
   void keep() { undo_.clear(); }
 
@@ -72,7 +76,7 @@ class FileSet {
 
   struct Undo {
     std::filesystem::path path;
-    std::unique_ptr<Draft> before;  // what stood there, if anything did
+    std::unique_ptr<Draft> before;  // the previous file, if there was one
   };
   std::vector<Undo> undo_;
 };

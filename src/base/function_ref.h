@@ -1,4 +1,4 @@
-// A callable passed down by reference: a std::function that owns nothing and never allocates.
+// A non-owning reference to a callable, without allocations; otherwise like std::function.
 #pragma once
 #include <memory>
 #include <type_traits>

@@ -1,4 +1,4 @@
-// A 64-bit fingerprint of state: equal bits give equal hashes on every machine.
+// A 64-bit fingerprint of state: equal bits give equal hashes on all platforms.
 #pragma once
 #include <bit>
 #include <cstdint>

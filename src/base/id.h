@@ -1,11 +1,11 @@
-// Names for things that a World owns.
+// Typed handles of things that a World owns.
 #pragma once
 #include <compare>
 #include <cstdint>
 
 namespace clench {
 
-/// A place and the serial number of what was put there; a stale one is found out, never followed.
+/// An index and a generation; a stale one is detected, never dereferenced.
 template <class T>
 struct Id {
   uint32_t index = UINT32_MAX;

@@ -1,4 +1,4 @@
-// Removes from text, such as names in files, the characters that a terminal or a page would obey.
+// Removes characters from text, such as names in files, that a terminal or a page would interpret.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@ size_t control_size(std::string_view text, size_t i);
 /// Overwrites each such character with one '?'; bytes that are not UTF-8 stay.
 /// returns  the new end
 char* make_printable(char* begin, char* end);
-/// The same text with one '?' for each such character.   `kept`: those that stay, as in "\n\t"
+/// The same text with one '?' for each such character. `kept`: those that stay, as in "\n\t"
 std::string printable(std::string_view text, std::string_view kept = "");
 
 }  // namespace clench

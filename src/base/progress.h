@@ -1,4 +1,4 @@
-// Long work watched and stopped from outside.
+// Progress of long work, and requests to stop it.
 #pragma once
 #include <atomic>
 #include <exception>
@@ -10,24 +10,25 @@
 
 namespace clench {
 
-/// Thrown by long work that is asked to stop. Not an Error: handlers of errors do not catch it.
+/// Thrown by long work after a request to stop it. Not an Error: error handlers do not catch it.
 class Stopped : public std::exception {
  public:
   const char* what() const noexcept override { return "stopped"; }
 };
 
-/// Stores the progress of long work, and the request to stop it. Displays of it, such as the bar of
-/// a terminal, derive from it or ask for it.
+/// Stores the progress of long work, and the request to stop it. Displays, such as the progress bar
+/// of a terminal, derive from it or poll it.
 class Watcher {
  public:
   struct State {
-    double fraction = -1;  ///< of the work that is done, in [0, 1]; below 0: not known
+    double fraction = -1;  ///< fraction of the work done, in [0, 1]; below 0: unknown
     std::string text;
   };
 
   virtual ~Watcher() = default;
 
-  /// Stores the progress and displays it.   fraction  in [0, 1]; below 0: not known
+  /// Stores the progress and displays it.
+  /// fraction  in [0, 1]; below 0: unknown
   void note(double fraction, std::string_view text) {
     {
       const std::lock_guard lock(mutex_);
@@ -42,10 +43,10 @@ class Watcher {
     return state_;
   }
 
-  /// Asks for the end. May be called from any thread and from a signal handler.
+  /// Requests a stop. May be called from any thread and from a signal handler.
   void stop() { stop_.store(true, std::memory_order_relaxed); }
   bool stop_asked() const { return stop_.load(std::memory_order_relaxed); }
-  /// Was it asked for? From now on it is not.
+  /// Was a stop requested? Clears the request.
   bool take_stop() { return stop_.exchange(false, std::memory_order_relaxed); }
 
  protected:
@@ -58,19 +59,20 @@ class Watcher {
   State state_;
 };
 
-/// Goes by value down every call that may take longer than a blink. An empty one is watched by
-/// nobody.
+/// Passed by value to every function that may take noticeable time. An empty one reports nothing
+/// and never stops.
 class Progress {
  public:
   Progress() = default;
   explicit Progress(std::shared_ptr<Watcher> watcher) : watcher_(std::move(watcher)) {}
 
   bool stop_asked() const { return watcher_ && watcher_->stop_asked(); }
-  /// throws Stopped when it was asked for
+  /// throws Stopped if a stop was requested
   void check() const {
     if (stop_asked()) throw Stopped();
   }
-  /// So much of the work is done, in [0, 1]; below 0: not known.   throws Stopped as check
+  /// Reports the fraction of the work done, in [0, 1]; below 0: unknown.
+  /// throws  Stopped as check
   void tell(double fraction, std::string_view text) const {
     check();
     if (watcher_) watcher_->note(fraction, text);

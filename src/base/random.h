@@ -1,4 +1,4 @@
-// Our own random numbers: the same on every machine, derived from (seed, item), passed by argument.
+// Random numbers, identical on all platforms, derived from (seed, item), passed by argument.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -15,7 +15,7 @@ static bool same_letter(char a, char b) {
 }
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // optimal string alignment, three rows of the table at a time
+  // optimal string alignment, with three rows of the table in memory
   const size_t n = b.size();
   std::vector<int> before(n + 1), last(n + 1), row(n + 1);
   for (size_t j = 0; j <= n; ++j) last[j] = static_cast<int>(j);
@@ -33,8 +33,8 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[n];
 }
 
-// What users of other simulators type, or look for elsewhere, and what it is called here. Of several
-// the first that is known counts.
+// Terms of other simulators and the corresponding names here. If there are several, the first known
+// one is suggested.
 static constexpr std::pair<std::string_view, std::string_view> other_words[] = {
     {"qpos", "dofs"},          {"joints", "dofs"},         {"qvel", "dof_velocities"},
     {"ctrl", "set_targets"},   {"position", "pose"},       {"rotation", "pose"},
@@ -48,12 +48,13 @@ static constexpr std::pair<std::string_view, std::string_view> other_words[] = {
     {"time_step", "dynamics"}, {"quat", "rotation"},       {"orientation", "rotation"}};
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  constexpr size_t longest = 40;  // of what a person mistypes, and messages quote of a file
+  // longest word that is compared: mistyped by a person, or quoted from a file
+  constexpr size_t longest = 40;
   if (name.size() < 3 || name.size() > longest) return "";
   for (const auto& [word, ours] : other_words)
     if (word == name && std::ranges::find(known, ours) != known.end())
       return fmt::format("; did you mean '{}'?", ours);
-  // a slip is at most a third of the letters, and never the whole of a short name
+  // a typing error affects at most a third of the letters, and never all of a short name
   const int limit = std::clamp(static_cast<int>(name.size()) / 3, 1, 3);
   int best = limit + 1;
   std::string_view nearest;

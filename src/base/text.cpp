@@ -21,12 +21,12 @@ std::string_view without_mark(std::string_view text) {
 
 std::string plain_text(std::string raw) {
   raw.erase(0, raw.size() - without_mark(raw).size());
-  // in place: what stands between two carriage returns moves as a whole
+  // in place: text between two carriage returns is moved as one block
   size_t from = raw.find('\r');
   if (from == std::string::npos) return raw;
   size_t to = from;
   while (from < raw.size()) {
-    // one before a line feed goes, another becomes one
+    // one before a line feed is removed, another becomes a line feed
     if (++from == raw.size() || raw[from] != '\n') raw[to++] = '\n';
     const size_t next = std::min(raw.find('\r', from), raw.size());
     std::copy(raw.begin() + static_cast<std::ptrdiff_t>(from),
@@ -53,14 +53,14 @@ std::optional<double> parse_number(std::string_view text) {
     text.remove_prefix(1);
     if (!text.empty() && text.front() == '-') return {};
   }
-  // only digits: this shuts out inf, nan and hexadecimal
+  // only digits: this excludes inf, nan and hexadecimal
   if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
     return {};
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return {};
   if (code == std::errc::result_out_of_range) {
-    // too small is zero, too large is no number
+    // underflow gives zero, overflow is rejected
     const size_t e = text.find_first_of("eE");
     if (e != std::string_view::npos && text.substr(e + 1).starts_with('-')) return 0.0;
     return {};
@@ -103,7 +103,7 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-// the first word at or behind `at`; empty: there is none
+// the first word at or after `at`; empty if there is none
 static std::string_view word_from(std::string_view text, size_t at, std::string_view separators) {
   const auto parts = [&](char c) {
     return is_blank(c) || separators.find(c) != std::string_view::npos;
@@ -114,7 +114,7 @@ static std::string_view word_from(std::string_view text, size_t at, std::string_
   return text.substr(at, end - at);
 }
 
-// the next one behind a word of the text, or the first behind an empty one
+// the word after a word of the text, or the first one after an empty word
 static std::string_view word_behind(std::string_view text, std::string_view word,
                                     std::string_view separators = "") {
   const size_t at = word.empty() ? 0 : word.data() + word.size() - text.data();
@@ -142,7 +142,7 @@ size_t utf8_size(std::string_view text, size_t i) {
                                                       : 0;
   for (size_t k = 1; k < size; ++k)
     if ((byte(k) & 0xC0) != 0x80) return 0;
-  // too long for what it says, a surrogate, or beyond the last character
+  // overlong encoding, a surrogate, or beyond the last code point
   if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F)) return 0;
   if ((first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F)) return 0;
   return size;
@@ -253,7 +253,7 @@ bool LineReader::skip_to(char mark) {
   if (found == std::string::npos) {
     passed_ += static_cast<int>(
         std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.end(), '\n'));
-    passed_ += !done() && text_.back() != '\n';  // the last line may lack its end
+    passed_ += !done() && text_.back() != '\n';  // the last line may have no line end
     at_ = text_.size();
     return false;
   }

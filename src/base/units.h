@@ -1,4 +1,5 @@
-// Factors from the units of files to SI. Only io uses them, on the line that reads the number.
+// Conversion factors from the units of files to SI. Used only by io, on the line that reads the
+// number.
 #pragma once
 #include <numbers>
 

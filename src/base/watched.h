@@ -1,5 +1,5 @@
-// Stops for work that takes no Progress: walks over trees, factorizations, sorts, whatever lies
-// deep below a call that is watched.
+// Stop requests for work that takes no Progress argument: tree traversals, factorizations, sorts
+// and other low-level work.
 #pragma once
 #include <cstdint>
 
@@ -7,9 +7,9 @@
 
 namespace clench {
 
-/// During its lifetime check_stop() on this thread asks its Progress; the innermost one counts. An
-/// empty Progress protects work that must not be left half done.
-/// Results do not change: work either ends as it would without it, or throws Stopped.
+/// During its lifetime check_stop() on this thread checks its Progress; the innermost one is used.
+/// An empty Progress protects work that must not be interrupted. Results do not change: work either
+/// completes as it would without it, or throws Stopped.
 class Watched {
  public:
   explicit Watched(Progress progress) : progress_(std::move(progress)), outer_(innermost_) {
@@ -36,13 +36,13 @@ class Watched {
   uint64_t checks_ = 0, stop_at_ = 0;
 };
 
-/// Throws Stopped when what watches this thread asks for the end. Takes some nanoseconds: call it
-/// every few thousand operations, where nothing is left half done.
+/// Throws Stopped if the Progress that watches this thread has a stop request. Takes some
+/// nanoseconds: call it every few thousand operations, at points where work can be interrupted.
 inline void check_stop() {
   if (Watched::innermost_) Watched::innermost_->check();
 }
 
-/// check_stop() at every `every`-th call: for loops whose rounds are short.
+/// Calls check_stop() at every `every`-th call, for loops with short iterations.
 class StopCheck {
  public:
   explicit StopCheck(uint32_t every) : every_(every) {}

@@ -1,4 +1,4 @@
-// Which joints of a robot move which bodies, those of robots that it carries among them.
+// Finds the bodies that a joint of a robot moves, including those of robots that it carries.
 #pragma once
 #include <vector>
 
@@ -6,13 +6,14 @@
 
 namespace clench {
 
-/// The link of the robot that the body is, or that carries it; -1: the base, or none.
+/// The link of the robot that is the body or carries it; -1: the base, or none.
 int carrying_link(const World& world, Id<Robot> robot, Id<Body> body);
 
 /// Does the joint move the body? A body of a carried robot moves with the link that carries it.
 bool joint_moves(const World& world, Id<Robot> robot, int joint, Id<Body> body);
 
-/// The bodies that a robot's joints move, found once for a motion, during which nothing is mounted.
+/// The bodies that a robot's joints move, computed once per motion, during which nothing is
+/// mounted.
 class CarriedBodies {
  public:
   CarriedBodies(const World& world, Id<Robot> robot);
@@ -29,8 +30,8 @@ class CarriedBodies {
 
  private:
   std::vector<Id<Body>> movable_;
-  std::vector<int> links_;   // by the index of the body
-  std::vector<char> moves_;  // by joint, then link
+  std::vector<int> links_;   // indexed by body
+  std::vector<char> moves_;  // indexed by joint, then by link
   size_t link_count_ = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-// a contact blocks a joint that has a lever longer than a nanometer
+// minimum lever of a joint that a contact blocks, 1 nm [m per rad]
 static constexpr double no_lever = 1e-9;
 
 Eigen::Vector3d contact_velocity(const Robot& robot, const CarriedBodies& bodies,
@@ -17,17 +17,17 @@ Eigen::Vector3d contact_velocity(const Robot& robot, const CarriedBodies& bodies
 
 namespace {
 
-/// What one joint does to a contact.
+/// Effect of one joint on a contact.
 struct Share {
   int joint;
-  bool moves_body;  ///< or the other one
-  double leaving;   ///< [m per unit of path]
-  double margin;    ///< what counts as nothing of it
+  bool moves_body;  ///< false: it moves the other body
+  double leaving;   ///< separating speed of the contact [m per unit of path]
+  double margin;    ///< separating speeds below this count as zero
 };
 
 }  // namespace
 
-// of joints that move one side of the contact, not both
+// effects of the joints that move one side of the contact but not the other
 static std::vector<Share> shares_of(const Robot& robot, const CarriedBodies& bodies,
                                     const RobotFrames& frames, const JointSpeeds& speeds,
                                     const Contact& contact) {

@@ -14,29 +14,29 @@
 
 namespace clench {
 
-// a DOF this near its target is there: rounding of a path's length [rad or m]
+// a DOF this near its target has arrived: rounding of a path's length [rad or m]
 static constexpr double arrived = 1e-13;
-// changes below this are no motion [rad or m]
+// smaller changes do not count as motion [rad or m]
 static constexpr double no_motion = 1e-5;
-// fingers that slide along a surface stop and go; one that has not come to rest after so many
-// contacts is stopped
+// fingers that slide along a surface stop and start repeatedly; one that has not come to rest after
+// this many contacts is stopped
 static constexpr int max_events = 2000;
-// once something holds a joint of a compliant DOF, its tendon is pulled in steps that would turn
-// the joint by this, and its springs come to rest after each [rad or m]
+// when a joint of a compliant DOF is blocked, its tendon is pulled in steps that would turn the
+// joint by this angle, and its springs come to rest after each [rad or m]
 static constexpr double pull_step = 0.02;
-// at its end it waits for springs that creep on, so often
+// number of times that a blocked drive waits for springs that still creep
 static constexpr int max_unrest = 20;
 
 namespace {
 
-/// Does a DOF go on past its blocked joints, and which of them does it leave behind?
+/// Does a DOF advance past its blocked joints, and which of them does it leave behind?
 struct Passing {
   bool advances = false;
   std::vector<int> left_behind = {};
 };
 
-// A compliant DOF leaves blocked joints behind, and winds up their springs until contacts and
-// limits would hold against whatever more it pulls.
+// A compliant DOF leaves blocked joints behind, and deflects their springs until contacts and
+// limits would balance any further pull.
 Passing pass_with_springs(const Robot& robot, const DrivePosture& posture, int dof, double rate,
                           const BlockedJoints& blocked, const SpringBalance& springs) {
   Passing out;
@@ -55,7 +55,7 @@ Passing pass_with_springs(const Robot& robot, const DrivePosture& posture, int d
   return out;
 }
 
-// A breakaway DOF, closing, leaves blocked joints behind; a rigid one stops with them.
+// A closing breakaway DOF leaves blocked joints behind; a rigid one stops with them.
 Passing pass_rigidly(const Robot& robot, const DrivePosture& posture, int dof, double rate,
                      const BlockedJoints& blocked) {
   std::vector<int> stopped;
@@ -71,15 +71,15 @@ Passing pass_rigidly(const Robot& robot, const DrivePosture& posture, int dof, d
   return {.advances = true, .left_behind = stopped};
 }
 
-/// What contacts leave of a motion of the DOFs.
+/// Motion of the DOFs after contacts have stopped some of them.
 struct BlockedDofs {
-  DrivePosture posture;         ///< with the joints that are left behind
-  Eigen::VectorXd rates;        ///< 0 of DOFs that are stopped
-  std::vector<int> stopped;     ///< these DOFs
-  std::vector<BodyPair> pairs;  ///< whose contacts stop them, or hold joints
+  DrivePosture posture;         ///< including the joints that are left behind
+  Eigen::VectorXd rates;        ///< 0 for stopped DOFs
+  std::vector<int> stopped;     ///< indices of the stopped DOFs
+  std::vector<BodyPair> pairs;  ///< pairs whose contacts stop DOFs or block joints
 };
 
-// Stops the DOFs that contacts block; what one of them held apart may block others.
+// Stops the DOFs that contacts block; stopping one can cause contacts to block others.
 BlockedDofs find_blocked(const DrivenRobot& driven, const DrivePosture& posture,
                          const Eigen::VectorXd& rates, std::span<const Contact> touching) {
   const double closed = 2 * nearly_closed * driven.world.contact_threshold();
@@ -110,8 +110,8 @@ BlockedDofs find_blocked(const DrivenRobot& driven, const DrivePosture& posture,
   return out;
 }
 
-// how far the path runs before a DOF arrives, picks up a joint that it had left behind, or has
-// deflected springs by a step
+// path length until a DOF arrives, reaches a joint that it had left behind, or has deflected
+// springs by a step
 double path_length(const DrivenRobot& driven, const DrivePosture& posture,
                    const Eigen::VectorXd& targets, const Eigen::VectorXd& rates) {
   double length = std::numeric_limits<double>::infinity();
@@ -130,7 +130,7 @@ double path_length(const DrivenRobot& driven, const DrivePosture& posture,
   return length;
 }
 
-/// Where a path ended, and why.
+/// End of a path.
 struct Followed {
   DrivePosture posture;
   Advance end;
@@ -144,7 +144,7 @@ Followed follow(const DrivenRobot& driven, const DrivePosture& start, PairBounds
   const auto place = [&](double s) {
     Eigen::VectorXd& q = out.posture.dofs;
     q = start.dofs + s * rates;
-    // who arrives, arrives exactly
+    // a DOF that arrives is set exactly to its target
     for (int i = 0; i < rates.size(); ++i)
       if (rates[i] != 0 && std::abs(targets[i] - q[i]) <= arrived) q[i] = targets[i];
     driven.place(out.posture);
@@ -173,13 +173,13 @@ bool any_moved(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
   return before.size() > 0 && (now - before).lpNorm<Eigen::Infinity>() > no_motion;
 }
 
-// all that were on their way
+// stops all moving DOFs
 void stop_all(DriveResult& result, const Eigen::VectorXd& rates, DofStop why) {
   for (int i = 0; i < rates.size(); ++i)
     if (rates[i] != 0) result.stops[i] = why;
 }
 
-/// Rates of the DOFs that have somewhere to go, and why the others stop.
+/// Rates of the DOFs that have not reached their targets, and the stops of the others.
 struct RatesLeft {
   Eigen::VectorXd rates;
   std::vector<std::pair<int, DofStop>> stops;  ///< of DOFs that were to move
@@ -200,8 +200,10 @@ RatesLeft without_arrived(const Robot& robot, const Eigen::VectorXd& dofs,
   return out;
 }
 
-// Goes from event to event until nothing moves: springs come to rest, contacts stop DOFs, the
-// others follow their path.   motion  rates of the fastest DOF   returns  the last posture
+// Advances from event to event until nothing moves: springs come to rest, contacts stop DOFs, the
+// others follow their path.
+// motion   relative to the rate of the fastest DOF
+// returns  the last posture
 DrivePosture drive_on(const DrivenRobot& driven, DrivePosture posture, const DofMotion& motion,
                       const DriveOptions& options, DriveResult& result) {
   const auto& [targets, all_rates] = motion;
@@ -221,7 +223,7 @@ DrivePosture drive_on(const DrivenRobot& driven, DrivePosture posture, const Dof
       return posture;
     }
 
-    // who has somewhere to go, and is not blocked
+    // the DOFs that have not arrived and are not blocked
     const RatesLeft left = without_arrived(driven.robot(), posture.dofs, targets, all_rates);
     for (const auto& [dof, why] : left.stops) result.stops[dof] = why;
     BlockedDofs blocked = find_blocked(driven, posture, left.rates, driven.touching());
@@ -274,7 +276,7 @@ DriveResult drive(World& world, Id<Robot> id, const DofMotion& motion,
   refuse_collision(world, driven.bodies.movable(),
                    fmt::format("driving '{}'", excerpt(robot.name)));
 
-  // the path does not depend on the pace: the fastest DOF counts as 1
+  // the path does not depend on the pace: the rate of the fastest DOF is set to 1
   const double fastest = motion.rates.lpNorm<Eigen::Infinity>();
   inside.rates /= fastest > 0 ? fastest : 1;
   const Eigen::VectorXd dofs = world.dofs(id), joints = world.joints(id);

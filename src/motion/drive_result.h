@@ -1,4 +1,4 @@
-// What a drive of DOFs is told, and what came of it.
+// Options and results of driving DOFs.
 #pragma once
 #include <vector>
 
@@ -7,11 +7,11 @@
 namespace clench {
 
 enum class DofStop {
-  reached,  ///< its target, inside the limits
-  limit,    ///< its target, a limit
+  reached,  ///< reached its target, inside the limits
+  limit,    ///< reached its target, a limit
   contact,
-  not_driven,       ///< it had nowhere to go
-  iteration_limit,  ///< it slid and stuck more often than a drive waits for
+  not_driven,       ///< had no motion to make
+  iteration_limit,  ///< slid and stuck more often than a drive allows
 };
 
 struct DriveOptions {
@@ -20,10 +20,10 @@ struct DriveOptions {
 
 struct DriveResult {
   bool moved = false;                ///< did any DOF or joint change by more than 1e-5 [rad or m]?
-  std::vector<DofStop> stops;        ///< one per DOF: why it stopped
+  std::vector<DofStop> stops;        ///< one per DOF: reason of its stop
   std::vector<BodyPair> stopped_by;  ///< pairs whose contacts block a joint at the end; link first
-  int queries = 0;                   ///< distance queries it took
-  int events = 0;                    ///< contacts met on the way
+  int queries = 0;                   ///< number of distance queries
+  int events = 0;                    ///< number of contacts on the path
 };
 
 }  // namespace clench

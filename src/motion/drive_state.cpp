@@ -8,12 +8,12 @@
 
 namespace clench {
 
-// a joint this near its place in the DOF follows it again: rounding [rad or m]
+// a joint this near the position given by its DOF follows it again: rounding [rad or m]
 static constexpr double in_place = 1e-12;
 
 namespace {
 
-// has the DOF come to where a joint stands that left it?
+// has the DOF returned to the position of a joint that it had left behind?
 bool back_at(const DrivenRobot& driven, const Eigen::VectorXd& dofs, const JointSpec& joint,
              double own) {
   const double beyond = joint.ratio * dofs[joint.dof] - own;
@@ -21,15 +21,15 @@ bool back_at(const DrivenRobot& driven, const Eigen::VectorXd& dofs, const Joint
   return beyond * (joint.ratio < 0 ? -1 : 1) <= 0;
 }
 
-// bound of the way from the frame before a joint to the one behind it, whatever its q
+// upper bound on the distance from the frame before a joint to the one after it, for any q
 double span_of(const JointSpec& joint) {
   const double slides =
       joint.kind == JointKind::prismatic ? std::max(std::abs(joint.min), std::abs(joint.max)) : 0;
   return joint.X_PJ.position.norm() + slides;
 }
 
-// bound of the distance of any point of the body from the axis of a joint that moves it, whatever
-// the joints do on the way: lengths along the links, then the body's own extent
+// upper bound on the distance of any point of the body from the axis of a joint that moves it, for
+// all joint positions on the path: lengths along the links, then the body's own extent
 double lever(const DrivenRobot& driven, int joint, Id<Body> id) {
   const Robot& robot = driven.robot();
   const Body& body = driven.world.body(id);
@@ -49,7 +49,7 @@ double lever(const DrivenRobot& driven, int joint, Id<Body> id) {
   }
 }
 
-// bound of the relative speed of two bodies: the joints that move one of them and not the other
+// upper bound on the relative speed of two bodies: sum over the joints that move only one of them
 double pair_speed(const DrivenRobot& driven, const JointSpeeds& speeds, Id<Body> a, Id<Body> b) {
   check_stop();
   double sum = 0;
@@ -102,7 +102,7 @@ DrivePosture re_engaged(const DrivenRobot& driven, DrivePosture posture) {
 Advance follow_path(const DrivenRobot& driven, PairBounds& pairs, const JointSpeeds& speeds,
                     double length, const std::function<void(double)>& place, int& queries) {
   for (PairBound& pair : pairs) pair.speed = pair_speed(driven, speeds, pair.a, pair.b);
-  // what rests keeps what is known of it
+  // pairs at rest keep their bounds
   const auto moves = std::partition(pairs.begin(), pairs.end(),
                                     [](const PairBound& pair) { return pair.speed > 0; });
   PairBounds watches(pairs.begin(), moves);

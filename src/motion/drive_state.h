@@ -1,4 +1,5 @@
-// A robot that is driven: what stays the same during a drive, and what passes from stage to stage.
+// State of a driven robot: data that are constant during a drive, and data passed between its
+// stages.
 #pragma once
 #include <functional>
 
@@ -10,10 +11,10 @@ namespace clench {
 /// Values of DOFs, and positions of those joints that do not follow them.
 struct DrivePosture {
   Eigen::VectorXd dofs;
-  std::vector<JointPosition> own;  ///< one per joint
+  std::vector<JointPosition> own;  ///< one per joint; empty: it follows its DOF
 };
 
-/// The robot of a drive, with everything that it carries; the same from its beginning to its end.
+/// The robot of a drive, with everything that it carries; constant during the drive.
 struct DrivenRobot {
   World& world;
   Id<Robot> id;
@@ -22,14 +23,14 @@ struct DrivenRobot {
   const Robot& robot() const { return world.robot(id); }
   bool sprung(int dof) const { return robot().dofs[dof].kind == DofKind::compliant; }
   void place(const DrivePosture& p) const { world.set_dofs_unchecked(id, p.dofs, p.own); }
-  /// contacts of its bodies as they stand
+  /// present contacts of its bodies
   std::vector<Contact> touching() const;
 };
 
-/// What is known of the distances of bodies that some joint can bring together.
+/// Distance bounds of pairs of bodies that some joint can bring together.
 using PairBounds = std::vector<PairBound>;
 
-/// Nothing is known of them yet.
+/// The pairs, with unknown distances.
 PairBounds pairs_to_watch(const DrivenRobot& driven);
 
 /// Speeds of joints that follow their DOFs.
@@ -37,18 +38,18 @@ PairBounds pairs_to_watch(const DrivenRobot& driven);
 JointSpeeds joint_speeds(const DrivenRobot& driven, const std::vector<JointPosition>& own,
                          const Eigen::VectorXd& rates, bool pulled = false);
 
-/// Visits number and spec of all joints of a DOF.
+/// Visits index and spec of all joints of a DOF.
 template <class Visit>
 void each_joint_of(const Robot& robot, int dof, Visit visit) {
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j)
     if (robot.joints[j].dof == dof) visit(j, robot.joints[j]);
 }
 
-/// Joints to which their DOFs have come back follow them again.
+/// Joints to whose positions their DOFs have returned follow them again.
 DrivePosture re_engaged(const DrivenRobot& driven, DrivePosture posture);
 
-/// Goes along a path until its end or until a pair touches.
-/// pairs    their bounds, which hold at the new place afterwards
+/// Follows a path until its end or until a pair touches.
+/// pairs    their bounds, updated to hold at the end
 /// speeds   of the joints along the path
 /// place    place(s) sets DOFs and joints
 /// queries  counts distance queries

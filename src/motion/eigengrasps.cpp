@@ -16,7 +16,7 @@ static EigengraspSet set_of(const Robot& robot) {
 }
 
 Eigengrasps::Eigengrasps(const Robot& robot) {
-  // a hand without DOFs has no posture to choose
+  // a hand without DOFs has only one posture
   if (!robot.dofs.empty()) *this = Eigengrasps(set_of(robot), robot.limits);
 }
 
@@ -65,7 +65,7 @@ VectorXd Eigengrasps::posture(const VectorXd& amplitudes, const VectorXd& from) 
   return from + norm_.cwiseProduct(vectors_.transpose() * change);
 }
 
-// share of a unit vector below which a DOF is taken not to move
+// a DOF with a smaller component of a unit vector counts as not moved
 static constexpr double moves = 1e-9;
 
 std::vector<Range> Eigengrasps::limits(const VectorXd& dofs) const {
@@ -80,7 +80,7 @@ std::vector<Range> Eigengrasps::limits(const VectorXd& dofs) const {
     for (int d = 0; d < static_cast<int>(dof_limits_.size()); ++d) {
       if (std::abs(vectors_(i, d)) < moves) continue;
       const double rate = norm_[d] * vectors_(i, d);
-      // from where the DOF is, to its two limits
+      // from the value of the DOF to its two limits
       const double a = (dof_limits_[d][0] - dofs[d]) / rate,
                    b = (dof_limits_[d][1] - dofs[d]) / rate;
       back = std::max(back, std::min(a, b));
@@ -94,7 +94,7 @@ std::vector<Range> Eigengrasps::limits(const VectorXd& dofs) const {
 std::vector<Range> Eigengrasps::range() const {
   std::vector<Range> out;
   for (int i = 0; i < size(); ++i) {
-    // amplitudes are linear in the DOFs: each at the limit that serves
+    // amplitudes are linear in the DOFs: each extreme is at a limit of every DOF
     const double infinite = std::numeric_limits<double>::infinity();
     Range range = dof_limits_.empty() ? Range{-infinite, infinite} : Range{0, 0};
     for (int d = 0; d < static_cast<int>(dof_limits_.size()); ++d) {
@@ -128,7 +128,7 @@ static MatrixXd rows_of(const std::vector<VectorXd>& postures) {
   return rows;
 }
 
-// +v and -v are the same component; of the two we take one
+// +v and -v are the same component; the sign is fixed by the largest entry
 static VectorXd with_sign(const VectorXd& v) {
   int largest = 0;
   for (int i = 1; i < v.size(); ++i)
@@ -148,7 +148,7 @@ EigengraspSet principal_eigengrasps(const std::vector<VectorXd>& postures, int c
   // ascending eigenvalues
   const MatrixXd covariance = rows.transpose() * rows / static_cast<double>(rows.rows() - 1);
   const auto [values, vectors] = eigensystem(covariance);
-  // what rounding leaves of a direction in which nothing varies
+  // eigenvalue that rounding can give to a direction without variance
   const double nothing = 1e-12 * std::max(values[dofs - 1], 0.0);
   int varied = 0;
   while (varied < dofs && values[dofs - 1 - varied] > nothing) ++varied;

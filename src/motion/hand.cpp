@@ -22,7 +22,7 @@ static DriveResult close_stage(World& world, Id<Robot> id, double speed, const D
   return drive(world, id, motion, options);
 }
 
-// what came of one stage after those before it
+// adds the result of a stage to that of the previous ones
 static void add(DriveResult& all, const DriveResult& stage) {
   all.moved = all.moved || stage.moved;
   for (size_t i = 0; i < stage.stops.size(); ++i)

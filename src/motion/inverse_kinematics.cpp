@@ -20,15 +20,16 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double turn_length = 0.1;                      // a turn by 1 rad counts as this way [m]
-constexpr int max_iterations = 300;                      // of a start
-constexpr double no_step = 1e-12;                        // a step below this is none [rad or m]
-constexpr double min_damping = 1e-9, max_damping = 1e9;  // of the error squared
+constexpr double turn_length = 0.1;  // a turn by 1 rad is weighted like this displacement [m]
+constexpr int max_iterations = 300;  // per start
+constexpr double no_step = 1e-12;    // smaller steps end the descent [rad or m]
+constexpr double min_damping = 1e-9, max_damping = 1e9;  // relative to the squared error
 
-// values of the DOFs, and how far from the target they leave the frame
+// values of the DOFs, and the remaining error of the frame
 struct Posture {
   VectorXd q;
-  Vector6d residual;  // way to go, above turn_length * turn to make, in world axes [m]
+  // displacement to the target, above turn_length * remaining turn, in world axes [m]
+  Vector6d residual;
   double distance = 0, angle = 0;
 
   double error() const { return residual.squaredNorm(); }
@@ -60,7 +61,7 @@ class Search {
   bool reached(const Posture& at) const {
     return at.distance <= options_.tolerance && at.angle <= options_.angle_tolerance;
   }
-  /// The least error that descent finds from q.
+  /// The posture with the smallest error that descent finds from q.
   Posture descend(const VectorXd& q, int& iterations);
 
  private:
@@ -71,9 +72,9 @@ class Search {
   int link_;
   Pose X_W_base_, X_LT_, X_WT_;
   const IkOptions& options_;
-  std::vector<bool> free_;  // of the DOFs
+  std::vector<bool> free_;  // per DOF
   std::vector<std::array<double, 2>> ranges_;
-  // of the posture that was looked at last
+  // of the posture evaluated last
   std::vector<double> joints_;
   RobotFrames frames_;
   Pose X_WT_now_;
@@ -98,7 +99,7 @@ Posture Search::at(const VectorXd& q) {
   return out;
 }
 
-// what DOFs do to the residual, downwards; 0 for those that stay
+// derivative of the pose by the DOFs, the negative of the residual's; 0 for DOFs that must not move
 MatrixXd Search::jacobian() const {
   const MatrixXd joints = joint_jacobian(robot_, frames_, link_, X_WT_now_.position);
   MatrixXd out = MatrixXd::Zero(6, static_cast<int>(free_.size()));
@@ -121,7 +122,7 @@ Posture Search::descend(const VectorXd& start, int& iterations) {
     ++iterations;
     MatrixXd J = jacobian();
     const VectorXd downhill = J.transpose() * best.residual;
-    // whose range ends there
+    // fix DOFs at the end of their range
     for (int d = 0; d < J.cols(); ++d) {
       const auto [low, high] = ranges_[d];
       if ((best.q[d] <= low && downhill[d] < 0) || (best.q[d] >= high && downhill[d] > 0))
@@ -129,7 +130,7 @@ Posture Search::descend(const VectorXd& start, int& iterations) {
     }
     const MatrixXd H = J.transpose() * J;
     const VectorXd slope = J.transpose() * best.residual;
-    // longer steps until one is no better, shorter ones until one is
+    // reduce the damping after a step that improves, increase it until one does
     while (true) {
       check_stop();
       MatrixXd damped = H;
@@ -165,7 +166,7 @@ void check(const World& world, Id<Robot> id, const Pose& X_WT, const IkOptions& 
     if (!(tolerance > 0)) fail("{}: expected a tolerance > 0, got {}", subject(), tolerance);
 }
 
-// of one DOF
+// random value of one DOF
 double random_value(const std::array<double, 2>& range, double now, Random& random) {
   const bool endless = !std::isfinite(range[1] - range[0]);
   const double low = endless ? std::max(range[0], now - std::numbers::pi) : range[0];
@@ -181,9 +182,9 @@ IkResult inverse_kinematics(const World& world, Id<Robot> id, Id<Body> body, con
   Search search(world, id, body, X_WT, options);
   const Robot& robot = world.robot(id);
   if (!search.moves_anything())
-    fail("inverse kinematics of '{}': no DOF that may move moves '{}'", excerpt(robot.name),
+    fail("inverse kinematics of '{}': none of the selected DOFs moves '{}'", excerpt(robot.name),
          excerpt(world.body(body).name));
-  std::optional<World> trial;  // where collisions are looked for
+  std::optional<World> trial;  // copy of the world for collision checks
   std::vector<Id<Body>> moving;
   if (options.collision_free) trial = world, moving = movable_bodies(world, id);
   const auto collides_at = [&](const VectorXd& q) {

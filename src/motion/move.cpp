@@ -20,14 +20,14 @@ void refuse_collision(World& world, std::span<const Id<Body>> moving, const std:
 
 namespace {
 
-// one rigid thing, made of bodies, on its way from one pose to another
+// motion of one rigid set of bodies from one pose to another
 struct Way {
   Pose from, to;
   std::vector<Id<Body>> moving;
   std::function<void(const Pose&)> place;
 };
 
-// bound of the distance of the body's points from the origin that the motion turns about
+// upper bound on the distance of the body's points from the origin that the motion turns about
 double reach_from(const World& world, Id<Body> id, const Eigen::Vector3d& origin) {
   const Shape& shape = *world.body(id).shape;
   return (world.pose(id) * shape.center() - origin).norm() + shape.radius();
@@ -45,7 +45,7 @@ std::vector<PairBound> watch_pairs(const World& world, const Way& way, double le
   return watches;
 }
 
-// contacts that the very first motion would push into
+// contacts that the initial motion would push into
 std::vector<BodyPair> blocked_pairs(World& world, const Way& way, const Eigen::Vector3d& linear,
                                     const Eigen::Vector3d& angular,
                                     const std::vector<PairBound>& watches) {
@@ -102,9 +102,8 @@ std::vector<Id<Body>> carried_bodies(const World& world, Id<Robot> robot) {
 }
 
 // X_WB raised against gravity, for a body that overlaps its support by no more than the contact
-// threshold: until there is a gap of at least a quarter of the threshold. Leaves the body where it
-// is.
-// returns  nothing if the body does not collide at X_WB, or still collides one threshold higher
+// threshold, until there is a gap of at least a quarter of the threshold. Does not move the body.
+// returns  empty if the body does not collide at X_WB, or still collides one threshold higher
 std::optional<Pose> raised_from_support(World& world, Id<Body> body, const Pose& X_WB) {
   const std::array one{body};
   const Pose start = world.pose(body);
@@ -131,10 +130,10 @@ std::optional<Pose> raised_from_support(World& world, Id<Body> body, const Pose&
 
 MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
   const Pose from = world.pose(body);
-  world.set_pose(body, X_WB);  // refuses a part of a robot and a pose that is not finite
+  world.set_pose(body, X_WB);  // rejects a part of a robot and a pose that is not finite
   world.set_pose(body, from);
   Way way{from, X_WB, {body}, [&](const Pose& X) { world.set_pose(body, X); }};
-  // a body that stands on something moves as if there were a gap below it, at both ends
+  // a body that rests on a support moves as if there were a gap below it, at both ends
   if (const auto raised = raised_from_support(world, body, from)) {
     way.from = *raised;
     way.to = raised_from_support(world, body, X_WB).value_or(X_WB);
@@ -146,11 +145,11 @@ MoveResult move_body(World& world, Id<Body> body, const Pose& X_WB) {
 
 MoveResult move_robot(World& world, Id<Robot> robot, const Pose& X_WB) {
   const Pose from = world.pose(world.robot(robot).base);
-  world.set_pose(robot, X_WB);  // refuses a carried robot and a pose that is not finite
+  world.set_pose(robot, X_WB);  // rejects a carried robot and a pose that is not finite
   world.set_pose(robot, from);
   Way way{from, X_WB, carried_bodies(world, robot),
           [&](const Pose& X) { world.set_pose(robot, X); }};
-  // the robot's own overlaps move along: only the rest of the world matters
+  // the robot's own overlaps are ignored: only the rest of the world matters
   std::vector<Id<Body>> others;
   for (const auto b : world.bodies())
     if (std::find(way.moving.begin(), way.moving.end(), b) == way.moving.end()) others.push_back(b);

@@ -8,16 +8,16 @@
 
 namespace clench {
 
-// springs are at rest when no joint has farther to go: a micrometer at the tip of a finger [rad or
+// springs are at rest if no joint has farther to move: a micrometer at the tip of a finger [rad or
 // m]
 static constexpr double at_rest = 1e-5;
-// contacts that a finger slides along change on the way; so many changes are followed before the
-// tendon is pulled on
+// contacts that a finger slides along change during the motion; this many changes are followed
+// before the tendon is pulled on
 static constexpr int max_turns = 20;
 
 namespace {
 
-// how much of their travel all joints can go before one of them is at its limit
+// fraction of their travel that all joints can make before one of them is at its limit
 double within_limits(const DrivenRobot& driven, const JointSpeeds& travel) {
   double part = 1;
   for (int j = 0; j < static_cast<int>(travel.size()); ++j) {
@@ -30,7 +30,7 @@ double within_limits(const DrivenRobot& driven, const JointSpeeds& travel) {
   return part;
 }
 
-// the joints of compliant DOFs go as far as their springs draw them, or until a pair touches
+// moves the joints of compliant DOFs as far as their springs pull them, or until a pair touches
 Advance follow_springs(const DrivenRobot& driven, DrivePosture& posture, PairBounds& pairs,
                        const JointSpeeds& travel, int& queries) {
   std::vector<double> start;

@@ -12,11 +12,11 @@ namespace clench {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// a joint this near its limit is there [rad or m]
+// a joint this near its limit is at it [rad or m]
 static constexpr double at_limit = 1e-9;
-// rounding of a way [rad or m]
+// smaller displacements are rounding [rad or m]
 static constexpr double nowhere = 1e-12;
-// of the contact threshold: where closing stops anyhow
+// as a fraction of the contact threshold: closing stops at this gap in any case
 static constexpr double min_gap = 0.2;
 
 namespace {
@@ -40,13 +40,13 @@ std::vector<Vector3d> edges_of(const Contact& contact, bool sliding) {
   return edges;
 }
 
-// The y nearest to `to` with sides^T y >= least, a column a side; empty: there is none.
+// The y nearest to `to` with sides^T y >= least, one side per column; empty if there is none.
 // source  Lawson & Hanson (1974), Solving least squares problems, ch. 23: least distance
 //         programming
 std::optional<VectorXd> nearest_allowed(const Eigen::MatrixXd& sides, const VectorXd& least,
                                         const VectorXd& to) {
   const int n = static_cast<int>(to.size());
-  // lengths of about 1 keep the digits
+  // scaling to lengths of about 1 preserves precision
   const double size = to.norm() > 0 ? to.norm() : 1;
   Eigen::MatrixXd both(n + 1, sides.cols());
   both.topRows(n) = sides;
@@ -113,7 +113,7 @@ JointSpeeds SpringBalance::displacement() const {
   for (int i = 0; i < drawn.size(); ++i)
     drawn[i] = std::sqrt(joints_[i].stiffness) * joints_[i].deflection;
   auto way = nearest_allowed(reactions_, opens_, drawn);
-  // contacts on both sides that cannot all open
+  // opposite contacts that cannot all open
   if (!way) way = nearest_allowed(reactions_, VectorXd::Zero(opens_.size()), drawn);
   JointSpeeds out = none_;
   for (int i = 0; way && i < drawn.size(); ++i) {
@@ -124,7 +124,7 @@ JointSpeeds SpringBalance::displacement() const {
 }
 
 bool SpringBalance::balanced_by_contacts(int dof, double sense) const {
-  constexpr double rounding = 1e-9;  // of the torque
+  constexpr double rounding = 1e-9;  // relative to the torque
   VectorXd torques = VectorXd::Zero(static_cast<int>(joints_.size()));
   for (int i = 0; i < torques.size(); ++i)
     if (joints_[i].dof == dof)

@@ -26,16 +26,17 @@ struct Motion {
 
 /// A small piece of surface that moves forward.
 struct Piece {
-  Vector3d center, normal;  // center of what it sweeps
-  double swept;             // volume in unit time
+  Vector3d center, normal;  // center of the volume that it sweeps
+  double swept;             // volume per unit of time
 };
 
-constexpr double fineness = 1.0 / 16;  // longest edge of a piece, of the mesh's size
-constexpr int deepest = 5;             // each step cuts a triangle in four
-constexpr double around = 0.25;        // the normal is a mean over this, of the swept area's size
+constexpr double fineness = 1.0 / 16;  // longest edge of a piece, as a fraction of the mesh's size
+constexpr int deepest = 5;             // maximum depth; each step splits a triangle into four
+// radius of averaging the normal, as a fraction of the swept area's size
+constexpr double around = 0.25;
 
-// the hand as far open as its closing DOFs go, the others as near zero as they can; in the base
-// frame
+// frames of the hand with closing DOFs fully open and the others as near zero as possible; in the
+// base frame
 RobotFrames frames_opened(const Robot& robot) {
   std::vector<double> q;
   for (const Joint& joint : robot.joints) {
@@ -48,7 +49,7 @@ RobotFrames frames_opened(const Robot& robot) {
   return out;
 }
 
-// how a link moves while the hand closes, in its own frame
+// velocity of a link while the hand closes, in its own frame
 Motion closing_motion(const Robot& robot, const RobotFrames& frames, int link) {
   Motion motion;
   const Pose X_LB = frames.links[link].inverse();
@@ -77,7 +78,7 @@ void cut(const std::array<Vector3d, 3>& corners, const Vector3d& normal, const M
       cut(part, normal, motion, longest, depth + 1, pieces);
     return;
   }
-  // what is swept grows linearly over a triangle: its sum and its center are exact, unless part of
+  // the swept volume is linear over a triangle: its sum and its center are exact, unless part of
   // the triangle moves backward
   Vector3d speeds;
   for (int i = 0; i < 3; ++i) speeds[i] = std::max(0.0, normal.dot(motion.at(corners[i])));
@@ -101,7 +102,7 @@ std::vector<Piece> forward_pieces(const Shape& shape, const Motion& motion) {
   return pieces;
 }
 
-// equal shares of what is swept, along the direction in which the pieces are spread most
+// parts of equal swept volume, along the direction in which the pieces are spread most
 std::vector<std::vector<Piece>> shares(std::vector<Piece> pieces, int count) {
   if (count == 1 || pieces.empty()) return {std::move(pieces)};
   Vector3d mean = Vector3d::Zero();
@@ -132,7 +133,7 @@ Vector3d mean_normal(const std::vector<Piece>& pieces) {
   return mean;
 }
 
-// frame at the surface point that a ray against `direction` through p meets first, or the piece
+// frame at the first surface point hit by a ray against `direction` through p, or at the piece
 // nearest to p
 Pose site(const Shape& shape, const std::vector<Piece>& pieces, const Vector3d& p,
           const Vector3d& direction) {
@@ -147,7 +148,7 @@ Pose site(const Shape& shape, const std::vector<Piece>& pieces, const Vector3d& 
     if (across.dot(direction) > 0) point = hit->point, normal = across.normalized();
   }
 
-  // the surface around says where it faces, not the one triangle
+  // the normal is an average over the surrounding surface, not that of a single triangle
   Vector3d mean = Vector3d::Zero();
   Vector3d low = pieces.front().center, high = low;
   for (const Piece& piece : pieces)
@@ -175,11 +176,11 @@ std::vector<Pose> link_sites(const Shape& shape, const Motion& motion, int count
   return out;
 }
 
-/// A body that stays where it is while the hand closes.
+/// A body that does not move while the hand closes.
 struct Still {
   int link;  // -1: the base
   const Body* body;
-  Pose X_LA;  // approach frame in it
+  Pose X_LA;  // approach frame relative to it
 };
 
 std::optional<Pose> palm_site(const Still& palm) {
@@ -190,7 +191,7 @@ std::optional<Pose> palm_site(const Still& palm) {
   return site(*palm.body->shape, pieces, palm.X_LA.position, forward);
 }
 
-// the palm is whatever still body lies nearest to the approach point
+// the palm is the still body nearest to the approach point
 const Still* palm_of(const std::vector<Still>& still) {
   const Still* palm = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
@@ -246,7 +247,7 @@ VirtualContactSpec marked(const World& world, Id<Robot> id, const Contact& conta
     const auto part = touched ? contact.body : contact.other;
     const Body& body = world.body(part);
     if (body.robot != id || (body.kind != BodyKind::link && body.kind != BodyKind::base)) continue;
-    // out of the link: along the normal, which points into the touched one
+    // out of the link: along the normal, which points into the touched body
     const Vector3d n_W = touched ? Vector3d(-contact.n_W) : contact.n_W;
     const Vector3d p_W = touched ? contact.p_W : Vector3d(contact.p_W - contact.gap * contact.n_W);
     const Pose X_WC{Eigen::Quaterniond(contact_frame(n_W)).normalized(), p_W};

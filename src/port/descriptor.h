@@ -1,4 +1,4 @@
-// A file descriptor with an owner.
+// A file descriptor closed by its owner.
 #pragma once
 #include <unistd.h>
 
@@ -22,9 +22,9 @@ class Descriptor {
     return *this;
   }
 
-  int number() const { return number_; }  ///< below 0 once it is closed
+  int number() const { return number_; }  ///< negative after it is closed
   bool is_open() const { return number_ >= 0; }
-  /// Called with the number before it is closed. It must not throw.
+  /// Called with the descriptor before it is closed. It must not throw.
   void set_farewell(std::function<void(int)> farewell) { farewell_ = std::move(farewell); }
 
   void close() {

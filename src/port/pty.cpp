@@ -26,7 +26,7 @@ Pty open_pty() {
   if (!ours.is_open() || grantpt(ours.number()) != 0 || unlockpt(ours.number()) != 0 ||
       ptsname_r(ours.number(), path, sizeof path) != 0)
     fail_pty();
-  // while this is open, our side does not end whenever a program closes the other one
+  // holding this open prevents our side from ending whenever a program closes the other one
   auto other = std::make_shared<Descriptor>(::open(path, O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (!other->is_open()) fail_pty();
   set_line(other->number(), {.path = path});

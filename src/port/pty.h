@@ -1,4 +1,4 @@
-// Pseudo-terminals: a program on one side, what it believes to be a serial line on the other.
+// Pseudo-terminals: one side belongs to us, programs open the other one as a serial line.
 #pragma once
 #include <string>
 
@@ -8,12 +8,12 @@ namespace clench {
 
 struct Pty {
   Stream stream;     ///< our side
-  std::string path;  ///< of the other side, which programs open as a serial line
+  std::string path;  ///< path of the other side, which programs open as a serial line
 };
 
-/// Opens a pseudo-terminal for raw bytes. The path exists until our side is closed, however often
-/// the other side is opened and closed meanwhile.
-/// throws  Error when the system has none left
+/// Opens a pseudo-terminal for raw bytes. The path exists until our side is closed, even if the
+/// other side is opened and closed repeatedly.
+/// throws  Error if the system has none left
 Pty open_pty();
 
 }  // namespace clench

@@ -53,7 +53,7 @@ void set_line(int descriptor, const SerialOptions& options) {
   termios2 settings = settings_of(descriptor, options.path);
   make_raw(settings, options);
   if (ioctl(descriptor, TCSETS2, &settings) != 0)
-    fail(ErrorKind::file, "{}: {} baud is refused: {}", options.path, options.baud,
+    fail(ErrorKind::file, "{}: {} baud is rejected: {}", options.path, options.baud,
          system_reason(errno));
 }
 

@@ -11,22 +11,24 @@ enum class FlowControl { none, hardware, software };
 
 struct SerialOptions {
   std::string path;   ///< "/dev/ttyUSB0"
-  int baud = 9600;    ///< any rate that the device accepts, > 0 [bit/s]
+  int baud = 9600;    ///< any rate supported by the device, > 0 [bit/s]
   int data_bits = 8;  ///< 5 to 8
   int stop_bits = 1;  ///< 1 or 2
   Parity parity = Parity::none;
   FlowControl flow = FlowControl::none;
 };
 
-/// Opens a serial line for raw bytes, for this process only, and drops what it received before.
+/// Opens a serial line for raw bytes, exclusively for this process, and discards earlier input.
 /// Closing restores its settings.
-/// throws  Error when it is no serial line, is used by another process, or refuses the settings
+/// throws  Error if it is not a serial line, is used by another process, or rejects the settings
 Stream open_serial(const SerialOptions& options);
 
-/// Sets a terminal to raw bytes at these settings.   throws  Error as open_serial
+/// Sets a terminal to raw bytes with these settings.
+/// throws  Error as open_serial
 void set_line(int descriptor, const SerialOptions& options);
 
-/// The rate that a terminal is set to [bit/s].   throws  Error when it is none
+/// Present baud rate of a terminal [bit/s].
+/// throws  Error if the descriptor is not a terminal
 int baud_of(int descriptor);
 
 }  // namespace clench

@@ -47,7 +47,7 @@ Descriptor new_socket(int family, const std::string& name) {
   return made;
 }
 
-// of TCP: sends small messages at once, and finds out when the other machine is gone
+// TCP options: sends small messages immediately, and detects when the other machine is gone
 void set_tcp_options(int number) {
   const int on = 1;
   setsockopt(number, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -71,7 +71,7 @@ sockaddr_un unix_address(const std::string& path) {
   return address;
 }
 
-// removes a socket file that no program listens to
+// removes a socket file without a listening program
 void remove_stale(const std::string& path, const sockaddr_un& address) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0 || !S_ISSOCK(found.st_mode)) return;
@@ -132,7 +132,7 @@ std::pair<Stream, Stream> open_pair() {
 
 Acceptor::Acceptor(Descriptor descriptor, std::string name)
     : descriptor_(std::move(descriptor)), name_(std::move(name)) {
-  constexpr int waiting = 128;  // clients that are connected and not yet accepted
+  constexpr int waiting = 128;  // maximum number of connected clients that are not yet accepted
   if (::listen(descriptor_.number(), waiting) != 0)
     fail(ErrorKind::file, "{}: {}", name_, system_reason(errno));
   port_ = port_of(descriptor_.number());
@@ -144,7 +144,7 @@ Acceptor Acceptor::tcp(const HostAddress& host, int port) {
   const AddressList list = addresses_of(host.address, port, AI_NUMERICHOST);
   if (!list) fail("{}: expected a numeric address", host.address);
   Descriptor made = new_socket(list->ai_family, name);
-  const int on = 1;  // a server that has just ended leaves the port free
+  const int on = 1;  // the port is free immediately after an earlier server has ended
   setsockopt(made.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (::bind(made.number(), list->ai_addr, list->ai_addrlen) != 0)
     fail(ErrorKind::file, "{}: {}", name, system_reason(errno));
@@ -156,7 +156,7 @@ Acceptor Acceptor::unix_socket(const std::string& path) {
   const sockaddr_un address = unix_address(path);
   remove_stale(path, address);
   Descriptor made = new_socket(AF_UNIX, path);
-  // the file gets this mode when it is created
+  // sets the permissions of the file at its creation
   if (::fchmod(made.number(), S_IRUSR | S_IWUSR) != 0 ||
       ::bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     fail(ErrorKind::file, "{}: {}", path, system_reason(errno));
@@ -174,7 +174,7 @@ std::optional<Stream> Acceptor::accept() {
     if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
       fail(ErrorKind::limit, "{}: no more clients can be accepted: {}", name_,
            system_reason(errno));
-    return std::nullopt;  // no one waits, or whoever did is gone
+    return std::nullopt;  // no client waits, or it has disconnected
   }
   if (other.ss_family == AF_UNIX) return Stream(std::move(made), name_);
   set_tcp_options(made.number());

@@ -15,18 +15,18 @@ struct HostAddress {
   bool operator==(const HostAddress&) const = default;
 };
 
-/// The addresses of a host, those preferred first. May block for seconds unless `numeric`.
-/// numeric  finds only addresses, "localhost" and nothing that a server must be asked for
-/// returns  none when the name is unknown, or is not numeric though it must be
+/// Addresses of a host, in order of preference. May block for seconds unless `numeric`.
+/// numeric  accepts only addresses and "localhost", and asks no name server
+/// returns  empty if the name is unknown, or is not numeric although it must be
 std::vector<HostAddress> resolve(const std::string& host, bool numeric);
 
-/// Begins a connection to a numeric address; it is ready, or has failed (`connect_error`), once the
-/// stream can be written.
-/// throws  Error when the system refuses it at once
+/// Starts a connection to a numeric address; it is ready, or has failed (`connect_error`), as soon
+/// as the stream is writable.
+/// throws  Error if the system rejects it immediately
 Stream begin_connect(const HostAddress& host, int port);
 Stream begin_connect_unix(const std::string& path);
 
-/// Two streams, each of which receives what the other is given.
+/// Two connected streams: each receives the bytes sent by the other.
 std::pair<Stream, Stream> open_pair();
 
 /// A socket that accepts clients.
@@ -35,16 +35,16 @@ class Acceptor {
   /// port  0: the system chooses one
   /// throws  Error "127.0.0.1:4765: Address already in use"
   static Acceptor tcp(const HostAddress& host, int port);
-  /// Only programs of the same user may connect. A socket file that no program listens to is
+  /// Only programs of the same user may connect. A socket file without a listening program is
   /// replaced; `close` removes the file.
   static Acceptor unix_socket(const std::string& path);
 
   int descriptor() const { return descriptor_.number(); }
-  int port() const { return port_; }  ///< of a Unix socket: 0
+  int port() const { return port_; }  ///< 0 for a Unix socket
   const std::string& name() const { return name_; }
 
-  /// The next client that waits; none if no one does.
-  /// throws  Error when the system has no descriptor left
+  /// The next waiting client; empty if there is none.
+  /// throws  Error if the system has no descriptor left
   std::optional<Stream> accept();
   void close() { descriptor_.close(); }
 

@@ -28,7 +28,7 @@ void make_non_blocking(int number, const std::string& name) {
     fail(ErrorKind::file, "{}: {}", name, system_reason(errno));
 }
 
-constexpr size_t chunk = 64 * 1024;  // read at once [bytes]
+constexpr size_t chunk = 64 * 1024;  // maximum read by one call [bytes]
 
 }  // namespace
 
@@ -48,7 +48,7 @@ Stream::Stream(Descriptor input, Descriptor output, std::string name)
 
 size_t Stream::fill() {
   if (end_ != End::none) return 0;
-  if (taken_ > 0 && taken_ >= kept_.size() / 2) {  // moves each byte once on average
+  if (taken_ > 0 && taken_ >= kept_.size() / 2) {  // each byte is moved once on average
     kept_.erase(0, taken_);
     taken_ = 0;
   }

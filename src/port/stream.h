@@ -1,4 +1,4 @@
-// A stream of bytes over a descriptor that never blocks: a serial line, a socket, one side of a
+// A non-blocking stream of bytes over a descriptor: a serial line, a socket, one side of a
 // pseudo-terminal.
 #pragma once
 #include <cstddef>
@@ -11,53 +11,55 @@ namespace clench {
 
 class Stream {
  public:
-  /// Why nothing more arrives.
+  /// State of the receiving or the sending direction.
   enum class End {
-    none,      ///< more may arrive
+    none,      ///< open: more may arrive
     closed,    ///< closed, on this side or the other
     unplugged  ///< the device or the connection was lost
   };
 
-  /// Takes over an open descriptor and makes it non-blocking.
+  /// Takes ownership of an open descriptor and makes it non-blocking.
   /// name  for messages: "/dev/ttyUSB0", "127.0.0.1:4765"
   Stream(Descriptor descriptor, std::string name);
-  /// Of two descriptors, one for each direction, such as standard input and output.
+  /// A stream of two descriptors, one for each direction, such as standard input and output.
   Stream(Descriptor input, Descriptor output, std::string name);
 
   const std::string& name() const { return name_; }
-  /// For polling; below 0 once it is closed.
+  /// Input descriptor, for polling; negative after it is closed.
   int descriptor() const { return descriptor_.number(); }
-  /// The same for writing.
+  /// Output descriptor, for polling.
   int write_descriptor() const { return output_.is_open() ? output_.number() : descriptor(); }
   End end() const { return end_; }
-  /// Why nothing more can be sent. A socket whose other side sends no more may still receive.
+  /// State of the sending direction. A socket whose other side has stopped sending may still
+  /// receive.
   End write_end() const { return write_end_; }
 
-  /// Reads what has arrived, at most 64 KB, behind the bytes that are kept.
-  /// returns  how many bytes; 0: none has arrived, or the stream has ended
+  /// Reads available bytes, at most 64 KB, and appends them to the buffer.
+  /// returns  number of bytes; 0: none are available, or the stream has ended
   size_t fill();
-  /// Bytes that were read and not yet taken.
+  /// Buffered bytes, read but not yet taken.
   std::string_view received() const { return std::string_view(kept_).substr(taken_); }
-  /// Takes the first `count` bytes, or as many as there are.
+  /// Takes the first `count` buffered bytes, or all if there are fewer.
   std::string take(size_t count);
-  /// The first place of a delimiter among the received bytes, npos if there is none. Bytes that were
-  /// searched for it before are not searched again.
+  /// First position of a delimiter in the buffer, npos if there is none. Bytes already searched for
+  /// the same delimiter are not searched again.
   size_t find(std::string_view delimiter);
 
-  /// Sends as many bytes as the system takes now.
-  /// returns  how many; 0: none, or nothing can be sent any more
+  /// Sends as many bytes as the system accepts now.
+  /// returns  number of bytes; 0: none, or the sending direction is closed
   size_t write(std::string_view bytes);
 
-  /// The error by which a connection that was begun has failed; 0: none.
+  /// Error of a connection that was started; 0: none.
   int connect_error() const;
 
   void close();
 
  private:
-  Descriptor descriptor_, output_;  ///< output_ is not open if one does for both
+  Descriptor descriptor_, output_;  ///< not open if one descriptor is used for both directions
   std::string name_, kept_, sought_;
   size_t taken_ = 0,
-         searched_ = 0;  ///< of kept_: bytes taken, bytes without `sought_` behind these
+         /// positions in kept_: bytes taken; bytes after these known to be free of `sought_`
+      searched_ = 0;
   bool is_socket_ = false;
   End end_ = End::none, write_end_ = End::none;
 };

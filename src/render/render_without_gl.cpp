@@ -9,7 +9,7 @@ namespace {
 
 }  // namespace
 
-// nothing to keep
+// nothing to cache
 struct Renderer::Kept {};
 struct Renderer::Framed {};
 Renderer::Renderer(Context context) : context_(context) {}

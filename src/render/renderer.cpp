@@ -19,17 +19,17 @@ namespace clench {
 
 namespace {
 
-constexpr size_t max_kept = size_t{256} << 20;       // of meshes, and of a scene [bytes]
-constexpr size_t max_kept_frame = size_t{64} << 20;  // after a picture [bytes]
+constexpr size_t max_kept = size_t{256} << 20;       // memory of meshes, and of a scene [bytes]
+constexpr size_t max_kept_frame = size_t{64} << 20;  // memory kept after a picture [bytes]
 
-// what was stopped half way leaves nothing behind
+// clears state left by a stopped picture
 void reset_state() {
   for (const GLenum what : {GL_BLEND, GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL, GL_CULL_FACE})
     glDisable(what);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  // also what is off: drivers compile anew for a state that they have not seen
+  // sets disabled state as well: drivers recompile for combinations that they have not seen
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glPolygonOffset(1.5f, 2);
   glCullFace(GL_BACK);
@@ -47,12 +47,12 @@ bool is_frame(const RenderOptions& options) {
 
 }  // namespace
 
-// what a context holds
+// objects of a context
 struct RendererLoaded {
   Programs programs;
   DraftKept drafts{max_kept};
   std::optional<FrameTarget> frame;
-  RenderOptions framed;  // options of that frame
+  RenderOptions framed;  // options of the kept frame
   std::optional<SceneKey> key;
   std::optional<PaperScene> scene;
 };
@@ -99,15 +99,15 @@ Picture draw_paper(RendererLoaded& loaded, const Scene& scene, const Eye& eye,
 
 }  // namespace
 
-// in this order, so that the context goes last
+// declared in this order, so that the context is destroyed last
 struct Renderer::Kept {
-  std::optional<GlContext> context;  // empty: the caller's
+  std::optional<GlContext> context;  // empty: the caller's context is used
   std::optional<RendererLoaded> loaded;
 
   ~Kept();
 };
 
-// the context of the renderer, or the state of the caller's, while it lives
+// makes the renderer's context current, or saves the caller's state, during its lifetime
 class Renderer::Entered {
  public:
   explicit Entered(Kept& kept) {
@@ -129,7 +129,7 @@ Renderer::Kept::~Kept() {
     const Entered entered(*this);
     loaded.reset();
   } catch (const Error&) {
-    // no context, no names to free in it: they go with it
+    // without a context there are no objects to delete: they are deleted with it
     loaded->scene.reset(), loaded.reset();
   }
 }
@@ -191,11 +191,12 @@ void Renderer::draw_to(const DrawTarget& target, const Scene& scene, const Eye& 
   check(options);
   check(scene);
   view_axes(eye);
-  if (!is_frame(options)) fail("picture: frames are drafts with one sample a pixel");
+  if (!is_frame(options)) fail("picture: frames must be drafts with one sample per pixel");
   if (target.framebuffer && context_ == Context::own)
     fail("picture: a framebuffer needs a renderer that draws in the caller's context");
   if (!target.framebuffer && (target.x != 0 || target.y != 0))
-    fail("picture: a frame of the renderer's own begins at 0, 0, got {}, {}", target.x, target.y);
+    fail("picture: a frame of the renderer's own framebuffer begins at 0, 0, got {}, {}", target.x,
+         target.y);
   auto& loaded = kept().loaded;
   const Entered entered(*kept_);
   if (!loaded) loaded.emplace();
@@ -209,7 +210,7 @@ void Renderer::draw_to(const DrawTarget& target, const Scene& scene, const Eye& 
 
 Picture Renderer::read() {
   if (!kept_ || !kept_->loaded || !kept_->loaded->frame)
-    fail("picture: there is no frame to read: draw_to draws one");
+    fail("picture: there is no frame to read: call draw_to first");
   const Entered entered(*kept_);
   Picture picture = read_loaded(*kept_->loaded);
   return kept_->loaded->framed.backdrop == Backdrop::white ? on_white(picture) : picture;

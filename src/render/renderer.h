@@ -1,4 +1,4 @@
-// Draws picture after picture, and keeps what the next one needs again.
+// Renders successive pictures, and caches data that the next ones need.
 #pragma once
 #include <memory>
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace clench {
 
-/// A framebuffer that frames are drawn to, and the lower left corner of the frame in it [pixels].
+/// A framebuffer to draw frames to, and the lower left corner of the frame in it [pixels].
 struct DrawTarget {
-  /// of the caller's context, complete, with 8 bits a channel; 0: its window. Empty: the renderer's
-  /// own, whose frame `read` returns
+  /// of the caller's context, complete, with 8 bits per channel; 0: its window. Empty: the
+  /// renderer's own framebuffer, whose frame `read` returns
   std::optional<unsigned> framebuffer = {};
   int x = 0, y = 0;
 };
 
-/// Keeps compiled programs, meshes on the graphics card, textures that it draws to, the shadow, and
-/// the last scene of paper quality with its light: at most some 256 MB of meshes, one scene of up to
-/// as much, and textures of the size of the last picture. A picture is the same, to the bit,
-/// whatever was drawn before. Used by one thread at a time, any.
+/// Caches compiled programs, meshes on the graphics card, render targets, the shadow, and the last
+/// scene of paper quality with its light: at most some 256 MB of meshes, one scene of up to the
+/// same size, and textures of the size of the last picture. Pictures do not depend on earlier ones,
+/// bit-exactly. May be used by any thread, one at a time.
 class Renderer {
  public:
-  /// Its own context, without a window, is current only while it draws; then the one that was is so
-  /// again. The caller's context is current whenever a member is called, and at the end; its state
-  /// is left as it was.
+  /// The renderer's own context, without a window, is current only while it draws; then the
+  /// previous one is restored. A caller's context must be current whenever a member is called,
+  /// including the destructor; its state is left unchanged.
   enum class Context { own, caller };
 
   explicit Renderer(Context context = Context::own);
@@ -34,32 +34,32 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// A picture with labels and caption.
-  /// throws  Stopped, after which it is as good as new; Error as `render` does
+  /// Renders a picture with labels and caption.
+  /// throws  Stopped, after which it remains usable; Error as `render` does
   Picture draw(const Scene& scene, const RenderOptions& options, const Font& font);
 
-  /// Draws a frame, without labels and caption, and does not wait for it: a draft with one sample a
-  /// pixel. Where the backdrop is not a studio, colors are multiplied by alpha. Meshes that were
-  /// drawn before are only moved.
-  /// throws  as `draw`; Error on options of other pictures, and on a framebuffer where the context
-  ///         is the renderer's own
+  /// Draws a frame, without labels and caption, and does not wait for it: a draft with one sample
+  /// per pixel. Unless the backdrop is a studio, colors are premultiplied by alpha. Meshes drawn
+  /// before are only moved.
+  /// throws  as `draw`; Error if the options are not those of frames, and on a framebuffer if the
+  ///         context is the renderer's own
   void draw_to(const DrawTarget& target, const Scene& scene, const Eye& eye,
                const RenderOptions& options);
 
   /// The last frame of the renderer's own framebuffer: the picture that `draw` returns, without
   /// labels and caption.
-  /// throws  Error when there is none
+  /// throws  Error if there is none
   Picture read();
 
-  /// Waits until frames are drawn.
+  /// Waits until all frames are drawn.
   void finish();
 
-  /// As `frame_all`; the last answer is kept.
+  /// As `frame_all`; the last result is cached.
   Eye frame_all(const Scene& scene, double aspect, bool ortho = false);
 
-  /// that its meshes, scenes and textures take, about
+  /// approximate memory of its meshes, scenes and textures [bytes]
   size_t bytes() const;
-  /// Lets go of everything.
+  /// Frees all cached data.
   void clear();
 
  private:

@@ -10,10 +10,11 @@
 namespace clench {
 namespace {
 
-constexpr double cone_size = 0.15;  // height of a cone, part of the object's largest radius
+// height of a cone, as a fraction of the object's largest radius
+constexpr double cone_size = 0.15;
 
-// cosine of the largest angle between normals of a patch (20 degrees), and its largest height, part
-// of its width
+// cosine of the largest angle between normals of a patch (20 degrees), and its maximum height as a
+// fraction of its width
 constexpr double same_patch_normal = 0.94, flatness = 0.35;
 
 bool same_patch(const Contact& a, const Contact& b) {
@@ -29,8 +30,8 @@ void find_middle(TouchPatch& patch) {
   patch.n_W.normalize();
 }
 
-// cones whose patches lie close are lowered until each stays on its own side of the middle, so that
-// they can be counted; below a fifth of their height they could not be seen
+// cones of neighboring patches are lowered until each stays on its own side of the midpoint, so
+// that they can be counted; below a fifth of their height they would be invisible
 void lower_crowded(std::vector<DrawCone>& cones) {
   constexpr double share = 0.45, lowest = 0.2;
   for (DrawCone& cone : cones) {
@@ -38,7 +39,7 @@ void lower_crowded(std::vector<DrawCone>& cones) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const DrawCone& other : cones)
       if (&other != &cone) nearest = std::min(nearest, (other.apex - cone.apex).norm());
-    const double reach = std::max(1.0, std::tan(cone.half_angle));  // of a cone 1 m high
+    const double reach = std::max(1.0, std::tan(cone.half_angle));  // radius of a cone 1 m high
     cone.height *= std::clamp(share * nearest / (reach * cone.height), lowest, 1.0);
   }
 }
@@ -57,7 +58,7 @@ double cone_measure(const TouchPatch& patch, const SceneOptions& options) {
   return sum;
 }
 
-// heights in proportion to the measure, the largest of the size that is asked for
+// heights in proportion to the measure, the largest of the requested size
 void scale_cones(std::span<const TouchPatch> patches, const SceneOptions& options,
                  std::vector<DrawCone>& cones) {
   double most = 0, height = options.cone_height;

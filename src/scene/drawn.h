@@ -1,4 +1,4 @@
-// Plain lists of drawn things; they need neither a world nor a graphics library.
+// Lists of items to be drawn, independent of the world and of graphics libraries.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -16,7 +16,7 @@ namespace clench {
 
 struct Body;
 
-/// The part of a world that an entry of a scene shows, by which a picture is picked.
+/// The part of a world that an entry of a scene shows, used for picking.
 struct Shown {
   enum class Kind {
     nothing,
@@ -28,25 +28,26 @@ struct Shown {
     floor
   };
   Kind kind = Kind::nothing;
-  Id<Body> body = {};   ///< of a contact or site that which is touched, of an approach the base
-  Id<Body> other = {};  ///< that touches it
-  /// of a contact among touch_patches(contacts_on_objects(world)), of a site among contacts(world)
+  Id<Body> body = {};   ///< of a contact or site: the touched body; of an approach: the base
+  Id<Body> other = {};  ///< the body that touches it
+  /// of a contact: index in touch_patches(contacts_on_objects(world)); of a site: in
+  /// contacts(world)
   int index = -1;
 
   bool operator==(const Shown&) const = default;
 };
 
-/// Colors are as a screen shows them (sRGB), each part in 0..1.
+/// Colors are display values (sRGB), each component in 0..1.
 struct DrawMesh {
-  std::shared_ptr<const Shape> shape;  ///< null draws nothing
+  std::shared_ptr<const Shape> shape;  ///< null: nothing is drawn
   Pose X_WM;
   Eigen::Vector3f color = Eigen::Vector3f(0.7f, 0.7f, 0.7f);
   std::vector<Eigen::Vector3f> triangle_colors = {};  ///< one per triangle, or empty
-  SkinPtr skin = {};                                  ///< textures, over the colors; null: none
-  float opacity = 1;                                  ///< 0 invisible .. 1 solid
-  bool background = false;  ///< a floor: takes shadows, throws none, may leave the frame
-  bool framed = true;       ///< false: a view that is chosen may leave it out, in part or whole
-  bool hides = false;       ///< counts as opaque when a view is chosen, however it is drawn
+  SkinPtr skin = {};                                  ///< textures over the colors; null: none
+  float opacity = 1;                                  ///< 0 invisible .. 1 opaque
+  bool background = false;  ///< a floor: receives shadows, casts none, may extend beyond the frame
+  bool framed = true;       ///< false: a computed view may leave it out, in part or completely
+  bool hides = false;       ///< counts as opaque when a view is computed, however it is drawn
   Shown shown = {};
 };
 
@@ -62,15 +63,15 @@ struct DrawCone {
 
 /// A force, a direction or an axis: a rod with a pointed head that ends at the tip.
 struct DrawArrow {
-  /// world [m]; an arrow without length draws nothing
+  /// world [m]; an arrow of length zero is not drawn
   Eigen::Vector3d tail = Eigen::Vector3d::Zero(), tip = Eigen::Vector3d::UnitZ();
   double radius = 0.01;  ///< of the rod; its head is three times as wide [m]
   Eigen::Vector3f color = Eigen::Vector3f(1, 0.4f, 0.1f);
   Shown shown = {};
 };
 
-/// Text at a place or beside it, in front of everything else. Labels do not overlap: earlier ones
-/// move least, and one that does not fit is left out.
+/// Text at a point or next to it, in front of everything else. Labels do not overlap: earlier ones
+/// have priority, and one that does not fit is left out.
 struct DrawLabel {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
   std::string text = {};                          ///< UTF-8
@@ -83,12 +84,12 @@ struct Scene {
   std::vector<DrawArrow> arrows = {};
   std::vector<DrawLabel> labels = {};
   std::vector<std::string> caption = {};  ///< lines in the lower left corner, UTF-8
-  std::optional<double> ground = {};      ///< height of a floor plane that takes the shadow [m]
-  /// places that a chosen view should show, such as contacts; empty: cones and arrows. World [m]
+  std::optional<double> ground = {};      ///< height of a floor plane that receives the shadow [m]
+  /// points that a computed view should show, such as contacts; empty: cones and arrows. World [m]
   std::vector<Eigen::Vector3d> spots = {};
-  /// points that a chosen view must hold besides meshes, cones and arrows; world [m]
+  /// points that a computed view must hold besides meshes, cones and arrows; world [m]
   std::vector<Eigen::Vector3d> held = {};
-  std::optional<Eye> eye = {};  ///< empty: frame everything
+  std::optional<Eye> eye = {};  ///< empty: the view is computed to hold everything
 };
 
 }  // namespace clench

@@ -9,7 +9,7 @@ struct Eye {
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX(), target = Eigen::Vector3d::Zero(),
                   up = Eigen::Vector3d::UnitZ();
   double field_of_view = 0.6;  ///< vertical [rad], in [0.001, 3]
-  double ortho_height = 0;     ///< height that an orthographic view shows [m]; 0: a perspective one
+  double ortho_height = 0;     ///< height of an orthographic view [m]; 0: perspective
 };
 
 }  // namespace clench

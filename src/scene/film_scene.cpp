@@ -11,9 +11,9 @@
 namespace clench {
 namespace {
 
-constexpr size_t max_keys = 12;  // states whose bodies are drawn
+constexpr size_t max_keys = 12;  // maximum number of states whose bodies are drawn
 
-// states whose bodies are drawn: evenly spaced, with the first and the last
+// states whose bodies are drawn: evenly spaced, including the first and the last
 std::vector<size_t> key_states(size_t count) {
   const size_t keys = std::min(count, max_keys);
   std::vector<size_t> out;
@@ -45,7 +45,7 @@ bool same_pose(const Pose& a, const Pose& b) {
   return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-// corners of the boxes of bodies that have moved since the state before
+// corners of the boxes of bodies that have moved since the previous state
 void hold_boxes(const World& world, const World& before, size_t state, const Wanted& wanted,
                 Scene& scene) {
   for (const Id<Body> id : world.bodies()) {

@@ -9,10 +9,13 @@
 
 namespace clench {
 
-static constexpr double invisible = 1e-3;  // of the largest force
-static constexpr double beyond = 1.15;     // where its newtons stand, in lengths of an arrow
-static constexpr size_t max_labels = 8;    // more would hide what they tell about
-static constexpr double slender = 0.035;   // radius of the longest arrow, part of its length
+// fraction of the largest force below which forces are left out
+static constexpr double invisible = 1e-3;
+// position of the label with the force in newtons, in lengths of the arrow
+static constexpr double beyond = 1.15;
+static constexpr size_t max_labels = 8;  // more labels would hide the arrows
+// radius of the longest arrow, as a fraction of its length
+static constexpr double slender = 0.035;
 
 static double largest_force(std::span<const PlacedForce> forces) {
   double largest = 0;

@@ -1,4 +1,4 @@
-// Every color of our pictures of worlds, in one table. Colors are as a screen shows them (sRGB).
+// All colors of pictures of worlds, in one table. Colors are display values (sRGB).
 #pragma once
 #include "clench/model/body.h"
 
@@ -6,11 +6,11 @@ namespace clench::palette {
 
 struct Entry {
   Eigen::Vector3f color;
-  float opacity;  ///< when objects are drawn transparent, so that contacts show
+  float opacity;  ///< for transparent objects, which leave contacts visible
 };
 
-/// By kind of body: dark palm, light fingers, so that the joints of a hand read; objects in the one
-/// saturated color; obstacles quiet.
+/// Colors by kind of body: dark palm and light fingers, which make the joints of a hand visible;
+/// the only saturated color for objects; muted obstacles.
 inline Entry of(BodyKind kind) {
   switch (kind) {
     case BodyKind::base:
@@ -29,7 +29,7 @@ inline Entry of(BodyKind kind) {
 
 /// Friction cones: the complement of the objects' color, which surrounds them.
 inline const Eigen::Vector3f cone(1.0f, 0.29f, 0.0f);
-/// Fitted surfaces of soft contacts, and the ellipses that press.
+/// Fitted surfaces of soft contacts, and the contact ellipses.
 inline const Eigen::Vector3f patch(0.98f, 0.80f, 0.35f);
 inline const Eigen::Vector3f ellipse(0.85f, 0.10f, 0.25f);
 /// Cones of contacts without friction, which are needles.
@@ -40,10 +40,10 @@ inline const Eigen::Vector3f force(0.55f, 0.10f, 0.60f);
 /// Approach directions.
 inline const Eigen::Vector3f approach(0.10f, 0.55f, 0.30f);
 
-/// Wrench spaces: the solid, the ball inside it, the direction that it reaches least.
+/// Wrench spaces: the solid, the ball inside it, the direction of the smallest reach.
 inline const Eigen::Vector3f wrenches(0.25f, 0.60f, 0.85f), ball(1.0f, 0.55f, 0.10f),
     ball_label(0.60f, 0.28f, 0.0f), weakest(0.80f, 0.0f, 0.80f);
-/// The axes x, y, z of a space.
+/// The x, y and z axes of a space.
 inline const Eigen::Vector3f axes[3] = {
     {0.75f, 0.15f, 0.12f}, {0.10f, 0.52f, 0.18f}, {0.12f, 0.25f, 0.70f}};
 

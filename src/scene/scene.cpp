@@ -19,7 +19,7 @@ namespace {
 
 constexpr float see_through_opacity = 0.2f;
 
-// what is drawn of a body; null when there is nothing to draw
+// mesh of a body; null if there is nothing to draw
 const ShapePtr& drawn(const Body& body) {
   return body.appearance.visual ? body.appearance.visual : body.shape;
 }
@@ -48,7 +48,7 @@ Bounds bounds_in_world(const Body& body, const Pose& X_WB) {
   return bounds;
 }
 
-// flat, and all else stands above its top and within its outline
+// flat, and everything else is above its top and within its outline
 bool is_floor(const Bounds& floor, const std::vector<Bounds>& all) {
   if (floor.empty() || floor.size().z() > 0.2 * floor.size().head<2>().maxCoeff()) return false;
   const double slack = 0.01 * floor.size().maxCoeff();
@@ -62,9 +62,9 @@ bool is_floor(const Bounds& floor, const std::vector<Bounds>& all) {
 
 constexpr int patch_rings = 8, patch_segments = 48;
 constexpr double patch_force = 5;  // [N]
-constexpr double rim = 0.85;       // an ellipse is drawn as its rim, from here outward
+constexpr double rim = 0.85;       // an ellipse is drawn as its rim, from this fraction outward
 
-// z = height(x, y) over an ellipse from `inner` of its size outward, in a frame of its own
+// z = height(x, y) over an ellipse from `inner` of its size outward, in its own frame
 template <class Height>
 DrawMesh draw_cap(const Pose& X_WP, std::array<double, 2> axes, double inner,
                   const Eigen::Vector3f& color, Height height) {
@@ -104,7 +104,7 @@ void draw_patch(const World& world, const Contact& contact, int index, std::vect
       return 0.5 * fit.curvatures.dot(p.cwiseAbs2()) + lift;
     };
   };
-  // a little within the body, the ellipse more than what it lies on
+  // slightly within the body, the ellipse deeper than the surface below it
   const double step = 0.02 * patch.radius;
   out.push_back(draw_cap(X_WP, {patch.radius, patch.radius}, 0, palette::patch, surface(step)));
   const auto semi_axes = contact_ellipse(patch, patch_force).semi_axes;
@@ -125,10 +125,10 @@ void draw_patches(const World& world, std::vector<DrawMesh>& out) {
       draw_patch(world, all[i], static_cast<int>(i), out);
 }
 
-// length of an arrow, and radius of its rod: of the robot's size
+// length of an arrow and radius of its rod, in proportion to the robot's size
 constexpr double approach_length = 0.4, approach_radius = 0.012;
 
-// of robots that close, from the approach point on
+// arrows of closing robots, from the approach point on
 void draw_approaches(const World& world, Scene& scene) {
   for (const auto id : world.robots()) {
     const Robot& robot = world.robot(id);

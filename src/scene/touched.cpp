@@ -8,13 +8,13 @@
 namespace clench {
 namespace {
 
-// the last link that carries both; -1: the base
+// the last common ancestor of two links; -1: the base
 int common(const Robot& robot, int a, int b) {
   while (a != b) (a > b ? a : b) = robot.links[std::max(a, b)].parent;
   return a;
 }
 
-// how many branches begin on each link in which something moves
+// number of branches that begin on each link and contain a moving joint
 std::vector<int> moving_branches(const Robot& robot) {
   const int n = static_cast<int>(robot.links.size());
   std::vector<int> branches(n, 0);
@@ -31,13 +31,13 @@ bool has_surface(const World& world, Id<Body> id) {
   return body.shape || body.appearance.visual;
 }
 
-// the last link that carries all that touch and has two branches that move; -1: the base
+// the last link that carries all touching links and has two moving branches; -1: the base
 int palm_of(const World& world, const Robot& robot, std::span<const int> touching) {
   int palm = touching[0];
   for (const int link : touching) palm = common(robot, palm, link);
   const std::vector<int> branches = moving_branches(robot);
   while (palm >= 0 && branches[palm] < 2) palm = robot.links[palm].parent;
-  // a frame without a surface: the palm is what it is fixed to
+  // a frame without a surface: the palm is the body that it is fixed to
   while (palm >= 0 && !has_surface(world, robot.links[palm].body) &&
          robot.links[palm].end_joint == robot.links[palm].first_joint)
     palm = robot.links[palm].parent;

@@ -13,9 +13,9 @@ namespace clench {
 std::vector<Contact> contacts_on_objects(const World& world);
 
 /// The objects that robots touch, and of each of these robots the part that holds them: the links
-/// from its palm outward. The palm is the last link that carries all links that touch and has two
-/// branches that move, with what is fixed to it where it has no surface; without such a link, it is
-/// the base, and all of the robot counts.
+/// from its palm outward. The palm is the last link that carries all touching links and has two
+/// moving branches; if it has no surface, the body that it is fixed to takes its place. Without
+/// such a link, the palm is the base, and the complete robot counts.
 std::set<Id<Body>> touched_bodies(const World& world, std::span<const Contact> contacts);
 
 }  // namespace clench

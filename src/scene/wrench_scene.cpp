@@ -13,10 +13,10 @@ namespace clench {
 
 namespace {
 
-constexpr double axis_reach = 1.15;    // beyond the solid, part of its size
-constexpr double arrow_width = 0.006;  // part of the solid's size
-constexpr double steps = 4;            // at most so many numbers along half an axis
-constexpr double tick_length = 0.025, tick_end = 0.08;  // parts of the solid's size
+constexpr double axis_reach = 1.15;    // beyond the solid, as a fraction of its size
+constexpr double arrow_width = 0.006;  // as a fraction of the solid's size
+constexpr double steps = 4;            // maximum number of labels along half an axis
+constexpr double tick_length = 0.025, tick_end = 0.08;  // as fractions of the solid's size
 constexpr int ball_rings = 24;
 
 ShapePtr ball_of(double radius) {
@@ -50,13 +50,13 @@ struct AxisRange {
   double low, high;
 };
 
-// an axis reaches beyond the solid, and beyond the origin where the solid does not
+// an axis extends beyond the solid, and beyond the origin if the solid does not
 AxisRange reach_of(const Bounds& bounds, int k, double size) {
   const double more = (axis_reach - 1) * size;
   return {std::min(0.0, bounds.low[k]) - more, std::max(0.0, bounds.high[k]) + more};
 }
 
-// a pin across the axis at each multiple of the step but 0, with its number
+// a pin across the axis at each nonzero multiple of the step, with its number
 void add_ticks(int k, const AxisRange& range, double step, double size, Scene& out) {
   const Eigen::Vector3d along = Eigen::Vector3d::Unit(k),
                         across = Eigen::Vector3d::Unit((k + 2) % 3);

@@ -1,5 +1,5 @@
 // An immediate-mode user interface over a picture: windows, menus and widgets, described anew for
-// each frame. Built on Dear ImGui, whose types stay inside this module.
+// each frame. Built on Dear ImGui, whose types are not visible outside this module.
 #pragma once
 #include <array>
 #include <deque>
@@ -28,14 +28,14 @@ struct GuiRect {
 struct GuiItem {
   std::string label;
   std::string kind;    ///< "button", "menu", "text", ...
-  std::string window;  ///< label of its window
+  std::string window;  ///< label of the window that contains it
   GuiRect rect;
   bool enabled = true;
 };
 
-/// A key that went down in this frame, with the modifiers held at that time.
+/// A key pressed in this frame, with the modifiers held at that time.
 struct KeyPress {
-  int key = 0;  ///< code of GLFW
+  int key = 0;  ///< GLFW key code
   bool ctrl = false, shift = false, alt = false;
 };
 
@@ -44,7 +44,7 @@ using Rgba = std::array<float, 4>;
 
 struct GuiStyle {
   bool dark = false;
-  double scale = 1;       ///< of fonts and sizes, > 0
+  double scale = 1;       ///< factor of fonts and sizes, > 0
   double font_size = 15;  ///< at scale 1 [pixels]
 };
 
@@ -60,11 +60,12 @@ template <class T>
 struct Edited {
   T value;
   bool changed = false;
-  bool finished = false;  ///< the edit has ended: a drag was released, Enter was pressed
+  bool finished = false;  ///< has the edit ended, by the release of a drag or by Enter?
 };
 
-/// One thread at a time. Between begin() and end(), each call describes one widget; containers call
-/// `body` for their contents if these are visible, and close even if it throws.
+/// Used by one thread at a time. Between begin() and end(), each call describes one widget;
+/// containers call `body` for their contents if these are visible, and are closed even if it
+/// throws.
 class Gui {
  public:
   /// throws  Error if another thread has a Gui, or as the screen does
@@ -89,7 +90,7 @@ class Gui {
   /// Camera that frames the scene.
   Eye frame_all(const Scene& scene);
   void end();
-  /// Continues its frame after frames of others.
+  /// Continues the frames of this interface after frames of others.
   void resume();
   /// The pixels of the last frame.
   Picture read();
@@ -109,11 +110,11 @@ class Gui {
   std::array<double, 2> mouse_move() const;  ///< since the last frame [pixels]
   double wheel() const;
   bool button_down(int button) const;
-  bool button_clicked(int button) const;  ///< went down in this frame
+  bool button_clicked(int button) const;  ///< pressed in this frame
   bool button_released(int button) const;
   bool double_clicked(int button) const;
-  bool wants_mouse() const;  ///< the mouse is over a panel, or a panel's widget is held
-  bool wants_text() const;   ///< text is being typed into a widget
+  bool wants_mouse() const;  ///< is the mouse over a panel, or a widget of a panel held?
+  bool wants_text() const;   ///< is text being typed into a widget?
 
   // --- containers ---
   using Body = FunctionRef<void()>;
@@ -181,7 +182,7 @@ class Gui {
   bool hovered() const;  ///< is the mouse over the last widget?
   bool active() const;   ///< is the last widget held or edited?
   bool deactivated_after_edit() const;
-  std::array<double, 2> available() const;  ///< space left in the container [pixels]
+  std::array<double, 2> available() const;  ///< remaining size of the container [pixels]
   GuiRect last_rect() const;                ///< of the last widget
   double line_height() const;
 

@@ -81,6 +81,7 @@ Gui::Gui(std::unique_ptr<Screen> screen, const GuiStyle& style)
     io.LogFilename = nullptr;
     io.MousePos = ImVec2(-1, -1);
     io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.ConfigInputTextCursorBlink = false;  // frames are drawn when something has changed
     name_keys(io);
     if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
       fail("the view needs OpenGL 3.3; install the packages libgl1 and libgl1-mesa-dri");
@@ -90,7 +91,7 @@ Gui::Gui(std::unique_ptr<Screen> screen, const GuiStyle& style)
   }
 }
 
-// another one may be in the middle of a frame when this one is collected
+// another interface may be within a frame when this one is garbage-collected
 Gui::~Gui() {
   ImGuiContext* const before = ImGui::GetCurrentContext();
   try {
@@ -102,7 +103,7 @@ Gui::~Gui() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext(state_->context);
   } catch (const Error&) {
-    // without the OpenGL context its objects are gone already
+    // without the OpenGL context its objects no longer exist
   }
   ImGui::SetCurrentContext(before == state_->context ? nullptr : before);
   release_thread();
@@ -181,7 +182,7 @@ void Gui::begin(double dt) {
   ++s.frame;
 }
 
-// nothing is behind the panels yet
+// the panels have no background yet
 static void clear_screen(Gui::State& s) {
   glBindFramebuffer(GL_FRAMEBUFFER, s.screen->framebuffer());
   glViewport(0, 0, s.screen->width(), s.screen->height());

@@ -22,19 +22,19 @@ struct Gui::State {
   std::vector<std::string> dropped;
   bool close_requested = false;
   std::vector<GuiItem> items, last_items;
-  std::vector<std::string> windows;  // that are being described, outermost first
+  std::vector<std::string> windows;  // containers being described, outermost first
   int disabled = 0;
   struct Texture {
     gl::Object texture;
     int width = 0, height = 0;
-    int frame = 0;  // in which it was used last
+    int frame = 0;  // last frame that used it
   };
   std::map<std::string, Texture> images;
   Renderer renderer{Renderer::Context::caller};
   bool shown = false;  // has the scene of this frame been drawn?
   int frame = 0;
 
-  /// Makes its context of Dear ImGui the current one.
+  /// Makes the Dear ImGui context of this interface the current one.
   void use() const { ImGui::SetCurrentContext(context); }
   /// Records the last widget.
   void note(const std::string& label, const char* kind);
@@ -49,7 +49,7 @@ ImU32 packed(const Rgba& color);
 /// Sets colors and sizes.
 void apply_style(const GuiStyle& style);
 
-/// While it lives, what a container has opened; closes it at the end, also after an exception.
+/// An opened container; its destructor closes the container, also after an exception.
 template <class Close>
 class Closing {
  public:

@@ -35,7 +35,7 @@ class Offscreen final : public Screen {
       const GlContext::Entered entered(context_);
       color_ = {}, framebuffer_ = {};
     } catch (const Error&) {
-      // without the context its objects are gone already
+      // without the context its objects no longer exist
     }
   }
 
@@ -58,11 +58,14 @@ class Offscreen final : public Screen {
 
 }  // namespace
 
-std::unique_ptr<Screen> make_offscreen(int width, int height) {
+void Screen::check_size(int width, int height) {
   for (const int n : {width, height})
-    if (n < Screen::min_size || n > Screen::max_size)
-      fail("size of the view: expected {} to {} pixels, got {}", Screen::min_size, Screen::max_size,
-           n);
+    if (n < min_size || n > max_size)
+      fail("size of the view: expected {} to {} pixels, got {}", min_size, max_size, n);
+}
+
+std::unique_ptr<Screen> make_offscreen(int width, int height) {
+  Screen::check_size(width, height);
   return std::make_unique<Offscreen>(width, height);
 }
 

@@ -56,7 +56,7 @@ class Window final : public Screen {
   static void add(GLFWwindow* window, InputEvent event) {
     static_cast<Window*>(glfw().user_pointer(window))->waiting_.push_back(std::move(event));
   }
-  // a position in screen coordinates, in pixels
+  // converts a position from screen coordinates to pixels
   static InputEvent at(GLFWwindow* window, double x, double y) {
     int width = 1, height = 1;
     glfw().window_size(window, &width, &height);
@@ -84,7 +84,7 @@ class Window final : public Screen {
       add(w, {.kind = Kind::resize, .x = double(x), .y = double(y)});
     });
     glfw().on_close(window_, [](GLFWwindow* w) {
-      glfw().set_should_close(w, GLFW_FALSE);  // the program decides
+      glfw().set_should_close(w, GLFW_FALSE);  // closing is up to the program
       add(w, {.kind = Kind::close});
     });
     glfw().on_drop(window_, [](GLFWwindow* w, int count, const char** paths) {
@@ -99,6 +99,7 @@ class Window final : public Screen {
 }  // namespace
 
 std::unique_ptr<Screen> make_window(int width, int height, const std::string& title) {
+  Screen::check_size(width, height);
   return std::make_unique<Window>(width, height, title);
 }
 

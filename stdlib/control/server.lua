@@ -196,13 +196,13 @@ end
 local function read_options(options)
   local o = new_options(subject, options)
   local session = read_session(o)
-  local port, host, path = o:count("port", 4765, 0, 65535), o:raw "host", o:raw "path"
+  local port, host, path = o:get "port", o:raw "host", o:raw "path"
   if host ~= nil then check.string(subject, "host", host) end
   local is_local = path ~= nil or is_loopback(host or "localhost")
   local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, jobs = {}, job_count = 0, folder = read_folder(o),
-                  max_clients = o:count("max_clients", 64, 1, 1000), max_line = o:count("max_line", 1 << 20, 1000, 1 << 28),
-                  max_queue = o:count("max_queue", 4 << 20, 1000, 1 << 30), on_connect = o:callback "on_connect", on_close = o:callback "on_close"}
-  local stdio = o:flag "stdio"
+                  max_clients = o:get "max_clients", max_line = o:get "max_line",
+                  max_queue = o:get "max_queue", on_connect = o:get "on_connect", on_close = o:get "on_close"}
+  local stdio = o:get "stdio"
   o:done()
   if stdio then
     if path ~= nil or host ~= nil then o:fail "stdio: expected either stdio, or a path, or host and port" end
@@ -221,12 +221,12 @@ end
 ---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
----@option stdio? boolean  true: JSON-RPC over standard input and output with the program that has started this one, without a token
----@option token? string|false  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
+---@option stdio? boolean = false  true: JSON-RPC over standard input and output with the program that has started this one, without a token
+---@option token? string|boolean  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
 ---@option folder? string  below which requests may read and write files; none by default
----@option max_clients? integer [1 to 1000] = 64
----@option max_line? integer = 1048576  of a request [bytes]
----@option max_queue? integer = 4194304  replies that a client may leave unread before it is dropped [bytes]
+---@option max_clients? integer [1 to 1000] = 64  connected at one time
+---@option max_line? integer [1000 to 268435456, bytes] = 1048576  longest request
+---@option max_queue? integer [1000 to 1073741824, bytes] = 4194304  replies that a client may leave unread before it is dropped
 ---@option on_connect? function  called with each new client
 ---@option on_close? function  called with each client that has gone; its field `reason` says why
 ---@return server server # `port`, `token`, `session`, `close()`

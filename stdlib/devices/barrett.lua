@@ -157,9 +157,9 @@ Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
 --- killed leaves the hand as it is: it has no watchdog.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
----@option baud? integer [bit/s] = 9600
----@option timeout? number [s, > 0] = 0.5  for answers to questions and settings
----@option move_timeout? number [s, > 0] = 20  for the ends of motions
+---@option baud? integer [bit/s, 1 to 10000000] = 9600
+---@option timeout? number [s, > 0, <= 3600] = 0.5  for answers to questions and settings
+---@option move_timeout? number [s, > 0, <= 3600] = 20  for the ends of motions
 ---@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
 ---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
 --- > simulated = clench.devices.simulated.barrett {}
@@ -171,8 +171,8 @@ Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
 --- > simulated:unplug()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 9600, 1, 10000000)
-  local hand = {timeout = o:positive("timeout", 0.5, 3600), move_timeout = o:positive("move_timeout", 20, 3600), attempts = o:count("attempts", 10, 1, 1000)}
+  local given, baud = o:raw "port", o:get "baud"
+  local hand = {timeout = o:get "timeout", move_timeout = o:get "move_timeout", attempts = o:get "attempts"}
   o:done()
   hand.port, hand.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   return setmetatable(hand, Barrett)

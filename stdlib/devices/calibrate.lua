@@ -141,8 +141,7 @@ return function(options)
   local o = new_options(subject, options)
   local samples, count = check_samples(o)
   local of_dof, dofs = check_sensors(o, count)
-  local ridge, limit = o:not_negative("ridge", 0), o:raw "outliers"
-  if limit ~= nil then limit = o:positive("outliers") end
+  local ridge, limit = o:get "ridge", o:get "outliers"
   o:done()
   local calibration = {slopes = {}, intercepts = {}, report = {}}
   for d = 1, dofs do

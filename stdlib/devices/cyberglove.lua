@@ -79,8 +79,8 @@ Glove.__close = function(self) self:close() end
 --- A CyberGlove with 22 sensors.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
----@option baud? integer [bit/s] = 38400
----@option timeout? number [s, > 0] = 0.5  for an answer
+---@option baud? integer [bit/s, 1 to 10000000] = 38400
+---@option timeout? number [s, > 0, <= 3600] = 0.5  for an answer
 ---@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
@@ -90,8 +90,8 @@ Glove.__close = function(self) self:close() end
 --- > simulated:close()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 38400, 1, 10000000)
-  local glove = {timeout = o:positive("timeout", 0.5, 3600), attempts = o:count("attempts", 10, 1, 1000), readings = o:count("readings", 1, 1, 99)}
+  local given, baud = o:raw "port", o:get "baud"
+  local glove = {timeout = o:get "timeout", attempts = o:get "attempts", readings = o:get "readings"}
   o:done()
   glove.port, glove.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   return setmetatable(glove, Glove)

@@ -202,10 +202,16 @@ local function check_ids(o)
   return {table.unpack(ids)}
 end
 
+local packet_doc = [[
+@param options table
+@option id? integer [0 to 254] = 0  of a motor
+@option instruction string  its name
+@option parameters? string  bytes]]
+
 -- the packet of {id, instruction, parameters}
 local function packet_of(options)
-  local o = new_options("dynamixel.packet", options)
-  local id, instruction, parameters = o:count("id", 0, 0, 254), o:raw "instruction", o:raw "parameters"
+  local o = new_options("dynamixel.packet", options, nil, nil, packet_doc)
+  local id, instruction, parameters = o:get "id", o:raw "instruction", o:raw "parameters"
   o:done()
   if type(instruction) ~= "string" or not packet.instructions[instruction] then o:expected("instruction", "the name of an instruction", instruction) end
   if parameters ~= nil and type(parameters) ~= "string" then o:expected("parameters", "bytes", parameters) end
@@ -235,12 +241,12 @@ end
 ---@param options table
 ---@option port string|port  path of the serial line, or a port
 ---@option ids integer[]  of the motors
----@option baud? integer [bit/s] = 57600
+---@option baud? integer [bit/s, 1 to 10000000] = 57600
 ---@option mode? string  "position", "current_position" (as LEAP hands use), "velocity", ...; default: as the motors are
----@option current? integer  goal current of all motors, in their unit
+---@option current? integer [-2047 to 2047]  goal current of all motors, in their unit
 ---@option velocity? number [rad/s, > 0]  largest velocity on the way to goals
----@option watchdog? number [s, >= 0] = 2  0: none
----@option timeout? number [s, > 0] = 0.05  for answers
+---@option watchdog? number [s, 0 to 2.54] = 2  0: none
+---@option timeout? number [s, > 0, <= 3600] = 0.05  for answers
 ---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
 ---@return dynamixel bus # `read_positions`, `write_positions`, `read_velocities`, `read_faults`, `set_torque`, `reset_watchdog`, `packet`, `close`
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
@@ -250,11 +256,11 @@ end
 --- > simulated:close()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 57600, 1, 10000000)
-  local mode, current, velocity = o:raw "mode", o:raw "current", o:raw "velocity"
+  local given, baud = o:raw "port", o:get "baud"
+  local mode = o:raw "mode"
   local bus = {ids = check_ids(o), names = {}, low = {}, high = {}, packet = packet_of, mode = mode,
-               current = current ~= nil and o:count("current", nil, -2047, 2047) or nil, velocity = velocity ~= nil and o:positive "velocity" or nil,
-               watchdog = math.ceil(o:not_negative("watchdog", 2, 2.54) / 0.02), timeout = o:positive("timeout", 0.05, 3600), attempts = o:count("attempts", 50, 1, 1000)}
+               current = o:get "current", velocity = o:get "velocity",
+               watchdog = math.ceil(o:get "watchdog" / 0.02), timeout = o:get "timeout", attempts = o:get "attempts"}
   o:done()
   if mode ~= nil and not modes[mode] then o:expected("mode", "the name of an operating mode", mode) end
   bus.port, bus.owns_port = device.port_of(subject, given, baud), type(given) == "string"

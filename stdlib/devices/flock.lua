@@ -116,9 +116,9 @@ end
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option birds? integer [1 to 3] = 1
----@option mode? "matrix"|"angles"
----@option baud? integer [bit/s] = 115200
----@option timeout? number [s, > 0] = 0.2  for a record
+---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
+---@option baud? integer [bit/s, 1 to 10000000] = 115200
+---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
 ---@option attempts? integer [1 to 1000] = 20  repetitions of what is not answered correctly
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
@@ -128,9 +128,9 @@ end
 --- > simulated:close()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 115200, 1, 10000000)
-  local flock = {birds = o:count("birds", 1, 1, 3), mode = modes[o:choice("mode", {"matrix", "angles"})], timeout = o:positive("timeout", 0.2, 3600),
-                 attempts = o:count("attempts", 20, 1, 1000), readings = o:count("readings", 1, 1, 99)}
+  local given, baud = o:raw "port", o:get "baud"
+  local flock = {birds = o:get "birds", mode = modes[o:get "mode"], timeout = o:get "timeout",
+                 attempts = o:get "attempts", readings = o:get "readings"}
   o:done()
   flock.port, flock.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   setmetatable(flock, Flock)

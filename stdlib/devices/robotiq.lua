@@ -102,9 +102,9 @@ Robotiq.__gc = function(self) device.send_last(self.port, last_frame(self)) end
 ---@option port string|port  path of its serial line, or a port
 ---@option stroke? number [m, > 0] = 0.085  largest opening
 ---@option slave? integer [1 to 247] = 9
----@option baud? integer [bit/s] = 115200
----@option timeout? number [s, > 0] = 0.1  for an answer
----@option move_timeout? number [s, > 0] = 10  for activation and motions
+---@option baud? integer [bit/s, 1 to 10000000] = 115200
+---@option timeout? number [s, > 0, <= 3600] = 0.1  for an answer
+---@option move_timeout? number [s, > 0, <= 3600] = 10  for activation and motions
 ---@option poll? number [s, >= 0] = 0.02  between two questions whether a motion has ended
 ---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
 ---@return robotiq gripper # `activate`, `move`, `read`, `stop`, `close`
@@ -116,9 +116,9 @@ Robotiq.__gc = function(self) device.send_last(self.port, last_frame(self)) end
 --- > simulated:close()
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:count("baud", 115200, 1, 10000000)
-  local gripper = {subject = subject, stroke = o:positive("stroke", 0.085), slave = o:count("slave", 9, 1, 247), timeout = o:positive("timeout", 0.1, 3600),
-                   move_timeout = o:positive("move_timeout", 10, 3600), poll = o:not_negative("poll", 0.02), attempts = o:count("attempts", 50, 1, 1000)}
+  local given, baud = o:raw "port", o:get "baud"
+  local gripper = {subject = subject, stroke = o:get "stroke", slave = o:get "slave", timeout = o:get "timeout",
+                   move_timeout = o:get "move_timeout", poll = o:get "poll", attempts = o:get "attempts"}
   o:done()
   gripper.port, gripper.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   return setmetatable(gripper, Robotiq)

@@ -15,7 +15,7 @@ end
 --- the origin of the world. "relative": the body moves from where it was when the base reading was taken, as the sensor moves in the base.
 --- "camera": readings are relative to the base, which stands at a pose.
 ---@param options table
----@option mode? "absolute"|"relative"|"camera"
+---@option mode? "absolute"|"relative"|"camera" = "absolute"  what the readings are relative to
 ---@option mount? pose  of the sensor in the body, as `hand.tracker` and `body.tracker` tell it; the identity by default
 ---@option base? pose  reading of the base: of the sensor itself (relative), or of the camera's
 ---@option pose? pose  of the body (relative) or the camera at that time, in the world
@@ -27,7 +27,7 @@ end
 --- > (to_body(clench.pose {xyz = {1, 1, 1.5}}).position - flask.pose.position):norm()  --> 0.5
 return function(options)
   local o = new_options(subject, options)
-  local mode = o:choice("mode", {"absolute", "relative", "camera"})
+  local mode = o:get "mode"
   local mount, base, pose = pose_of(o, "mount"), pose_of(o, "base"), pose_of(o, "pose")
   if mode == "absolute" and (o:raw "base" ~= nil or o:raw "pose" ~= nil) then o:fail "base and pose belong to the modes relative and camera" end
   o:done()

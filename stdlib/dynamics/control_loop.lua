@@ -1,4 +1,4 @@
---- The run of a world in which scripts take part: functions, then tasks, then a step, then listeners and observers.
+--- The run of a world with functions of scripts: in each step controllers, then tasks, then the step, then listeners and observers.
 local calls = require "clench.dynamics.hook_calls"
 local explained = require "clench.explained"
 local error_value = require "clench.error_value"
@@ -9,7 +9,7 @@ local task_order = require "clench.dynamics.task_order"
 
 local call, each, is_due, tiny = calls.call, calls.each, calls.is_due, calls.tiny
 
--- those that are done go
+-- removes the handles that have ended
 local function clear(list)
   if not list then return end
   local kept = 0
@@ -25,7 +25,7 @@ local function clear(list)
   for i = #list, kept + 1, -1 do list[i] = nil end
 end
 
--- How long the step that comes is, unless bodies meet in it: steps end at multiples of the time step, and with the run.
+-- Length of the next step, if no bodies collide in it: steps end at multiples of the time step, and with the run.
 local function length_of_step(world, last)
   local time, step = world.time, world.time_step
   return math.min((math.floor(time / step + 1e-6) + 1) * step, last) - time
@@ -37,11 +37,11 @@ local function call_controllers(world, list, last)
   end)
 end
 
--- Does what it waits for let it go on?   returns also what its wait gives
+-- May a task go on?   returns also the result of its wait
 local function may_go_on(handle, time)
   local order = handle.order
   if not order then return true end
-  if time < order.begun then order.begun = time end  -- the world went back
+  if time < order.begun then order.begun = time end  -- the world was restored to an earlier time
   local over = time >= order.begun + order.seconds - tiny
   if not order.condition then return over end
   local ok, met = xpcall(order.condition, function(problem)
@@ -68,7 +68,7 @@ local function go_on(handle, world)
     if handle.status == "waiting" then handle.status = "done" end
     return
   end
-  -- a yield of nothing waits for the next step
+  -- a yield without values waits for the next step
   if order ~= nil and getmetatable(order) ~= task_order then
     handle.status = "failed"
     error(setmetatable({place = line_of(handle.thread), kind = "input",
@@ -87,14 +87,14 @@ local function tell(list, events)
   end
 end
 
----@param hooks table  of stdlib/dynamics/hooks.lua; 1: the engine's own
+---@param hooks table  of stdlib/dynamics/hooks.lua; 1: that of the engine
 ---@param world world
 ---@param seconds number
 ---@param stepping userdata
----@param step fun(stepping, last: number): boolean  a step that ends at `last` at the latest; false: there is no time left
+---@param step fun(stepping, last: number): boolean  makes a step that ends at `last` at the latest; returns false if no time is left
 ---@param events fun(stepping, own): table[]
 return function(hooks, world, seconds, stepping, step, events)
-  if hooks.runs then raise "world:run: the world runs already: what is called in a run cannot run it" end
+  if hooks.runs then raise "world:run: the world runs already: functions called in a run cannot run it" end
   hooks.runs = true
   local running <close> = setmetatable({}, {__close = function()
     hooks.runs = nil
@@ -102,15 +102,15 @@ return function(hooks, world, seconds, stepping, step, events)
   end})
   calls.observers(world, hooks.observers)
   local last = world.time + seconds  -- an observer may have restored another time
-  -- as Stepper::step: less is no time
+  -- as in Stepper::step: shorter remainders are ignored
   while last - world.time > 1e-6 * world.time_step do
     local before = world.time
     call_controllers(world, hooks.controllers, last)
     each(hooks.tasks, function(handle) go_on(handle, world) end)
-    -- one that went to another moment runs as long as it was asked to from there
+    -- if a task restored another time, the run continues from there for the rest of its length
     if world.time ~= before then last = last + (world.time - before) end
     local listens = hooks.listeners and #hooks.listeners > 0
-    -- what went on while nobody listened is no news
+    -- events from before the first listener are dropped
     if listens and not hooks.listened then events(stepping, hooks[1]) end
     hooks.listened = listens
     if not step(stepping, last) then break end

@@ -1,4 +1,4 @@
---- A recorded run as a page of HTML that plays in 3-D.
+--- Saves a recorded run as a page of HTML that plays in 3-D.
 local find_three = require "clench.page.three"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
@@ -7,13 +7,13 @@ local run = require "clench.page.run"
 local doc = [[
 @param options table
 @option title? string = "Recorded run"  title of the page
-@option speed? number [> 0] = 1  1: as fast as it was
-@option three? string[]  files in which three.js may be]]
+@option speed? number [> 0] = 1  1: real time
+@option three? string[]  possible files of three.js]]
 
 ---@param recording table
 ---@param path string
 ---@param _ string
----@param options {title?: string, speed?: number, three?: string[]}  three: where three.js may be
+---@param options {title?: string, speed?: number, three?: string[]}  three: possible files of three.js
 ---@return integer frames
 return function(recording, path, _, options)
   local read = read_options("recording:save", options, nil, nil, doc)

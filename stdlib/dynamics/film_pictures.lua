@@ -1,11 +1,11 @@
---- Films of pictures: PNG files, an animated GIF, or MP4 by ffmpeg.
+--- Saves a recorded run as pictures: PNG files, an animated GIF, or MP4 by ffmpeg.
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 
--- a word for the shell
+-- quotes a word for the shell
 local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
 
-local max_states = 500  -- frames from which the camera is chosen; longer films are sampled evenly
+local max_states = 500  -- maximum number of frames from which the camera is chosen; longer films are sampled evenly
 
 -- height of the lowest point of all states [m]
 local function lowest(states)
@@ -18,7 +18,7 @@ local function lowest(states)
   return low < math.huge and low or nil
 end
 
--- camera and floor, the same for all frames: those of the options, else as clench.render chooses them
+-- sets camera and floor for all frames: those of the options, else as clench.render chooses them
 local function set_scene(recording, given)
   local count, states = #recording.times, {}
   local step = math.max(1, (count - 1) / (max_states - 1))
@@ -34,7 +34,7 @@ local function no_ffmpeg(program)
   local path = found and found:read "l"
   if found then found:close() end
   if not path then
-    raise(("recording:save: .mp4 needs the program '%s', which is not installed; .gif and .html need nothing"):format(program))
+    raise(("recording:save: .mp4 needs the program '%s', which is not installed; .gif and .html need no program"):format(program))
   end
 end
 
@@ -45,7 +45,7 @@ local function encode(program, frames, count, rate, path)
   if not ok then raise(("recording:save: '%s' could not write '%s' and ended with code %s"):format(program, path, tostring(code))) end
 end
 
--- hundredths of a second from one frame to the next
+-- times between frames, in hundredths of a second
 local function delays(times, speed)
   local out, shown = {}, 0
   for i = 1, #times do
@@ -58,8 +58,8 @@ end
 
 local doc = [[
 @param options table
-@option speed? number [> 0] = 1  1: as fast as it was
-@option ffmpeg? string = "ffmpeg"  the program, for .mp4]]
+@option speed? number [> 0] = 1  1: real time
+@option ffmpeg? string = "ffmpeg"  name of the program ffmpeg, for .mp4]]
 
 ---@param recording table
 ---@param path string
@@ -74,7 +74,7 @@ return function(recording, path, ending, options)
   local own = read_options("recording:save", read, nil, nil, doc)
   local speed = own:get "speed"
   local program = own:get "ffmpeg"
-  if read.ffmpeg and ending ~= "mp4" then own:fail "ffmpeg writes .mp4 alone" end
+  if read.ffmpeg and ending ~= "mp4" then own:fail "ffmpeg applies only to .mp4" end
   if ending == "mp4" then no_ffmpeg(program) end
   given.size, given.quality = given.size or {480, 360}, given.quality or "draft"
   set_scene(recording, given)

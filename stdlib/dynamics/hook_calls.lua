@@ -1,6 +1,6 @@
---- Calls functions that take part in a world's steps: when they are due, with errors that name them.
+--- Calls the functions that take part in a world's steps when they are due; errors name the function.
 local explained = require "clench.explained"
-local calls = {tiny = 1e-9}  -- parts of a period, and seconds, that are rounding
+local calls = {tiny = 1e-9}  -- tolerance for rounding, in periods and in seconds
 
 function calls.call(handle, ...)
   local ok, problem = xpcall(handle.fn, function(problem)
@@ -20,7 +20,7 @@ function calls.is_due(handle, time)
   return true
 end
 
--- Calls waiting functions in their order; functions that are added meanwhile begin with the next step.
+-- Calls waiting functions in order; functions that are added meanwhile start with the next step.
 function calls.each(list, visit)
   for i = 1, list and #list or 0 do
     if list[i].status == "waiting" then visit(list[i]) end

@@ -1,4 +1,4 @@
---- What takes part in a world's runs: functions called at steps, tasks and listeners, each in the order in which it came.
+--- Functions that take part in a world's runs: functions called at steps, tasks and listeners, each called in order of creation.
 local class = require "clench.class"
 local raise = require "clench.raise"
 local descriptions = require "clench.signature.descriptions"
@@ -12,7 +12,7 @@ local Handle = class "handle"
 
 function Handle:__tostring() return ("%s (%s)"):format(self.name, self.status) end
 
---- Ends it, also while it runs.
+--- Ends it, even while it runs.
 function Handle:remove()
   if self.status == "waiting" then self.status = "removed" end
 end
@@ -36,7 +36,7 @@ function hooks.on_step(set, fn, options)
   return add(set, "controllers", {name = "function of world:on_step", fn = fn, rate = rate})
 end
 
---- as on_step, but after steps, and before the first one
+--- As on_step, but called before the first step and after each step.
 function hooks.observe(set, fn, rate) return add(set, "observers", {name = "observer", fn = fn, rate = rate}) end
 
 function hooks.on(set, event, fn)
@@ -47,7 +47,7 @@ function hooks.on(set, event, fn)
   return add(set, "listeners", {name = ("listener of world:on '%s'"):format(event), fn = fn, event = event})
 end
 
--- what a task calls from its own function
+-- the functions of a task, which may be called only in its coroutine
 local function new_task(handle)
   local task = {}
   local function pause(what, order)
@@ -80,7 +80,7 @@ function hooks.spawn(set, fn)
   return handle
 end
 
---- stdlib/dynamics/log.lua and recording.lua
+--- Implemented in stdlib/dynamics/log.lua and recording.lua.
 function hooks.log(set, options, _, world) return require "clench.dynamics.log"(hooks, set, options, world) end
 function hooks.record(set, options, _, world) return require "clench.dynamics.recording"(hooks, set, options or {}, world) end
 
@@ -93,7 +93,7 @@ end
 function hooks.pop(set, _, _, world)
   local stack = set.stack or {}
   local last = table.remove(stack)
-  if not last then raise "world:pop: the stack is empty: nothing was pushed, or all was popped" end
+  if not last then raise "world:pop: the stack is empty" end
   world:restore(last)
   return #stack
 end

@@ -1,11 +1,11 @@
---- What quantities are while a world runs, as rows.
+--- Logs quantities of a running world as rows.
 local class = require "clench.class"
 local raise = require "clench.raise"
 local read_options = require "clench.options"
 local described = require "clench.described"
 local suggest = require "clench.suggest"
 
--- what a value is made of: names of its parts, "" for a number
+-- suffixes for the components of vectors
 local axes = {".x", ".y", ".z"}
 
 local named = {
@@ -40,7 +40,7 @@ local function of_robot(robot)
   }
 end
 
--- {name, function} of all that is noted, in order
+-- {name, function} of all logged quantities, in order
 local function sources_of(read, world)
   local given = read:raw "quantities"
   if type(given) ~= "table" then read:expected("quantities", "a table of bodies, robots, names and functions", given) end
@@ -80,7 +80,7 @@ local function sources_of(read, world)
   return sources
 end
 
--- the parts of a value as numbers, and their names behind that of the whole
+-- the components of a value as numbers, and their suffixes to its name
 local function parts_of(name, value)
   if type(value) == "number" then return {value}, {""} end
   if type(value) == "boolean" then return {value and 1 or 0}, {""} end
@@ -91,7 +91,7 @@ local function parts_of(name, value)
     parts[i], names[i] = value[i], ("[%d]"):format(i)
   end
   if type(value) ~= "table" then
-    raise(("world:log: %s: expected a function that gives a number, true or false, a vector or a list of numbers, got %s"):format(name, described(value)))
+    raise(("world:log: %s: expected a function that returns a number, true or false, a vector or a list of numbers, got %s"):format(name, described(value)))
   end
   return parts, names
 end
@@ -100,10 +100,10 @@ local Log = class "log"
 
 function Log:__tostring() return ("log of %d rows, %d columns"):format(#self.rows, #self.columns) end
 
---- Ends it.
+--- Ends the log.
 function Log:remove() self.handle:remove() end
 
--- functions of the user are named in the errors that they raise
+-- names functions of the user in the errors that they raise
 local function call_own(self, source, world)
   self.handle.running = source.is_own and ("function '%s' of world:log"):format(source[1])
   local value = source[2](world)
@@ -111,7 +111,7 @@ local function call_own(self, source, world)
   return value
 end
 
--- a row of numbers by their columns
+-- appends a row of numbers by column
 local function note(self, world)
   local row = {time = world.time}
   for _, source in ipairs(self.sources) do
@@ -132,7 +132,7 @@ local function note(self, world)
   self.rows[#self.rows + 1] = row
 end
 
--- one array of each quantity: a number, or a row, each time
+-- one array per quantity, with a number or a row of numbers per time
 local function arrays_of(self)
   local arrays = {time = {}}
   for i, row in ipairs(self.rows) do arrays.time[i] = row.time end
@@ -155,7 +155,7 @@ local function arrays_of(self)
   return arrays
 end
 
---- Writes it: .csv, a column for each number; .npz, an array for each quantity.
+--- Writes the log: to .csv, with a column per number, or to .npz, with an array per quantity.
 ---@param path string
 function Log:save(path)
   if type(path) ~= "string" then raise("log:save: path: expected a name, got " .. described(path)) end

@@ -1,4 +1,4 @@
---- Calls the logs and recordings of a world that a script steps itself, with move_bodies and solve_velocities.
+--- Calls the logs and recordings of a world that a script steps itself by move_bodies and solve_velocities.
 local calls = require "clench.dynamics.hook_calls"
 
 ---@param hooks table  of stdlib/dynamics/hooks.lua

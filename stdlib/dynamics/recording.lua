@@ -1,4 +1,4 @@
---- How a world ran, for films: its states at a rate of its time.
+--- Records a running world for films: its states at a rate of simulated time.
 local call_script = require "clench.call_script"
 local class = require "clench.class"
 local optional_table = require "clench.optional_table"
@@ -10,10 +10,10 @@ local Recording = class "recording"
 
 function Recording:__tostring() return ("recording of %d frames at %g Hz"):format(#self.times, self.rate) end
 
---- Ends it.
+--- Ends the recording.
 function Recording:remove() self.handle:remove() end
 
---- Calls with a copy of the world as it was at each frame in turn.
+--- Calls visit(world, frame, time) for each frame, with a copy of the world in the state of the frame.
 ---@param visit fun(world: world, frame: integer, time: number)
 function Recording:each(visit)
   if type(visit) ~= "function" then raise("recording:each: expected a function, got " .. described(visit)) end
@@ -26,10 +26,10 @@ end
 
 local writers = {html = "page", gif = "pictures", mp4 = "pictures", png = "pictures"}
 
---- Writes a film; by the ending of the name .html, a page that plays in 3-D and can be turned while it does; .gif; .mp4, where the program ffmpeg is
---- installed; .png, a picture of each frame, run_0001.png and so on.
+--- Writes a film. The extension selects the format: .html, a page that plays in 3-D with a movable camera; .gif; .mp4, if the program ffmpeg is installed;
+--- .png, a picture per frame, run_0001.png and so on.
 ---@param path string
----@param options? table  of .html: title, speed (1: as fast as it was); of pictures: speed, and those of clench.render; of .mp4: ffmpeg, the program
+---@param options? table  for .html: title, speed (1: real time); for pictures: speed, and options of clench.render; for .mp4: ffmpeg, name of the program
 ---@return integer frames
 function Recording:save(path, options)
   if type(path) ~= "string" then raise("recording:save: path: expected a name, got " .. described(path)) end
@@ -37,7 +37,7 @@ function Recording:save(path, options)
   if not writers[ending] then
     raise("recording:save: expected a name that ends in .html, .gif, .mp4 or .png, got " .. described(path))
   end
-  if #self.times == 0 then raise "recording:save: it holds nothing yet: the world has not run since it began" end
+  if #self.times == 0 then raise "recording:save: it is empty: the world has not run since it was created" end
   local write = require("clench.dynamics.film_" .. writers[ending])
   return write(self, path, ending, optional_table("recording:save", options))
 end

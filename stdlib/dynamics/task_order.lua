@@ -1,2 +1,2 @@
---- Metatable of the orders {seconds =, condition =} that task.wait and its siblings yield. Distinguishes them from values that a script yields.
+--- Metatable of the orders {seconds =, condition =} that the functions of a task yield. Distinguishes them from values that a script yields.
 return {__name = "task order"}

@@ -1,4 +1,4 @@
---- `clench check`: files read for a person's eyes, or as JSON for a program's.
+--- `clench check`: reports on files, as text or as JSON.
 local described = require "clench.described"
 local name_list = require "clench.name_list"
 local in_utf8 = require "clench.in_utf8"
@@ -6,10 +6,10 @@ local columns = require "clench.host.columns"
 local printable = require "clench.printable"
 local check = {}
 
--- a line of names from a file
+-- prints a line that contains names from a file
 local function say(text) print(printable(text)) end
 
--- numbers with their unit, as people say them
+-- a number with its unit, in the units of text output
 local function quantity(x, unit)
   if x == nil then return "-" end
   if unit == "rad" then return ("%.1f deg"):format(clench.deg(x)) end
@@ -17,7 +17,7 @@ local function quantity(x, unit)
   return ("%s %s"):format(math.tointeger(x) and described(x) or ("%.4g"):format(x), unit)
 end
 
--- three numbers; one that is rounding beside `scale`, the largest unless given, is 0
+-- three numbers; values below rounding relative to `scale`, by default the maximum, are 0
 local function vector(v, format, scale)
   scale = scale or math.max(math.abs(v[1]), math.abs(v[2]), math.abs(v[3]))
   local parts = {}
@@ -48,7 +48,7 @@ local function counted(counts)
   return table.concat(list, ", ")
 end
 
--- what a robot's file describes and nothing acts on
+-- elements of a robot's file that are kept without effect
 local function kept_words(kept)
   local list = {}
   local function add(format, ...) list[#list + 1] = format:format(...) end
@@ -124,12 +124,12 @@ function print_kind.world(world)
   for _, body in ipairs(world.obstacles) do rows[#rows + 1] = {"obstacle", table.unpack(body_row(body))} end
   for _, robot in ipairs(world.robots) do
     rows[#rows + 1] = {"robot", robot.name, several(#robot.dofs, "DOF"),
-                       robot.parent and "mounted on " .. robot.parent or "stands by itself"}
+                       robot.parent and "mounted on " .. robot.parent or "not mounted"}
   end
   columns(rows, "  ")
   if world.keyframes[1] then say("  keyframes " .. name_list(world.keyframes)) end
   for _, robot in ipairs(world.robots) do
-    if world.is_scene then  -- no other file tells its parts
+    if world.is_scene then  -- other files do not describe their parts
       say(("  %s:"):format(robot.name))
       print_kind.robot(robot)
     elseif robot.kept then
@@ -187,7 +187,7 @@ print_kind.grasps = function(list)
     if counts[one[1]] > 0 then say(("  %d %s"):format(counts[one[1]], one[2])) end
   end
   if counts.unnamed_dofs > 0 then
-    say(("  %d without names of DOFs: their order is that of the hand, or as dof_order says"):format(counts.unnamed_dofs))
+    say(("  %d without names of DOFs: in the order of the hand, or of the option dof_order"):format(counts.unnamed_dofs))
   end
 end
 
@@ -209,10 +209,10 @@ local function print_report(r)
   if r.error then print("  error: " .. printable(r.error, "\n")) end
 end
 
---- Prints what was parsed from each file.
----@param root string  this and the next four: what is said of reading, "" when nothing is
+--- Prints the report of each file.
+---@param root string  this and the next four: options of readers, "" if not given
 ---@param form "text"|"json"
----@return integer  the exit code: 1 when a file could not be read
+---@return integer  the exit code: 1 if a file could not be read
 function check.main(root, folder, package, unit, strict, form, ...)
   local options = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
   local all, code, session = {}, 0, clench.session()

@@ -1,6 +1,6 @@
 local printable = require "clench.printable"
 
---- Rows of text in columns, the first row above the others, for a terminal.
+--- Prints rows of text in columns for a terminal.
 ---@param rows string[][]
 ---@param indent string  before each row
 return function(rows, indent)

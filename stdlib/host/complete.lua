@@ -1,6 +1,6 @@
---- Completion in the console: what the name before the cursor may become, from the live values it is looked up in; keys of
---- options, and in strings names of measures, of bodies and of files.
---- Nothing of the user's runs: tables are read raw, and of userdata only clench's own fields are asked.
+--- Completion in the console: possible continuations of the name before the cursor, from the live values; keys of options; and in strings names of measures, of
+--- bodies and of files.
+--- No code of the user runs: tables are read raw, and of userdata only clench's fields are read.
 local match, gmatch, gsub, sub, find = string.match, string.gmatch, string.gsub, string.sub, string.find
 local rawget, next, type, pcall, tonumber, sort, unpack = rawget, next, type, pcall, tonumber, table.sort, table.unpack
 local getmetatable, globals, string_library = debug.getmetatable, _G, string
@@ -10,7 +10,7 @@ local doc, session, packed_docs = require "clench.host.doc", require "clench.hos
 local keywords = {"and", "break", "do", "else", "elseif", "end", "false", "for", "function", "goto", "if", "in", "local",
                   "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"}
 
-local about -- what clench says of itself, asked when first needed
+local about -- descriptions of clench's entries, loaded on first use
 local function described()
   if about then return about end
   about = {classes = {}, libraries = {}, modules = {}, called = {}}
@@ -43,7 +43,7 @@ local function name_of(value)
   return type(name) == "string" and name or nil, type(meta) == "table" and meta or nil
 end
 
--- visits a class's fields and methods, its parents' too
+-- visits the fields and methods of a class and of its parents
 local function each_member(class, visit)
   while class do
     for _, field in ipairs(class.fields) do visit(field.name, true, field) end
@@ -52,7 +52,7 @@ local function each_member(class, visit)
   end
 end
 
--- value[key], without running a stranger's code; nil when there is no such thing
+-- value[key], without running code of the user; nil if there is no such value
 local function get(value, key)
   local name, meta = name_of(value)
   if type(value) == "table" then
@@ -73,7 +73,7 @@ local function get(value, key)
   end
 end
 
--- adds the names that may follow value. or value:
+-- adds the names that may follow "value." or "value:"
 local function add_members(value, calls, add)
   local name, meta = name_of(value)
   if type(value) == "string" then
@@ -92,13 +92,13 @@ local function add_members(value, calls, add)
     if not calls and name and find(name, "^clench") then
       for key in next, described().libraries[name] or {} do add(key) end
       if name == "clench" then for key in next, described().modules do add(key) end end
-      -- a module of ours that loads its parts lists them when asked
+      -- a module of clench that loads its parts lists them on request
       if rawget(meta, "__pairs") then pcall(function() for key in pairs(value) do add(key) end end) end
     end
   end
 end
 
--- the value that "world.robots[1]" is; nil when it is none
+-- the value of a path such as "world.robots[1]"; nil if there is none
 local function resolve(path)
   local first, rest = match(path, "^([%a_][%w_]*)(.*)$")
   if not first then return nil end
@@ -117,7 +117,7 @@ local function resolve(path)
   return value
 end
 
--- what is open at the end of a line: the string, and where it begins, or the brackets, each {mark, where}
+-- what is open at the end of a line: the position of an open string, and the open brackets, each {mark, position}
 local function open_at_end(line)
   local quote, from, brackets, at = nil, nil, {}, 1
   while at <= #line do
@@ -138,7 +138,7 @@ local function open_at_end(line)
   return quote and from, brackets
 end
 
--- the call whose argument begins behind a text, as in "world:body " or "f(x, ": base, name
+-- the call whose argument begins at the end of a text, as in "world:body " or "f(x, ": base, name
 local function call_before(text, brackets)
   local path = match(text, "([%a_][%w_%.:%[%]]*)%s*%(?%s*$")
   if not path and #brackets > 0 and brackets[#brackets][1] == "(" then
@@ -147,7 +147,7 @@ local function call_before(text, brackets)
   if path then return match(path, "^(.-)[.:]?([%w_]+)$") end
 end
 
--- what a field may be set to, as in "mug.material = ": the words of its type, and materials of its world
+-- adds possible values of a field, as in "mug.material = ": the words of its type, and the materials of its world
 local function add_values_of(text, add)
   local base, name = match(text, "([%a_][%w_%.%[%]]*)%.([%a_][%w_]*)%s*=%s*$")
   local owner = base and resolve(base)
@@ -168,9 +168,9 @@ local function add_values_of(text, add)
   return found
 end
 
-local lists = {body = "bodies", robot = "robots", link = "links"} -- what a name is looked up in, by method
+local lists = {body = "bodies", robot = "robots", link = "links"} -- the list that contains the name, by method
 
--- names that a string may become; a string that is no such name is a file's, told by a first character of its own
+-- adds possible names for a string; returns false if the string is a file name
 local function string_words(text, from, brackets, add)
   if add_values_of(sub(text, 1, from - 1), add) then return true end
   local base, name = call_before(sub(text, 1, from - 1), brackets)
@@ -188,7 +188,7 @@ local function string_words(text, from, brackets, add)
   return true
 end
 
--- keys of the options that a function takes, by its doc; of one that takes values of DOFs by name, the names of `owner`'s
+-- adds keys of the options of a function, by its doc; if it takes values of DOFs by name, also the names of `owner`'s DOFs
 local function add_keys_of(name, owner, add)
   for _, entry in ipairs(described().called[name] or {}) do
     for _, param in ipairs(doc.parse(entry.doc).params) do
@@ -204,7 +204,7 @@ end
 
 local complete = {}
 
---- returns the word as it is typed, then what it may become, sorted; or "\1" and the beginning of a file's name
+--- returns the typed word, then its possible completions, sorted; or "\1" and the beginning of a file name
 ---@param line string  up to the cursor
 function complete.words(line)
   local from, brackets = open_at_end(line)
@@ -220,7 +220,7 @@ function complete.words(line)
   end
   local path = match(line, "[%a_][%w_%.:%[%]]*$") or ""
   local before = sub(line, -#path - 1, -#path - 1)
-  if before == "." or before == ":" then return "" end -- of a value that only running the line could tell
+  if before == "." or before == ":" then return "" end -- the value is known only by running the line
   local base, mark, typed = match(path, "^(.*)([.:])([%w_]*)$")
   if not mark then typed = path end
   local seen, words = {}, {}

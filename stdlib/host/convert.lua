@@ -1,11 +1,11 @@
---- `clench convert`: what a file holds, written as another format.
+--- `clench convert`: writes the content of a file in another format.
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
 local reading = require "clench.reading"
 local convert = {}
 
--- "a,b" as a list; nil: nothing is given
+-- "a,b" as a list; nil if empty
 local function names_in(text)
   if text == "" then return nil end
   local list = {}
@@ -13,9 +13,9 @@ local function names_in(text)
   return list
 end
 
---- Writes `to`, and prints what it is.
----@param root string  this and the next four: options of reading, "" for those that are not given
----@param format string  of a list of grasps, and `dof_order`, names with commas; "" as well
+--- Writes `to`, and prints its kind.
+---@param root string  this and the next four: options of readers, "" if not given
+---@param format string  format of a list of grasps; `dof_order`: names separated by commas; "" if not given
 ---@return integer  the exit code
 function convert.main(root, folder, package, unit, strict, from, to, format, dof_order)
   local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}

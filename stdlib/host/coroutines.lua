@@ -1,4 +1,4 @@
---- Lets an interruption reach the coroutine that runs: resume and wrap tell `track` whom they enter and leave.
+--- Lets an interrupt reach the running coroutine: resume and wrap report to `track` which coroutine they enter and leave.
 local create, resume, running = coroutine.create, coroutine.resume, coroutine.running
 local close, status = coroutine.close, coroutine.status
 local type, error = type, error
@@ -17,7 +17,7 @@ return function(track)
     return back(here, resume(co, ...))
   end
 
-  -- as in Lua's own: the error of a dead coroutine is the caller's, with the caller's line before it
+  -- as in plain Lua: the error of a dead coroutine is passed to the caller, with the caller's line
   local function pass(co, ok, ...)
     if ok then return ... end
     if status(co) == "dead" then close(co) end

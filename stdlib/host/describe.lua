@@ -1,4 +1,4 @@
---- `clench describe`: the description of an entry of the API, or of all, as text or as JSON.
+--- `clench describe`: the description of one entry of the API, or of all, as text or as JSON.
 local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local signature = require "clench.signature.grammar"
@@ -34,7 +34,7 @@ local function print_one(entry)
 end
 
 --- Prints the entry of that name, or all: as text, one line each.
----@param form "text"|"json"  after what is said of reading
+---@param form "text"|"json"  after the options of readers, which are ignored
 ---@param name string  "" for all
 ---@return string  the exit code
 function describe.main(_, _, _, _, _, form, name)

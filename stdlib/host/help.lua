@@ -1,4 +1,4 @@
---- help(x) in the console: what the documentation says of a value or of a name.
+--- help(x) in the console: prints the documentation of a value or of a name.
 local doc = require "clench.host.doc"
 local packed_docs = require "clench.signature.packed_docs"
 local suggest = require "clench.suggest"
@@ -26,7 +26,7 @@ local function print_class(class, all)
   end
 end
 
--- also one of Lua modules, "clench.plan"   returns  is there one?
+-- also for Lua modules, "clench.plan"   returns  is there such a library?
 local function print_library(name, all)
   local found = false
   for _, library in ipairs(all.libraries) do
@@ -61,7 +61,7 @@ local function each(all, visit)
   end
 end
 
--- names of everything whose documentation has the word, one a line
+-- prints the names of all entries whose documentation contains the word, one per line
 local function print_mentions(word, all)
   local names = {}
   local function look(subject, entry)
@@ -70,7 +70,7 @@ local function print_mentions(word, all)
   each(all, look)
   for _, entry in ipairs(packed_docs.functions(all.files)) do look("clench." .. entry.name, entry) end
   table.sort(names)
-  if #names > 0 then print(("'%s' is no name; it is spoken of by\n  %s"):format(word, table.concat(names, "\n  "))) end
+  if #names > 0 then print(("'%s' is not a name; it is mentioned by\n  %s"):format(word, table.concat(names, "\n  "))) end
   return #names > 0
 end
 
@@ -81,7 +81,7 @@ local function value_of(path)
   return value
 end
 
--- names of everything, for a suggestion
+-- all names, for a suggestion
 local function all_names(all)
   local names, seen = {}, {}
   local function add(_, entry)
@@ -99,7 +99,7 @@ local function explain(x)
   local meta = debug.getmetatable(x)
   local name = type(meta) == "table" and rawget(meta, "__name")
   if x == nil then
-    print "help(x) explains a value: a function, a robot, clench.json; help 'autograsp' finds a name, or who speaks of a word."
+    print "help(x) explains a value: a function, a robot, clench.json; help 'autograsp' finds a name, or the entries that mention a word."
     print_library("clench", all)
     return
   elseif type(x) == "string" then
@@ -123,7 +123,7 @@ local function explain(x)
     for name, library in pairs(found and {} or package.loaded) do
       for key, value in pairs(type(library) == "table" and library or {}) do
         if value == x and not found then
-          print(("%s%s is a function of Lua's own"):format(name == "_G" and "" or name .. ".", key))
+          print(("%s%s is a function of Lua"):format(name == "_G" and "" or name .. ".", key))
           found = true
         end
       end
@@ -137,13 +137,13 @@ local function explain(x)
   end
   if not found then
     local hint = type(x) == "string" and suggest(x:match "[%w_]*$", all_names(all))
-    print("nothing is known of " .. require "clench.show"(x) .. (hint or '; a field is explained by its name, as in help "hand.dofs"'))
+    print("there is no help for " .. require "clench.show"(x) .. (hint or '; a field is explained by its name, as in help "hand.dofs"'))
   end
 end
 
 local function show_whole(x) print(require "clench.show"(x, math.huge)) end
 
---- makes `help` and `show` globals, unless a script has its own: show(x) prints the whole of a table
+--- Defines the globals `help` and `show`, unless the script has defined them: show(x) prints a complete table.
 function help.install()
   for name, value in pairs {help = explain, show = show_whole} do
     if rawget(_G, name) == nil then rawset(_G, name, value) end

@@ -1,5 +1,4 @@
---- Where require looks for modules that do not lie beside the script: where LUA_PATH and LUA_CPATH say, else where
---- Lua's own lie. Of Lua's default the current folder is left out, for nobody has chosen it.
+--- Search paths of require for modules outside of the folder of the script: those of LUA_PATH and LUA_CPATH, else the defaults of Lua without the current folder.
 local function without_current_folder(path)
   local kept = {}
   for template in path:gmatch "[^;]+" do
@@ -8,7 +7,7 @@ local function without_current_folder(path)
   return table.concat(kept, ";")
 end
 
--- as Lua reads them: two semicolons stand for the default
+-- as in Lua: two semicolons are replaced by the default
 local function chosen(variable, default)
   local given = os.getenv(variable .. "_5_4") or os.getenv(variable)
   if not given then return default end

@@ -1,4 +1,4 @@
---- `clench plan`: grasps of a hand on an object, searched for, verified, listed and shown.
+--- `clench plan`: searches for grasps of a hand on an object, verifies, lists and draws them.
 local columns = require "clench.host.columns"
 local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
@@ -16,18 +16,18 @@ local given_of = require "clench.plan.given"
 local fail = require "clench.host.usage"
 
 local plan = {}
-local job = {found = {}}  -- what `search` leaves for `save` and `show`
+local job = {found = {}}  -- results of `search` for `save` and `show`
 
 local function visible(text) return printable(in_utf8(text), "\n") end
 
 local function check_words(given)
   if given.verify and given["no-verify"] then fail "expected --verify or --no-verify, got both" end
-  if given["force-ratio"] and given["no-verify"] then fail "--force-ratio says how hard grasps may press to be verified, and --no-verify asks for none" end
-  if given["max-effort"] and given["no-verify"] then fail "--max-effort limits motors in load margins, and --no-verify asks for none" end
-  if given["keep-lost"] and not given.verify then fail "--keep-lost says what becomes of grasps that --verify loses, and there is no --verify" end
+  if given["force-ratio"] and given["no-verify"] then fail "--force-ratio applies to the verification of grasps, which --no-verify disables" end
+  if given["max-effort"] and given["no-verify"] then fail "--max-effort applies to the load margins of the verification, which --no-verify disables" end
+  if given["keep-lost"] and not given.verify then fail "--keep-lost requires --verify" end
 end
 
-local line_every = 10  -- between lines of progress without a terminal [s]
+local line_every = 10  -- time between two lines of progress without a terminal [s]
 
 -- Writes progress as lines on stderr, for output without a terminal; a hint is written at once.
 local function progress_lines()
@@ -88,19 +88,19 @@ local function sentence(problem)
   return error_text(problem), 1
 end
 
--- After a second signal the grasps are left as they were found.
+-- Takes the grasps as they were found, after a second signal has ended the planner.
 local function rescue()
   local list, is_new = clench.grasps(), distinct(job.hand, job.object, 0.1)
   for _, grasp in ipairs(job.list and job.list.kept or {}) do table.insert(job.found, grasp) end
   for _, grasp in ipairs(batch.sort(job.found)) do
     if is_new(grasp) then list:add(grasp) end
   end
-  job.run = {grasps = list, report = "interrupted: these are the grasps until then", is_rescued = true}
+  job.run = {grasps = list, report = "interrupted: the list has the grasps found until then", is_rescued = true}
 end
 
---- Loads and searches.
----@param root string  this and the next four: what is said of reading, "" when nothing is
----@return string  the exit code, or "finish" when there is something to save and to show
+--- Loads the scene and searches.
+---@param root string  this and the next four: options of readers, "" if not given
+---@return string  the exit code, or "finish" if there is something to save and to show
 function plan.search(...)
   local ok, problem = pcall(search, ...)
   if ok then return "finish" end
@@ -110,7 +110,7 @@ function plan.search(...)
   return tostring(code)
 end
 
-local shown = 20  -- rows of the table that is printed
+local shown = 20  -- maximum number of printed rows
 
 local function shaken_text(held)
   return held and ("%d of 6"):format(held) or "-"
@@ -128,9 +128,9 @@ local function print_table(rows)
   end
   columns(list, "")
   if #rows > shown then print(("and %d more"):format(#rows - shown)) end
-  print "load: times the object's weight, in the worst direction; perturbed: least epsilon with the object displaced by 1 mm;"
-  print "azimuth, elevation: where the hand comes from [degrees]"
-  if shaken then print "shaken: held in so many of six directions, when pulled by its weight in simulation" end
+  print "load: times the object's weight, in the worst direction; perturbed: minimum epsilon with the object displaced by 1 mm;"
+  print "azimuth, elevation: direction from which the hand comes [degrees]"
+  if shaken then print "shaken: number of directions, of six, in which the object was held when pulled by its weight in simulation" end
 end
 
 --- Is there something to save and to show after a signal?
@@ -178,7 +178,7 @@ local function show()
   return #grasps
 end
 
---- Prints the table and what was done, and draws the sheet and the page.
+--- Prints the table and the report, and draws the sheet and the page.
 ---@return string  the exit code
 function plan.show()
   local ok, result = pcall(show)

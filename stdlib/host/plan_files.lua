@@ -1,4 +1,4 @@
---- The sheet, the table and the page that `clench plan` writes at its end.
+--- The sheet, the table and the page that `clench plan` writes at the end.
 local find_three = require "clench.page.three"
 local grasp_table = require "clench.plan.grasp_table"
 local in_utf8 = require "clench.in_utf8"
@@ -15,7 +15,7 @@ Files.__index = Files
 
 local function shown(text) return printable(in_utf8(text)) end
 
--- a file that cannot be written is reported before the search, not after it
+-- files that cannot be written are reported before the search, not after it
 local function check(option, path, ending, other)
   if not path then return end
   local given = path:lower():match "%.%w+$"
@@ -26,14 +26,14 @@ local function check(option, path, ending, other)
   if not ok then error(("%s: %s"):format(option, problem.sentence or problem), 0) end
 end
 
---- Checks the options and the files on the disk, and changes nothing.
+--- Checks the options and the files on the disk, without changing anything.
 ---@param given table<string, string>  options by name
 function Files.check(given)
   check("--sheet", given.sheet, ".png")
   check("--table", given.table, ".tex", ".csv")
   check("--report", given.report, ".html")
   for _, name in ipairs {"quality", "size", "frame"} do
-    if given[name] and not given.sheet then fail("--%s says how --sheet is drawn, and there is no --sheet", name) end
+    if given[name] and not given.sheet then fail("--%s requires --sheet", name) end
   end
   local drawing = picture_words(given, sheet_defaults)
   if given.report then
@@ -69,16 +69,16 @@ local function is_there(path)
   return file ~= nil
 end
 
--- Without grasps no sheet is drawn; a page states the reason, unless the file exists already.
+-- Is there anything to write? Without grasps no sheet is drawn; a page states the reason, unless the file already exists.
 local function has_something(path, count, is_page)
   if not path then return false end
   if count > 0 then return true end
   if not is_there(path) then return is_page end
-  print(("%s is as it was, as no grasps were found"):format(in_utf8(path)))
+  print(("%s is unchanged, as no grasps were found"):format(in_utf8(path)))
   return false
 end
 
---- Writes the contact sheet, the table and the page, if requested; a failure of one does not prevent the other.
+--- Writes the sheet, the table and the page, if requested; a failure of the sheet does not prevent the others.
 ---@param words {title: string, subtitle: string, report: string, assumptions?: string[]}
 function Files:show(hand, object, grasps, words)
   local ok, problem = true, nil

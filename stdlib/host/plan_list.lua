@@ -1,4 +1,5 @@
---- The lists that `clench plan -o` writes: the first one of JSON lines, or else the first one, and copies of it in other formats. Grasps are appended as they are found; at the end the list is replaced by the best, best first.
+--- The lists that `clench plan -o` writes: the main list, which is the first one of JSON lines or else the first one, and copies of it in other formats. Grasps
+--- are appended as they are found; at the end the list is replaced by the best grasps, best first.
 --- Until the search is complete, a list of JSON lines is accompanied by the journal of its search, which --resume reads.
 local error_text = require "clench.error_text"
 local identity = require "clench.host.plan_identity"
@@ -34,7 +35,7 @@ local function format_of(path, given)
   return {path = path, format = format, given_format = said}
 end
 
--- the same name without its parts "." and its doubled slashes
+-- the path without its parts "." and its doubled slashes
 local function without_dots(path)
   local parts = {}
   for part in path:gmatch "[^/]+" do
@@ -43,7 +44,7 @@ local function without_dots(path)
   return (path:find "^/" and "/" or "") .. table.concat(parts, "/")
 end
 
--- all lists, the one that is written during the search first
+-- all lists, first the one that is written during the search
 local function lists_of(given)
   local lists, known = {}, {}
   for i, path in ipairs(given.o) do
@@ -61,13 +62,13 @@ local function lists_of(given)
   return lists
 end
 
---- Checks the options and the files on the disk, and changes nothing. Returns nil without -o.
+--- Checks the options and the files on the disk, without changing anything. Returns nil without -o.
 ---@param given {o: string[], format?: string, overwrite?: string, resume?: string}
 function List.check(given)
   local is_without = #given.o == 0
-  if given.format and is_without then fail "--format says how -o FILE is written, and there is no -o" end
+  if given.format and is_without then fail "--format requires -o FILE" end
   for _, name in ipairs {"overwrite", "resume"} do
-    if given[name] and is_without then fail("--%s is about the list of -o FILE, and there is no -o", name) end
+    if given[name] and is_without then fail("--%s requires -o FILE", name) end
   end
   if given.overwrite and given.resume then fail "expected --overwrite or --resume, got both" end
   if is_without then return nil end
@@ -115,14 +116,14 @@ function List:refuse_to_replace(head, has_grasps)
   if not head.format then refuse("-o: %s exists already; --overwrite replaces it", self.path) end
   if not has_grasps then return end
   local there = search_in(head)
-  if not there then refuse("-o: %s exists already and does not state of which search it is; --overwrite replaces it", self.path) end
+  if not there then refuse("-o: %s exists already and does not identify its search; --overwrite replaces it", self.path) end
   local difference = identity.difference(there, self.search)
   if difference then refuse("-o: %s is the list of another search: %s; --overwrite replaces it", self.path, difference) end
-  refuse("-o: %s is the list of this search: --resume continues it, --overwrite starts it anew", self.path)
+  refuse("-o: %s is the list of this search: --resume continues it, --overwrite restarts it", self.path)
 end
 
 function List:check_same(path, there)
-  if not there then refuse("--resume: %s does not state of which search it is; --overwrite replaces it", path) end
+  if not there then refuse("--resume: %s does not identify its search; --overwrite replaces it", path) end
   local difference = identity.difference(there, self.search)
   if difference then refuse("--resume: %s is of another search: %s", path, difference) end
 end
@@ -154,11 +155,11 @@ function List:resume(head)
   self:read_journal()
   if not self.count then self.count = self.earlier_count end
   if #self.kept > 0 and not self.has_journal then
-    io.stderr:write(("clench plan: without %s the search begins again; the grasps of %s are kept\n"):format(self.journal_path, self.path))
+    io.stderr:write(("clench plan: without %s the search starts again; the grasps of %s are kept\n"):format(self.journal_path, self.path))
   end
 end
 
---- Compares the search with that of a list on the disk. Changes nothing.
+--- Compares the search with that of a list on the disk, without changing anything.
 ---@param search table  of plan_identity
 ---@param count? integer  number of grasps searched for; nil: the number of the list that is continued
 function List:compare(search, count)
@@ -175,7 +176,7 @@ function List:compare(search, count)
   if self.format ~= "jsonl" then
     if head then refuse("-o: %s exists already; --overwrite replaces it", self.path) end
   elseif self.is_resuming then
-    if head and not head.format then refuse("--resume: %s is no list of grasps", self.path) end
+    if head and not head.format then refuse("--resume: %s is not a list of grasps", self.path) end
     self:resume(head)
   elseif head then
     self:refuse_to_replace(head, has_more)
@@ -190,25 +191,25 @@ function List:notes(more)
   return {search = search}
 end
 
--- Raises an error if another program has replaced the list. A list that was removed is written at the end.
+-- Raises an error if another program has replaced the list. A removed list is written again at the end.
 function List:check_ours()
   local line = first_line(self.path)
   if line and line ~= self.first_line then refuse("%s was replaced by another program: it is not written", self.path) end
   return line ~= nil
 end
 
--- keeps a damaged journal under another name
+-- renames a damaged journal
 function List:put_aside_journal()
   if not self.is_journal_damaged then return end
   local aside = self.path .. ".search.damaged"
   local ok, why = os.rename(self.journal_path, aside)
   if not ok then refuse("%s is damaged and cannot be renamed to %s: %s", self.journal_path, aside, why) end
   self.is_journal_damaged = nil
-  io.stderr:write(("clench plan: warning: %s is damaged; it is renamed to %s, and what it has lost is searched again\n"):format(
+  io.stderr:write(("clench plan: warning: %s is damaged; it is renamed to %s, and the lost part is searched again\n"):format(
     self.journal_path, aside))
 end
 
--- From here on, grasps and pieces are stored in files, which replace older ones.
+-- Starts storing grasps and pieces in files, which replace older ones.
 function List:start()
   self:check_ours()
   self.started = true
@@ -241,7 +242,7 @@ function List:add(grasp)
   end)
 end
 
--- During the search the list holds the grasps of the journal and of the earlier list, too.
+-- During the search the list also contains the grasps of the journal and of the earlier list.
 local function add_known(list, record, earlier)
   local numbers = {}
   local function add(grasp)
@@ -271,7 +272,7 @@ function List:journal()
   if self.format ~= "jsonl" then return nil end
   local earlier = {}
   for i, grasp in ipairs(self.kept) do earlier[i] = grasp end
-  -- a search for fewer grasps than before keeps the complete list
+  -- a search for fewer grasps than before keeps all of the list
   local keep = (self.earlier_count or 0) > self.count and #earlier or 0
   self.keep = math.max(keep, self.count)
   local record = journal.new {
@@ -284,7 +285,7 @@ function List:journal()
   return record
 end
 
--- Copies in other formats; lists that exist are replaced by lists with grasps alone.
+-- Saves copies in other formats; existing files are replaced only if there are grasps.
 function List:save_copies(grasps)
   for _, copy in ipairs(self.copies) do
     if #grasps > 0 or not look_at(copy.path) then grasps:save(copy.path, {format = copy.given_format}) end
@@ -307,7 +308,7 @@ end
 function List:save_main(grasps, is_search_complete)
   if self.is_complete then return nil end
   if #grasps == 0 and self.is_replacing then
-    return ("%s is as it was, as no grasps were found"):format(self.path)
+    return ("%s is unchanged, as no grasps were found"):format(self.path)
   end
   if self.format ~= "jsonl" then
     grasps:save(self.path, {format = self.given_format})

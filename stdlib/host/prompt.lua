@@ -2,10 +2,10 @@
 local loop = require "clench.loop"
 local prompt = {}
 
---- The descriptor of the loop, readable when something is ready to run.
+--- The descriptor of the loop, readable if a task is ready to run.
 function prompt.descriptor() return loop.descriptor() end
 
---- Runs what is ready.
+--- Runs the tasks that are ready.
 function prompt.run() loop.run(0) end
 
 return prompt

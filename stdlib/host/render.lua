@@ -1,4 +1,4 @@
---- `clench render`: a file, or grasps of a list, as a picture.
+--- `clench render`: draws a file, or grasps of a list, as a picture.
 local assumptions = require "clench.plan.assumptions"
 local error_text = require "clench.error_text"
 local fail = require "clench.host.usage"
@@ -12,7 +12,7 @@ local scene = require "clench.host.scene"
 local sheet = require "clench.plan.sheet"
 local render = {}
 
-local on_sheet = 24  -- grasps, unless --pick chooses
+local on_sheet = 24  -- maximum number of grasps, unless --pick chooses
 local alone = {size = {1280, 960}, quality = "paper", background = "studio"}
 local several = {size = {320, 240}, quality = "draft", background = "white"}
 
@@ -44,12 +44,12 @@ local function refuse_of_lists(given, kind)
   for _, name in ipairs(only_of_lists) do
     local value = given[name]
     if type(value) == "table" and #value > 0 or type(value) == "string" then
-      fail("--%s is about a list of grasps, and %s is a file of kind '%s'", name, given.file, kind)
+      fail("--%s applies to lists of grasps, but %s is a file of kind '%s'", name, given.file, kind)
     end
   end
 end
 
--- a world with what the file describes
+-- a world with the content of the file
 local function load_file(given, said, kind)
   if kind == "world" then return clench.load(given.file, reading("world", said)) end
   local world = clench.world()
@@ -73,7 +73,7 @@ local function draw_file(given, said, kind)
   return clench.render(world, options)
 end
 
--- hand and object of all grasps of the list: files of the options, else those that the list names
+-- hand and object of all grasps of the list: from the files of the options, else from those that the list names
 local function load_scene(given, said, list)
   for _, part in ipairs {"hand", "object"} do
     local file = list[1][part .. "_file"]

@@ -1,9 +1,9 @@
---- The scene of `clench plan` and `clench render`: a hand, an object and obstacles, as options of the command line give them.
+--- The scene of `clench plan` and `clench render`: a hand, an object and obstacles, from options of the command line.
 local reading = require "clench.reading"
 local fail = require "clench.host.usage"
 local scene = {}
 
--- numbers separated by commas; {} if anything else is among them
+-- numbers separated by commas; {} if any part is not a number
 function scene.numbers_of(text)
   local numbers, count = {}, 0
   for word in (text .. ","):gmatch "([^,]*)," do
@@ -62,7 +62,7 @@ function scene.load(given, said)
     return options
   end
   local of_robot = reading("robot", said)
-  of_robot.unit = nil  -- robots' files have units of their own
+  of_robot.unit = nil  -- files of robots define their own units
   of_robot.close = given.close and closing_of(given.close)
   of_robot.approach = given.approach and approach_of(given.approach)
   local hand = session:run("world.import_robot", {path = given.hand, options = of_robot})
@@ -77,8 +77,8 @@ function scene.load(given, said)
   return session.world, hand, object, session
 end
 
---- Words of the command line, name, value, name, value ..., as a table.
----@param several string[]  names that may come several times, and become lists
+--- Converts words of the command line, name, value, name, value ..., to a table.
+---@param several string[]  names that may occur several times, and become lists
 ---@return table
 function scene.read_words(several, ...)
   local given, words = {}, {...}
@@ -87,7 +87,7 @@ function scene.read_words(several, ...)
     local name, value = words[i], words[i + 1]
     if type(given[name]) == "table" then table.insert(given[name], value) else given[name] = value end
   end
-  if #given["obstacle-pose"] > #given.obstacle then
+  if given["obstacle-pose"] and #given["obstacle-pose"] > #given.obstacle then
     fail("--obstacle-pose is given %d times, and --obstacle %d times", #given["obstacle-pose"], #given.obstacle)
   end
   return given

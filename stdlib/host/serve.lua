@@ -1,4 +1,4 @@
---- `clench serve`: a world that other programs command.
+--- `clench serve`: a world that other programs control.
 local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
@@ -22,7 +22,7 @@ local function read_words(...)
   return given
 end
 
--- where the token of a server is kept, unless an option says so
+-- default file for the token of a server
 local function default_file(server)
   local name = server.port > 0 and tostring(server.port) or "socket"
   local session = os.getenv "XDG_RUNTIME_DIR"
@@ -31,7 +31,7 @@ local function default_file(server)
   return home and home ~= "" and ("%s/.clench-%s.token"):format(home, name) or nil
 end
 
--- keeps the token in a file of the user's own, which goes when the server ends
+-- stores the token in a file of the user, which is removed when the server ends
 local function keep_token(server, path)
   path = path or default_file(server)
   if not path then return nil end
@@ -41,9 +41,9 @@ end
 
 local function announce(given, server, kept)
   say("%s is served at %s", given.world, server.listener.name)
-  if not server.token then return say "without a token: any program of this machine may command it" end
+  if not server.token then return say "without a token: any program on this machine can control it" end
   say("JSON-RPC: %s/?token=%s", given.socket and "unix://" .. given.socket or "tcp://" .. server.listener.name, server.token)
-  if kept then say("the token is kept in %s", kept.path) end
+  if kept then say("the token is stored in %s", kept.path) end
 end
 
 local function run(root, folder, package, unit, strict, ...)

@@ -1,14 +1,14 @@
---- The console's session: top-level locals live on from one input to the next, shared with the functions that use them.
+--- The console's session: top-level locals persist from one input to the next, shared with the functions that use them.
 local load, type, ipairs, unpack = load, type, ipairs, table.unpack
 local find, match, sub, rep, concat = string.find, string.match, string.sub, string.rep, table.concat
 local insert, remove = table.insert, table.remove
 local getupvalue, upvaluejoin = debug.getupvalue, debug.upvaluejoin
 
-local max_names = 150 -- a function of Lua has 200 locals at most; the oldest are forgotten
-local names = {} -- in the order of their declaration
-local cells = {} -- of each name a function that holds it as an upvalue, and the upvalue's number
+local max_names = 150 -- a Lua function has at most 200 locals; the oldest are removed
+local names = {} -- in order of declaration
+local cells = {} -- for each name, a function that has it as an upvalue, and the number of the upvalue
 
--- calls visit(kind, text) for each name and mark of a chunk that Lua has found to be in order
+-- calls visit(kind, text) for each name and mark of a chunk that has compiled
 local function each_token(text, visit)
   local at = 1
   while at <= #text do
@@ -37,12 +37,12 @@ end
 
 local change = {["do"] = 1, ["if"] = 1, ["function"] = 1, ["repeat"] = 1, ["end"] = -1, ["until"] = -1}
 
--- the locals that a chunk declares outside every block
+-- the locals that a chunk declares outside of all blocks
 local function declared(text)
   local list, depth, state = {}, 0, nil
   each_token(text, function(kind, word)
     if state == "attribute" then
-      -- what closes when its chunk ends is not kept
+      -- variables that are closed at the end of their chunk are not kept
       if word == "close" then remove(list) end
       if word == ">" then state = "after" end
       return
@@ -80,7 +80,7 @@ local function cell_of(holder, name)
   end
 end
 
--- the chunk as a function whose free names are the session's locals; nil and why when it is none
+-- the chunk as a function whose free names are the session's locals; nil and the reason if it does not compile
 local function within(text, before)
   local head = #names > 0 and "local " .. concat(names, ",") .. " " or ""
   local make, message = load(before .. head .. "return function(...) " .. text .. "\nend", "=input", "t")
@@ -95,14 +95,14 @@ end
 
 local session = {}
 
---- A console's input, an expression, "=expression" or statements, as a function.
+--- Compiles the console's input, an expression, "=expression" or statements, to a function.
 ---@param input string
----@param line integer  what messages call the first of its lines
+---@param line integer  number of its first line in messages
 ---@return function? chunk
----@return boolean|string  keeps: what it returns is for `keep`, and no result; or why there is none
----@return boolean? incomplete  is it the beginning of something?
+---@return boolean|string  keeps: true if its result is an argument for `keep`; or the reason for the absence of a chunk
+---@return boolean? incomplete  is the input incomplete?
 function session.compile(input, line)
-  -- empty lines before it make Lua count from there; the end of its own line ends a string
+  -- leading newlines set the line number; the newline at the end terminates an open string
   local before = rep("\n", line - 1)
   local marked = sub(input, 1, 1) == "="
   local text = "return " .. (marked and sub(input, 2) or input) .. "\n"
@@ -122,12 +122,12 @@ function session.compile(input, line)
   return within(text, before) or ok, false
 end
 
---- Keeps the locals that the last chunk has declared; nothing after an error.
----@param holder function  what the chunk returned
+--- Keeps the locals that the last chunk has declared; not called after an error.
+---@param holder function  result of the chunk
 function session.keep(holder)
   local values = {holder()}
   for i, name in ipairs(session.new) do
-    local value = values[i] -- of a constant, which no function holds
+    local value = values[i] -- of a constant, which no function has as an upvalue
     cells[name] = cell_of(holder, name) or {function() return value end, 1}
     for k, known in ipairs(names) do if known == name then remove(names, k) break end end
     names[#names + 1] = name

@@ -1,4 +1,4 @@
---- `clench view`: a file or an empty world in a window, or one frame of it as a picture.
+--- `clench view`: shows a file or an empty world in a window, or draws one frame of it as a picture.
 local error_text = require "clench.error_text"
 local fail = require "clench.host.usage"
 local in_utf8 = require "clench.in_utf8"
@@ -14,7 +14,11 @@ local function read_size(text)
   if not text then return nil end
   local width, height = text:match "^(%d+)x(%d+)$"
   if not width then fail("--size: expected width and height in pixels, as in 1070x937, got '%s'", text) end
-  return {tonumber(width), tonumber(height)}
+  local size = {tonumber(width), tonumber(height)}
+  for _, n in ipairs(size) do
+    if n < 16 or n > 8192 then fail("--size: expected 16 to 8192 pixels, got '%s'", text) end
+  end
+  return size
 end
 
 local function check_screenshot(path)
@@ -34,8 +38,15 @@ end
 
 local function run_script(path, session, shown)
   local env = setmetatable({session = session, view = shown}, {__index = _G})
-  local f = assert(loadfile(path, "t", env))
+  local f, problem = loadfile(path, "t", env)
+  if not f then error("--script: " .. problem, 0) end
   f()
+end
+
+local function save_screenshot(shown, path)
+  for _ = 1, 2 do shown:frame() end
+  local picture = shown:screenshot {path = path}
+  print(printable(in_utf8(("%s: %d x %d pixels"):format(path, picture.width, picture.height))))
 end
 
 local function run(root, folder, package, unit, strict, ...)
@@ -47,15 +58,23 @@ local function run(root, folder, package, unit, strict, ...)
   open_file(session, given, said)
   local options = {session = session, size = size}
   local shown = given.screenshot and clench.view.offscreen(options) or clench.view.open(session, {size = size})
-  if given.script then run_script(given.script, session, shown) end
-  if given.screenshot then
-    for _ = 1, 2 do shown:frame() end
-    local picture = shown:screenshot {path = given.screenshot}
-    print(printable(in_utf8(("%s: %d x %d pixels"):format(given.screenshot, picture.width, picture.height))))
-  else
-    shown:wait()
+  local ok, problem = pcall(function()
+    if given.script then run_script(given.script, session, shown) end
+    if given.screenshot then save_screenshot(shown, given.screenshot) else shown:wait() end
+  end)
+  if not ok then
+    shown:flush()
+    error(problem, 0)
   end
   shown:close()
+end
+
+--- Opens an empty world in a window beside the console, which gets `session` and `view`.
+function view.beside()
+  local opened = clench.session()
+  opened:run "world.new"
+  _G.view = clench.view.open(opened)
+  _G.session = opened
 end
 
 --- Shows the file until its window is closed.

@@ -1,11 +1,11 @@
---- Meshes and poses as pages carry them: each mesh once, in base64.
+--- Encodes meshes and poses for pages: each mesh once, in base64.
 local base64 = require "clench.base64"
 local meshes = {}
 
-local large = 200000  -- triangles of a mesh that a page is slow with
-local max_image_bytes = 16 << 20  -- of all images of a page; beyond it triangles have colors instead
+local large = 200000  -- number of triangles above which a page becomes slow
+local max_image_bytes = 16 << 20  -- of all images of a page; beyond this limit triangles have colors instead
 
---- numbers in packs of some hundred: string.pack takes no more at once
+--- Packs numbers in chunks, since string.pack takes a limited number of arguments.
 function meshes.packed(format, count, number)
   local parts, values = {}, {}
   for i = 1, count do
@@ -18,7 +18,7 @@ function meshes.packed(format, count, number)
   return table.concat(parts)
 end
 
--- one color per triangle, as bytes; nil where the body has one color
+-- one color per triangle, as bytes; nil if the body has one color
 local function packed_colors(body)
   local colors = body.triangle_colors
   if not colors or #colors ~= body.visual_mesh.triangle_count then return nil end
@@ -26,7 +26,7 @@ local function packed_colors(body)
   return base64(meshes.packed("B", 3 * #colors, byte))
 end
 
--- images, their numbers in the page's list, and where triangles lie in them; nil where the page has no place for them
+-- images by their indices in the page's list, and texture coordinates of triangles; nil if the images exceed the limit of the page
 local function packed_textures(self, body)
   local textures = body.textures
   if not textures then return nil end
@@ -35,7 +35,7 @@ local function packed_textures(self, body)
     if not self.number_of_image[image.jpeg] then bytes = bytes + #image.jpeg end
   end
   if self.image_bytes + bytes > max_image_bytes then
-    self.notes[#self.notes + 1] = ("the textures of %s are left out: images of a page have at most %d MB"):format(body.name, max_image_bytes >> 20)
+    self.notes[#self.notes + 1] = ("the textures of %s are omitted: the images of a page are limited to %d MB"):format(body.name, max_image_bytes >> 20)
     return nil
   end
   self.image_bytes = self.image_bytes + bytes
@@ -66,13 +66,13 @@ local function packed_mesh(self, body)
           colors = packed_colors(body), textures = packed_textures(self, body)}
 end
 
---- to a micrometer
+--- Rounds to a micrometer.
 function meshes.rounded(x)
   local value = math.floor(x * 1e6 + 0.5) / 1e6
   return value == 0 and 0 or value
 end
 
---- seven numbers: x y z [m], then the quaternion w x y z
+--- Seven numbers: x y z [m], then the quaternion w x y z.
 function meshes.numbers(pose)
   local p, q, rounded = pose.position, pose.quat, meshes.rounded
   return {rounded(p.x), rounded(p.y), rounded(p.z), rounded(q[1]), rounded(q[2]), rounded(q[3]), rounded(q[4])}
@@ -81,7 +81,7 @@ end
 local Meshes = {}
 Meshes.__index = Meshes
 
---- The number, from 0, of a body's mesh in the list.
+--- Adds the mesh of a body unless the list has it, and returns its index, from 0.
 function Meshes:add(body)
   local mesh = packed_mesh(self, body)
   local key = mesh.positions .. mesh.indices .. (mesh.colors or "")
@@ -96,12 +96,12 @@ function Meshes:add(body)
     self.number_of[key] = #self.list
   end
   if body.visual_mesh.triangle_count > large then
-    self.notes[#self.notes + 1] = ("the mesh of %s has %d triangles: the page is large and may turn slowly"):format(body.name, body.visual_mesh.triangle_count)
+    self.notes[#self.notes + 1] = ("the mesh of %s has %d triangles: the page is large, and its view may be slow"):format(body.name, body.visual_mesh.triangle_count)
   end
   return self.number_of[key] - 1
 end
 
---- A list to fill; `images`: those of textures, as data URIs; `notes`: sentences on meshes that are large.
+--- An empty list of meshes; `images`: images of textures, as data URIs; `notes`: sentences about large meshes and omitted textures.
 function meshes.new()
   return setmetatable({list = {}, images = {}, notes = {}, number_of = {}, number_of_image = {}, image_bytes = 0}, Meshes)
 end

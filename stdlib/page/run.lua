@@ -1,4 +1,4 @@
---- Pages of HTML that show a world, or a run of it, in 3-D. A page holds all that it needs.
+--- Self-contained pages of HTML that show a world, or a run of it, in 3-D.
 local base64 = require "clench.base64"
 local meshes = require "clench.page.meshes"
 local text = require "clench.page.text"
@@ -9,7 +9,7 @@ local function kind_of(body)
   return body.kind == "link" and "link" or body.kind
 end
 
---- Data of a page: the parts of all frames, and seven numbers per part and frame, nan where a part is absent.
+--- Data of a page: the parts of all frames, and seven numbers per part and frame, nan if a part is absent.
 ---@param recording table  `times`, and `each`, which calls a function with the world of each frame
 ---@return table data, string[] notes
 function run.data_of(recording)
@@ -46,7 +46,7 @@ local view = [==[
 <div class="controls" id="bodies"></div>
 ]==]
 
---- The text of a page.
+--- The HTML text of a page.
 function run.page_of(title, words, data, three)
   return table.concat {
     ([==[<!DOCTYPE html>

@@ -1,4 +1,4 @@
---- The script of a page that plays a recorded run, after that of the scene.
+--- The script of a page that plays a recorded run; it follows the script of the scene.
 return [==[
 looks.object = paint(0x4fa3b8, {transparent: true, opacity: 1});
 const parts = data.parts.map(solid), frames = new Float32Array(bytes(data.frames)), times = data.times;
@@ -7,7 +7,7 @@ const slider = document.getElementById("time"), button = document.getElementById
 slider.min = first;
 slider.max = last > first ? last : first + 1;
 
-// between two frames places are mixed, and turns the shorter way
+// between two frames positions are interpolated linearly, and rotations along the shorter arc
 const from = new THREE.Quaternion(), to = new THREE.Quaternion();
 function showAt(time) {
   let k = 0;
@@ -29,7 +29,7 @@ function showAt(time) {
   redraw();
 }
 
-// friction cones of a still world: the apex at the contact, the axis along the normal into the body
+// friction cones of a world at rest: the apex at the contact, the axis along the normal into the body
 for (const [x, y, z, nx, ny, nz, mu, radius] of data.contacts || []) {
   const normal = new THREE.Vector3(nx, ny, nz), at = new THREE.Vector3(x, y, z), height = 0.16 * radius;
   const slope = Math.min(mu, 3), h = height / Math.sqrt(1 + slope * slope);
@@ -41,7 +41,7 @@ for (const [x, y, z, nx, ny, nz, mu, radius] of data.contacts || []) {
   scene.add(cone, dot);
 }
 
-// the bodies, each with a box that hides it
+// the bodies, each with a checkbox that hides it
 const hidden = new Set(), bodies = document.getElementById("bodies");
 data.parts.forEach((part, i) => {
   const label = document.createElement("label"), box = document.createElement("input");
@@ -52,12 +52,12 @@ data.parts.forEach((part, i) => {
   bodies.append(label);
 });
 
-// all that moves, in the first and the last frame; the floor that tells lengths lies below it
+// the view contains all moving parts of the first and the last frame; the floor, a scale of length, lies below them
 const grid = new THREE.GridHelper(2, 40, 0x76828e, 0x9aa5b0);
 grid.rotation.x = Math.PI / 2;
 const hasObstacles = data.parts.some(part => part.kind === "obstacle");
 if (!hasObstacles) { scene.add(grid); view.querySelector(".note").append(" \u00b7 squares: 5 cm"); }
-// the distance at which all corners of a box are in the view, with a margin
+// the camera distance at which all corners of a box are in the view, with a margin
 function distanceTo(box) {
   const {azimuth, elevation, target} = orbit, tangent = Math.tan(camera.fov * Math.PI / 360), aspect = view.clientWidth / view.clientHeight || 1;
   const back = new THREE.Vector3(Math.cos(azimuth) * Math.cos(elevation), Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation));
@@ -115,7 +115,7 @@ if (renderer) {
   view.appendChild(renderer.domElement);
   window.addEventListener("resize", resize);
   resize();
-  // how many of the points that were looked at are not background
+  // number of sampled pixels that are not background
   const gl = renderer.getContext(), size = [gl.drawingBufferWidth, gl.drawingBufferHeight], pixel = new Uint8Array(4);
   let covered = 0;
   for (let x = 1; x < 24; ++x) for (let y = 1; y < 24; ++y) {

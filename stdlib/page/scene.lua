@@ -1,5 +1,5 @@
---- The script of a page that draws meshes in 3-D, with three.js (written for its version 111): the data of the page, materials, lights, and a
---- camera that the mouse turns. What a page shows comes after it.
+--- The script of a page that draws meshes in 3-D, with three.js (written for its version 111): the data of the page, materials, lights, and a camera that the
+--- mouse moves. The script of the page's content follows it.
 return [==[
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -7,7 +7,7 @@ const view = document.getElementById("view");
 
 const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
 
-// triangles with normals of their own: smooth where neighbors differ by less than 35 degrees, sharp at edges
+// triangles with separate normals: smooth between neighbors that differ by less than 35 degrees, sharp at edges
 function geometryOf(mesh) {
   const p = new Float32Array(bytes(mesh.positions));
   const index = mesh.wide ? new Uint32Array(bytes(mesh.indices)) : new Uint16Array(bytes(mesh.indices));
@@ -54,7 +54,7 @@ function geometryOf(mesh) {
   return geometry;
 }
 
-// triangles in the order of their images, those without one first, and a group of each
+// orders the triangles by image, those without an image first, with one group per image
 function placeImages(geometry, textures, count) {
   const numbers = new Uint16Array(bytes(textures.numbers)), places = new Float32Array(bytes(textures.places));
   const order = Array.from(numbers.keys()).sort((a, b) => numbers[a] - numbers[b] || a - b);
@@ -94,7 +94,7 @@ try {
   renderer.gammaOutput = true;
   renderer.gammaFactor = 2.2;
 } catch (_) {
-  view.querySelector(".note").textContent = "This browser draws no WebGL: the table and its pictures remain.";
+  view.querySelector(".note").textContent = "This browser does not support WebGL: there is no 3-D view.";
 }
 const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(32, 1, 0.001, 100);
 camera.up.set(0, 0, 1);
@@ -111,7 +111,7 @@ const looks = {
   cone: paint(0xf4511e, {side: THREE.DoubleSide}), point: paint(0x8e1b0a),
 };
 const geometries = data.meshes.map(geometryOf);
-// the look of a kind for meshes whose triangles have colors of their own
+// the material of a kind for meshes with colors per triangle
 const colored = {};
 function plainLookOf(part) {
   if (!geometries[part.mesh].getAttribute("color")) return looks[part.kind];
@@ -122,7 +122,7 @@ function plainLookOf(part) {
   }
   return colored[part.kind];
 }
-// the look of each image of a mesh, after that of triangles without one
+// the materials of a mesh: that of triangles without an image, then one per image
 const images = (data.images || []).map(uri => {
   const image = new Image();
   image.src = uri;
@@ -191,7 +191,7 @@ function resize() {
   draw();
 }
 
-// --- what the mouse does ---
+// --- mouse input ---
 let held = null;
 view.addEventListener("pointerdown", e => { held = {x: e.clientX, y: e.clientY, pan: e.button === 2 || e.shiftKey}; view.setPointerCapture(e.pointerId); });
 view.addEventListener("pointerup", () => { held = null; });

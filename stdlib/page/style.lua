@@ -1,4 +1,4 @@
---- How a report page looks.
+--- The style sheet of report pages.
 return [==[
 :root { color-scheme: light; --ink: #1d2733; --soft: #5d6b7a; --line: #dfe4ea; --accent: #1f6feb; }
 * { box-sizing: border-box; }

@@ -1,9 +1,9 @@
---- The library three.js, which pages with a 3-D view carry with them, as Debian's package libjs-three installs it.
+--- Finds the library three.js, which pages with a 3-D view include, as installed by Debian's package libjs-three.
 local places = {"/usr/share/javascript/three/three.min.js", "/usr/share/javascript/three/build/three.min.js",
                 "/usr/share/nodejs/three/build/three.min.js"}
 
 ---@param candidates? string[]  files to look for, in order
----@return string? text, string? missing  a sentence where there is none
+---@return string? text, string? missing  message if no file was found
 return function(candidates)
   for _, path in ipairs(candidates or places) do
     local file = io.open(path, "rb")

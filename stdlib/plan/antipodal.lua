@@ -4,22 +4,22 @@ local batch = require "clench.plan.batch"
 local starts = require "clench.plan.starts"
 local opposition = require "clench.plan.opposition"
 
---- For two jaws: a point of the surface, the one that the inward normal meets opposite, and the jaws about both, from any
---- side across that line.
----@param options table  the hand, the object and how the search goes
+--- For parallel jaws: samples a point of the surface and the point that the ray along its inward normal reaches on the opposite side; the jaws close on both
+--- from any direction across that line.
+---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
----@option count? integer [1 to 1000000] = 100  the best of those that were found when there were as many
----@option candidates? integer [1 to 1000000000] = 20000  largest number of candidates
+---@option count? integer [1 to 1000000] = 100  the search ends once it has found this many grasps, and returns the best of them
+---@option candidates? integer [1 to 1000000000] = 20000  maximum number of candidates
 ---@like clench.plan.anneal  seconds, seed, threads
----@option friction? number [> 0] = 0.5  coefficient of the cones in which the line lies
----@option width? number [m, > 0, <= 10] = 0.2  largest distance between the points
----@option standoff? number [m, > 0, <= 10] = 0.1  distance from the grasp at the start
----@option distance? number [>= 0] = 0.1  grasps nearer than this part of the radius of the object, of half a turn and of the ranges of the
----  DOFs are alike
+---@option friction? number [> 0] = 0.5  coefficient of the friction cones that contain the line
+---@option width? number [m, > 0, <= 10] = 0.2  maximum distance between the points
+---@option standoff? number [m, > 0, <= 10] = 0.1  distance of the start from the grasp
+---@option distance? number [>= 0] = 0.1  grasps count as similar if they differ by less than this fraction of the object's radius, of half a turn
+---  and of the ranges of the DOFs
 ---@like clench.plan.anneal  contacts, touch
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
 ---@like clench.plan.anneal  grasp, world, max_effort
----@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
+---@return {grasps: grasps, report: table} # grasps in force closure, in order of decreasing epsilon
 --- > world = clench.world()
 --- > jaws = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
 --- > bar = world:add_object(clench.shapes.box {0.03, 0.03, 0.1}, {pose = {xyz = {0, 0, 1}}})
@@ -39,9 +39,9 @@ return function(options)
   if not opposition.thumb(job.hand) then
     require "clench.raise" "plan.antipodal: hand: expected one of two fingers or more"
   end
-  local told = {planner = "plan.antipodal"}
+  local stats = {planner = "plan.antipodal"}
   own.planner, own.kind = "antipodal", "antipodal"
-  local found = batch.try(job, told, job:prepare(starts.random, own), own)
+  local found = batch.try(job, stats, job:prepare(starts.random, own), own)
   job:finish()
-  return new_run(job, batch.sort(found), told, {count = own.count, distance = own.distance})
+  return new_run(job, batch.sort(found), stats, {count = own.count, distance = own.distance})
 end

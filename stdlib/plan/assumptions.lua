@@ -66,7 +66,7 @@ function assumptions.mass(object, given)
   return object.mass, ("mass %.4g kg (%s)"):format(object.mass, given.mass and "--mass" or source_of(object, "mass_from", {object}))
 end
 
--- Smallest and largest effort of the motors that close the hand [N m or N], and the number of motors without limits.
+-- Minimum and maximum effort limit of the motors that close the hand [N m or N], and the number of motors without limits.
 local function limits_of(hand)
   local low, high, free = math.huge, 0, 0
   for i, info in ipairs(hand.dof_info) do
@@ -81,16 +81,16 @@ end
 
 local function effort_line(hand, given)
   local low, high, free = limits_of(hand)
-  if high == 0 then return free > 0 and "efforts: unlimited (none given)" or "efforts: none, as no motor closes the hand" end
+  if high == 0 then return free > 0 and "efforts: unlimited (none given)" or "efforts: no motor closes the hand" end
   local text = low == high and ("%.4g N or N m"):format(high) or ("%.4g to %.4g N or N m"):format(low, high)
-  local source = given["max-effort"] and "from its file, --max-effort where that gives none" or "from its file"
+  local source = given["max-effort"] and "from its file, else --max-effort" or "from its file"
   local unlimited = free > 0 and ("; %d motors unlimited (none given)"):format(free) or ""
   return ("efforts of closing motors at most %s (%s)%s"):format(text, source, unlimited)
 end
 
 local function force_line(verify, given)
-  if not verify then return nil, "normal forces: not asked for, as nothing is verified" end
-  return verify.force_ratio, ("normal forces of at most %.4g times the weight in all (%s)"):format(verify.force_ratio,
+  if not verify then return nil, "normal forces: not limited, as nothing is verified" end
+  return verify.force_ratio, ("sum of normal forces at most %.4g times the weight (%s)"):format(verify.force_ratio,
     given["force-ratio"] and "--force-ratio" or "by default")
 end
 

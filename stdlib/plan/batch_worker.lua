@@ -1,5 +1,5 @@
---- What a thread does with a few starts: from each the hand closes; what is in force closure is made better and verified,
---- as asked. For clench.parallel.map.
+--- Work of a thread on a few starts: the hand closes from each; grasps in force closure are refined and verified, if the options say so. For
+--- clench.parallel.map.
 local closing = require "clench.plan.closing"
 local neighbor = require "clench.plan.neighbor"
 local opposition = require "clench.plan.opposition"
@@ -7,8 +7,8 @@ local quiet = require "clench.plan.quiet"
 local touch = require "clench.plan.touch"
 local verification = require "clench.plan.verification"
 
--- Refinement increases this measure: epsilon or, of two fingers, the load in the worst direction. The epsilon of two fingers is that about the line
--- between them, which hardly depends on the distance of that line from the center of mass; the load decreases with it.
+-- Measure that refinement increases: epsilon or, for two fingers, the load in the worst direction. The epsilon of two fingers is limited by torques about the
+-- line between them, which hardly depend on the distance of that line from the center of mass; the load decreases with this distance.
 local function merit_of(hand, object, shared)
   local verify = shared.verify
   if not (verify and verify.min_load > 0 and #opposition.fingers(hand) == 2) then return function(grasp) return grasp.epsilon end end
@@ -18,7 +18,7 @@ local function merit_of(hand, object, shared)
   end
 end
 
--- keeps what is better, from one try to the next nearer to what is kept
+-- random local search: keeps a neighbor with a higher measure; the steps shrink after each failure and grow after a success
 local function improve(hand, object, state, grasp, random, shared)
   local center = grasp.pose * (hand.pose:inverse() * hand.approach.point)
   local size, kept, merit = 1, state, merit_of(hand, object, shared)
@@ -37,11 +37,11 @@ local function improve(hand, object, state, grasp, random, shared)
   return grasp, kept
 end
 
-local hopeless = 0.4  -- of the load that is asked for: small changes do not mend what holds less
+local hopeless = 0.4  -- fraction of the required load: small changes cannot repair weaker grasps
 
 ---@param states {pose: pose, dofs: number[], retreat?: number, number: integer}[]
----@param shared {hand: robot, object: body, approach?: number, back?: table, grasp?: table, refine: integer, verify?: table, touch?: table, seed: integer, over?: number}  over: when there is no time left, of clench.clock
----@return {grasps: table[], rejected: table<string, integer>, best_load?: number}  grasps: {grasp, number, numbers, start}; best_load: of those that are too weak [weights]
+---@param shared {hand: robot, object: body, approach?: number, back?: table, grasp?: table, refine: integer, verify?: table, touch?: table, seed: integer, over?: number}  over: time of clench.clock at which the search ends
+---@return {grasps: table[], rejected: table<string, integer>, best_load?: number}  grasps: {grasp, number, numbers, start}; best_load: largest load of the grasps that are too weak [weights]
 return function(states, shared)
   local silence <close> = quiet()
   local hand, object = shared.hand, shared.object

@@ -1,15 +1,14 @@
---- What the planners that anneal share: running a chain in pieces until its steps or its time are over, and what its report
---- says.
+--- Shared by the planners that anneal: runs a chain in pieces until its steps or its time are used up, and collects the numbers for its report.
 local on_behalf_of = require "clench.on_behalf_of"
 local raise = require "clench.raise"
 local chain = {}
 
-local piece = 1000  -- steps between two looks at the clock
+local piece = 1000  -- steps between two checks of the time
 
 --- Runs a chain.
----@return table told  for plan.report
-function chain.run(job, search, steps, told)
-  told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0, trace = {}}
+---@return table stats  statistics for plan.report
+function chain.run(job, search, steps, stats)
+  stats = stats or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0, trace = {}}
   local bar <close> = clench.progress(steps, job.subject)
   local done, before = 0, search.counts
   job:search_in_time(function()
@@ -19,26 +18,26 @@ function chain.run(job, search, steps, told)
       done = done + taken
       bar:step(taken)
       local best = search.best[1]
-      if best then told.trace[#told.trace + 1] = {told.steps + done, best.energy} end
+      if best then stats.trace[#stats.trace + 1] = {stats.steps + done, best.energy} end
       if taken < asked then break end
     end
   end)
   local counts = search.counts
   for _, name in ipairs {"steps", "accepted", "in_collision", "avoided", "stuck"} do
-    told[name] = told[name] + counts[name] - before[name]
+    stats[name] = stats[name] + counts[name] - before[name]
   end
-  return told
+  return stats
 end
 
---- the best and first energies, into what is told
-function chain.energies(told, search)
-  told.first = told.first or search.first_energy
+--- Stores the best energy and the energy of the start in the statistics.
+function chain.energies(stats, search)
+  stats.first = stats.first or search.first_energy
   local best = search.best[1] and search.best[1].energy or search.energy
-  told.best = math.min(told.best or math.huge, best)
+  stats.best = math.min(stats.best or math.huge, best)
 end
 
---- how near the hand came to the object in the best states [m]: what a report of nothing tells
-function chain.nearest(job, search, told)
+--- Smallest distance of hand and object in the best states [m], for the report of a search without grasps.
+function chain.nearest(job, search, stats)
   local here <close> = job.world:snapshot()
   local nearest = math.huge
   local states = search.best
@@ -51,7 +50,7 @@ function chain.nearest(job, search, told)
     nearest = math.min(nearest, (job.world:distance(job.hand, job.object)))
   end
   job.world:restore(here)
-  told.nearest = nearest
+  stats.nearest = nearest
 end
 
 return chain

@@ -1,15 +1,14 @@
---- From a state to a grasp: the hand is placed, comes to the first touch where that is asked for, closes, and what it
---- holds is measured.
+--- Turns a state into a grasp: places the hand, moves it to the first touch if asked to, closes it, and computes the grasp.
 local give_way = require "clench.plan.give_way"
 local closing = {}
 
---- Places the hand of a world.   returns whether it is free of collision there
+--- Places the hand in its world.   returns  true if it is free of collision there
 function closing.place(hand, object, state)
   hand:set_posture(object.pose * state.pose, state.dofs)
   return not hand.world:collides(hand)
 end
 
--- Jaws that touch one side alone are not worth measuring.
+-- Grasps of jaws that touch one side only are not computed.
 local function measure(hand, object, options, jaws)
   hand:autograsp()
   if jaws and give_way.touches_one_side(hand, object) then return nil, true end
@@ -20,7 +19,7 @@ local function measure(hand, object, options, jaws)
   return grasp
 end
 
--- Closes where the hand touched; then, while that holds nothing, again from one step further back, and so on.
+-- Closes at the first touch; while the grasp has no force closure, closes again from one step further back.
 local function close_behind(hand, object, dofs, steps, options, jaws)
   local touched, grasp, one_sided = hand.pose, nil, nil
   local back = -hand.approach.direction
@@ -38,10 +37,10 @@ local function close_behind(hand, object, dofs, steps, options, jaws)
 end
 
 local at_once = {count = 0, length = 0}
-local one_side = "one side alone touched"
+local one_side = "only one side touched"
 
--- as closing.close, without giving way
--- returns  the grasp, or why there is none; where the hand began to close, in the world
+-- as closing.close, without compliance of hand and object
+-- returns  the grasp, or the reason for its absence; the pose of the hand in the world where it began to close
 local function close_from(hand, object, state, options, jaws)
   if not closing.place(hand, object, state) then return nil, "in collision at the start" end
   if state.reach then
@@ -61,19 +60,20 @@ local function close_from(hand, object, state, options, jaws)
   return grasp, nil, from
 end
 
--- the state from which the hand comes to stand at `after` where from this one it would at `before`
+-- the state from which the hand reaches the pose `after` instead of `before`
 local function moved(object, state, before, after)
   local X_WO = object.pose
   return {dofs = state.dofs, reach = state.reach, retreat = state.retreat,
           pose = X_WO:inverse() * after * before:inverse() * X_WO * state.pose}
 end
 
---- A hand with coupled fingers shifts, and jaws also turn, until both sides touch; then it closes again from there.
+--- Closes the hand from a state. If one DOF drives several fingers, the hand shifts, and jaws also turn, until both sides touch; then it closes again from
+--- there.
 ---@param hand robot
 ---@param object body
----@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}  of the hand in the object; reach: how far it goes on where nothing touches; retreat: from the first touch [m]
----@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table, turn?: boolean}  approach: at most so far, to the first touch [m]; turn: false: jaws shift only
----@return grasp? grasp, string? why  what was in the way
+---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}  of the hand in the object; reach: maximum approach travel, without which the hand closes even if nothing touches; retreat: travel back from the first touch [m]
+---@param options {approach?: number, back?: {count: integer, length: number}, grasp?: table, turn?: boolean}  approach: maximum travel to the first touch [m]; turn: false: jaws shift only
+---@return grasp? grasp, string? why  reason for the absence of a grasp
 function closing.close(hand, object, state, options)
   local jaws = give_way.are_jaws(hand)
   local grasp, why, from = close_from(hand, object, state, options, jaws)
@@ -85,7 +85,7 @@ function closing.close(hand, object, state, options)
   return grasp, not grasp and why or nil
 end
 
---- adds numbers to what is noted with a grasp
+--- Adds numbers to the info of a grasp, and the planner to its labels.
 function closing.note(grasp, planner, numbers)
   local info = grasp.info
   for name, value in pairs(numbers) do info[name] = value end

@@ -1,5 +1,5 @@
---- Diagnoses a search that finds nothing: of the candidates that hold too little, how many would hold with more friction, with more normal
---- force, or with stronger motors. Only some candidates are looked at, in the order of their numbers.
+--- Diagnoses a search without grasps: counts how many of the candidates that hold too little would hold with more friction, more normal force, or stronger
+--- motors. Only some candidates are examined, in the order of their numbers.
 local closing = require "clench.plan.closing"
 local quiet = require "clench.plan.quiet"
 local share_friction = require "clench.study.motion.share_friction"
@@ -35,7 +35,7 @@ end
 ---@param job table  of clench.plan.job
 ---@param next_state fun(number: integer): table?
 ---@param options {approach?: number, back?: table, verify?: table}
----@param seconds number  at most
+---@param seconds number  time limit [s]
 ---@return {looked_at: integer, friction: integer[], force_ratio: integer[], effort: integer[]}  numbers of candidates that would hold, by level
 function diagnosis.of(job, next_state, options, seconds)
   local silence <close> = quiet()
@@ -59,7 +59,7 @@ function diagnosis.of(job, next_state, options, seconds)
   return counts
 end
 
---- The result of a diagnosis in a sentence; nil if no candidate was looked at.
+--- The result of a diagnosis in a sentence; nil if no candidate was examined.
 ---@param counts table  of diagnosis.of
 ---@param assumed table  of clench.plan.assumptions
 ---@return string?

@@ -1,7 +1,7 @@
---- Which grasps are alike: hands nearer than a part of the object's radius, turned by less than that part of half a turn, and no DOF
---- farther apart than that part of its range.
+--- Finds similar grasps: the distance between the hands is less than a given fraction of the object's radius, the angle less than that fraction of half a turn,
+--- and no DOF differs by more than that fraction of its range.
 
--- how far each DOF of a hand goes; 0: without end
+-- ranges of a hand's DOFs; 0: unlimited
 local function ranges_of(hand)
   local ranges = {}
   for i, limit in ipairs(hand.dof_limits) do
@@ -14,10 +14,10 @@ end
 ---@param hand robot
 ---@param object body
 ---@param distance number
----@return fun(grasp: grasp): boolean is_new  unlike all that were new before
+---@return fun(grasp: grasp): boolean is_new  true if it differs from all grasps that were new before
 return function(hand, object, distance)
   local ranges = ranges_of(hand)
-  local approach = hand.pose:inverse() * hand.approach.point  -- in the base
+  local approach = hand.pose:inverse() * hand.approach.point  -- in the frame of the base
   local bounds = object.mesh.bounds
   local radius = math.max((bounds.high - bounds.low):norm() / 2, 1e-6)
   local kept = {}

@@ -1,9 +1,9 @@
---- The energy "dynamic": how long the closed hand holds the object in simulation. For clench.energy.dynamic.
+--- The energy "dynamic": the time for which the closed hand holds the object in simulation. For clench.energy.dynamic.
 local read_options = require "clench.options"
 
 local defaults = {seconds = 0.5, grip_seconds = 0.3, settle = 0.3}
 
--- the sum over all directions of the part of the time that the object was held
+-- sum over all directions of the fraction of the time for which the object was held
 local function held_parts(verdict, seconds)
   local sum = 0
   for _, row in ipairs(verdict.directions) do sum = sum + (row.held and 1 or math.min(1, row.time / seconds)) end

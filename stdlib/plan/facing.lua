@@ -1,11 +1,11 @@
---- Points of an object's surface that face each other: on both sides of a solid, of a wall, or of all that a ray meets on its way, so that
---- a vessel is held by its rim as well as about its neck.
+--- Points of an object's surface that face each other: on both sides of a solid, of a wall, or of everything along a ray, so that a vessel is held by its rim
+--- as well as around its neck.
 local facing = {}
 
-local max_hits = 16  -- of a ray
-local clear = 1e-5   -- what a ray goes on by, behind what it met [m]
+local max_hits = 16  -- maximum number of hits per ray
+local clear = 1e-5   -- offset at which a ray continues behind a hit [m]
 
--- Where the ray from a point of the surface into the object leaves it again, within the friction cone and not farther than `widest`.
+-- Exits of the ray from a point of the surface into the object, within the friction cone and not farther away than `widest`.
 local function opposite(world, object, at, inward, friction, widest)
   local point, along = object.pose * at.point, object.pose:rotate(inward)
   local list, gone, steepest = {}, clear, math.cos(math.atan(friction))
@@ -26,11 +26,11 @@ local function tilted(inward, random, friction)
   return clench.pose {axis = side / side:norm(), angle = random:uniform(0, math.atan(friction))}:rotate(inward)
 end
 
---- A point that faces one of the surface, along the normal there or, as often, a direction within the friction cone: walls of a cone face each
---- other along no normal. Flat pads lie on both sides best across the mean of the two normals.
+--- A point opposite a point of the surface, along the normal there or, with equal probability, along a direction within the friction cone: walls of a cone face
+--- each other along no normal. Flat pads align best with the mean of the two normals.
 ---@param at {point: vec3, normal: vec3}  of the object's mesh
----@param friction number  the line between both lies within these cones
----@return vec3? middle, vec3? across, number? width  in the object: between the points; the mean of the normals, from the first to the second; how far the points are apart along it
+---@param friction number  coefficient of the cones that contain the line between both points
+---@return vec3? middle, vec3? across, number? width  in the object: midpoint; mean of the normals, from the first point to the second; distance of the points along this mean
 function facing.pair(world, object, at, random, friction, widest)
   local inward = -at.normal
   if random:uniform() < 0.5 then inward = tilted(inward, random, friction) end
@@ -43,7 +43,7 @@ function facing.pair(world, object, at, random, friction, widest)
   return X_OW * (point + along * (gone / 2)), across, gone * X_OW:rotate(along):dot(across)
 end
 
---- The least distance of two points that face each other, of `count` at random; nil: there are none [m].
+--- The minimum distance of two points that face each other, from `count` random samples [m]; nil: no points face each other.
 function facing.narrowest(world, object, count, friction)
   local bounds, least = object.mesh.bounds, nil
   local far = (bounds.high - bounds.low):norm()

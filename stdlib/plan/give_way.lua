@@ -1,10 +1,10 @@
---- What jaws do that one motor closes: they stop where the first of them touches, and go on when hand or object gives way, to the side and
---- by turning, until both press and can come no closer.
---- source  Goldberg (1993), Orienting polygonal parts without sensors: squeezed, a part turns to where the jaws come closest
+--- Compliance of jaws that one motor closes: they stop at the first touch; then hand or object yields by shifting and turning, and the jaws close further until
+--- both press and can come no closer.
+--- source  Goldberg (1993), Orienting polygonal parts without sensors: a squeezed part turns to the angle at which the jaws come closest
 local opposition = require "clench.plan.opposition"
 local give_way = {}
 
---- does one DOF close two fingers? then it stops where the first of them touches
+--- Does one DOF close two fingers? Then it stops at the first touch of either.
 function give_way.is_coupled(hand)
   local info, chain_of = hand.dof_info, {}
   for number, chain in ipairs(hand.chains) do
@@ -17,10 +17,10 @@ function give_way.is_coupled(hand)
   return false
 end
 
-local max_way, max_shifts = 0.05, 4  -- how far a hand gives way to the side [m], and how often
-local aside = 0.2                    -- cosine: a normal that says from which side an object is touched
+local max_way, max_shifts = 0.05, 4  -- maximum shift of a hand to the side [m], and maximum number of shifts
+local aside = 0.2                    -- minimum cosine between a contact normal and the axis of a side that is touched
 
--- On which sides is the object touched: by the thumb, which stands towards `axis`, and by the others?
+-- On which sides is the object touched: by the thumb, in the direction of `axis`, and by the other fingers?
 local function sides(contacts, axis)
   local thumb, others = false, false
   for _, contact in ipairs(contacts) do
@@ -30,7 +30,7 @@ local function sides(contacts, axis)
   return thumb, others
 end
 
---- Where a hand has closed, does it touch the object from one side alone?
+--- Does a closed hand touch the object from one side only?
 function give_way.touches_one_side(hand, object)
   local axis = opposition.thumb(hand)
   if not axis then return false end
@@ -38,7 +38,7 @@ function give_way.touches_one_side(hand, object)
   return thumb ~= others
 end
 
--- how far the DOFs have closed
+-- total travel of the closing DOFs
 local function closed_by(hand, dofs)
   local closed, now = 0, hand.dofs
   for i, info in ipairs(hand.dof_info) do
@@ -47,8 +47,7 @@ local function closed_by(hand, dofs)
   return closed
 end
 
--- The distance along `way` after which the other side of the hand touches the object [m]; nil: it never does, or something else is touched
--- first.
+-- The distance along `way` after which the other side of the hand touches the object [m]; nil: it never does, or another body is touched first.
 local function gap_beyond(hand, object, way)
   local X_WH = hand.pose
   local move = hand:move_to(clench.pose {xyz = way * max_way} * X_WH)
@@ -58,9 +57,9 @@ local function gap_beyond(hand, object, way)
   end
 end
 
--- Closes at a pose from `dofs`. While only one side touches, shifts the hand by half of the gap on the other side. The object does not move,
--- so its supports have no influence.
--- returns  how far it closed, the pose, and the contacts; nil: something is in the way, or only one side is ever touched
+-- Closes at a pose from `dofs`. While only one side touches, shifts the hand by half of the gap on the other side. The object does not move, so its supports
+-- have no influence.
+-- returns  the closing travel, the pose, and the contacts; nil: the hand collides, or only one side is ever touched
 local function close_between(hand, object, pose, dofs)
   hand:set_posture(pose, dofs)
   local world, axis = hand.world, opposition.thumb(hand)
@@ -85,17 +84,17 @@ local function middle_of(contacts)
   return sum / #contacts
 end
 
---- Lets the hand give way to the side, around an object that stays, to where both sides touch.
+--- Shifts the hand to the side, around a fixed object, until both sides touch.
 ---@param hand robot
 ---@param object body
----@param pose pose  of the hand in the world, where it begins
+---@param pose pose  of the hand in the world at the start
 ---@param dofs number[]  before it closes
 ---@return pose?  of the hand, in the world; nil: both sides never touch
 function give_way.shift(hand, object, pose, dofs)
   return select(2, close_between(hand, object, pose, dofs))
 end
 
---- does one DOF close all fingers, as of jaws? then a turn brings them closer together or farther apart
+--- Does one DOF close all fingers, as in jaws? Then a turn moves them closer together or farther apart.
 function give_way.are_jaws(hand)
   local info, fingers, closes = hand.dof_info, 0, {}
   for _, chain in ipairs(hand.chains) do
@@ -112,11 +111,11 @@ function give_way.are_jaws(hand)
   return false
 end
 
-local turns = {0.06, 0.02, 0.007, 0.0025}  -- tried in this order: the last one levels the edges of a pad of 20 mm within half the contact threshold [rad]
-local min_rate = 2e-4  -- closing rate from which a turn is tried [m per rad]
+local turns = {0.06, 0.02, 0.007, 0.0025}  -- tried in this order; the last one aligns the edges of a pad of 20 mm to half of the contact threshold [rad]
+local min_rate = 2e-4  -- closing rate above which a turn is tried [m per rad]
 
--- Rate at which jaws that touch on both sides close as they turn about an axis through `middle` while the hand shifts to the side [m per rad]:
--- each contact permits its jaw to recede along the normal, but not to advance.
+-- Rate at which jaws that touch on both sides close as they turn about an axis through `middle` while the hand shifts to the side [m per rad]: each contact
+-- allows its jaw to recede along the normal, but not to advance.
 local function closing_rate(contacts, across, middle, axis)
   local thumb, others = math.huge, math.huge
   for _, contact in ipairs(contacts) do
@@ -127,7 +126,7 @@ local function closing_rate(contacts, across, middle, axis)
   return (thumb + others) / 2
 end
 
---- The same; the hand also turns about its approach direction and across it while that brings the jaws closer together.
+--- As give_way.shift; the hand also turns about its approach direction and about the axis across it, while that brings the jaws closer together.
 function give_way.turn(hand, object, pose, dofs)
   local best, at, contacts = close_between(hand, object, pose, dofs)
   if not best then return end

@@ -5,7 +5,7 @@ local headings = {number = "\\#", epsilon = "$\\epsilon$", load = "load [weights
                   azimuth = "azimuth [$^\\circ$]", elevation = "elevation [$^\\circ$]", held = "held in, of 6"}
 local formats = {epsilon = "%.4f", load = "%.1f", perturbed = "%.4f"}
 
--- without columns in which no row has a value
+-- the columns in which at least one row has a value
 local function filled(rows)
   local list = {}
   for _, name in ipairs(columns) do

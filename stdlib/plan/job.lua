@@ -13,7 +13,7 @@ local warn_of_overlaps = require "clench.plan.warn_of_overlaps"
 local space_keys = {"position", "posture", "semi_axes", "limits", "jumps", "values", "targets", "fixed", "start",
                     "variables", "collisions", "max_tries"}
 
--- Checks the options once, before the search. The number of normal forces is known only once there is a grasp.
+-- Checks the options once, before the search, except a list of normal forces: its length depends on the grasp.
 local function check_grasp_options(job)
   local silence <close> = quiet()
   local options = {}

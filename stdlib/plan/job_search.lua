@@ -1,4 +1,4 @@
---- What planners do with a job: energies and annealing chains, closing the hand from a state, the end.
+--- Methods of a planner's job: energies and annealing chains, closing the hand from a state, and finishing.
 local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local deadline = require "clench.deadline"
@@ -52,7 +52,7 @@ function Job:close(hand, object, state, stats, approach)
   stats.rejected[why] = (stats.rejected[why] or 0) + 1
 end
 
---- Restores the given world where the planner moved it.
+--- Restores the given world if the planner moved it.
 function Job:finish()
   if self.before then self.given_world:restore(self.before) end
 end

@@ -1,5 +1,5 @@
---- How a job of a planner spends its time: a deadline, Ctrl-C, and pauses for other coroutines of the loop. `job` has `began`, `seconds`, and
---- where it moves a world of the script, `before`, `given_world` and `world`.
+--- Time control of a planner's job: a deadline, Ctrl-C, and pauses for other coroutines of the loop. The job has `began`, `seconds`, and if it moves a world of
+--- the script, `before`, `given_world` and `world`.
 local deadline = require "clench.deadline"
 local is_stopped = require "clench.is_stopped"
 local is_timeout = require "clench.is_timeout"
@@ -19,7 +19,7 @@ function Time:rest()
   self:begin_deadline()
 end
 
--- From here on, calls of the engine fail as by Ctrl-C once `seconds` have passed.
+-- Starts the deadline: calls of the engine fail as by Ctrl-C once `seconds` have passed.
 function Time:begin_deadline()
   self.deadline = self.seconds and deadline(self.began + self.seconds - clench.clock())
 end
@@ -42,7 +42,7 @@ function Time:in_time(work)
   if not (over and is_timeout(result)) then error(result, 0) end
 end
 
---- Called between two pieces of work: false once the time has run out or Ctrl-C was pressed.
+--- Called between two pieces of work: returns false once the time is over or Ctrl-C was pressed.
 function Time:goes_on()
   if self.in_loop and not self.stopped then self:rest() end
   return not self.stopped and self:has_time()
@@ -56,18 +56,18 @@ function Time:prepare(make, options)
   return self:search_in_time(function() return make(self, options) end)
 end
 
---- The sentence reported if the time ran out before the first candidate; nil: it did not.
+--- The message if the time ended before the first candidate; nil: it did not.
 function Time:late_start()
   if self.stopped or self:has_time() then return end
-  return ("the search ended before its first candidate: for this hand and object its start takes longer than the %.6g s that were given; allow more"):format(self.seconds)
+  return ("the search ended before its first candidate: its start takes longer than the limit of %.6g s with this hand and object; increase the limit"):format(self.seconds)
 end
 
-local patience = 0.25  -- half of the time that a script has left after Ctrl-C [s]
+local patience = 0.25  -- half of the time that a script may run on after Ctrl-C [s]
 
 --- Is there time left to evaluate the grasps found before Ctrl-C?
 function Time:has_patience() return not self.stopped or clench.clock() - self.stopped_at < patience end
 
--- Time left for closing the hand from states that were found [s]; nil: unlimited
+-- Time left to close the hand from the states that were found [s]; nil: unlimited
 function Time:time_to_close()
   if self.stopped then return self.stopped_at + patience - clench.clock() end
   return self.seconds and self.began + 1.1 * self.seconds + 1 - clench.clock()
@@ -86,7 +86,7 @@ function Time:interruptible(search)
   error(result, 0)
 end
 
---- As interruptible; the deadline ends the search, too.
+--- As interruptible; the deadline also ends the search.
 ---@return any result  of the search; nil if it was ended
 function Time:search_in_time(search)
   return self:interruptible(function() return self:in_time(search) end)

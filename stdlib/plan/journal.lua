@@ -1,6 +1,5 @@
---- Records the starts that a search by clench.plan.batch has tried, piece by piece, so that a later run of the same search continues there
---- and finds the same grasps as an uninterrupted one. A file of JSON lines: a head, then for each piece the grasps that it found and a line
---- `{"search": ...}` that ends it.
+--- Records the starts that a search by clench.plan.batch has tried, piece by piece, so that a later run of the same search continues after them and finds the
+--- same grasps as an uninterrupted one. A file of JSON lines: a head, then for each piece the grasps that it found and a final line `{"search": ...}`.
 local is_stopped = require "clench.is_stopped"
 local journal = {}
 
@@ -45,7 +44,7 @@ function journal.lines(first, count, result)
   return table.concat(lines, "\n") .. "\n"
 end
 
--- the table that a line of JSON holds; nil: it holds none, or is damaged
+-- the table in a line of JSON; nil: the line has none, or is damaged
 local function decoded(line)
   local ok, value = pcall(clench.json.decode, line)
   if not ok and is_stopped(value) then error(value, 0) end
@@ -74,7 +73,7 @@ local function is_piece(piece)
   return true
 end
 
--- The pieces before the first invalid one, and the lines of all their grasps. A last piece that is cut short is no damage.
+-- The pieces before the first invalid one, and the lines of all their grasps. An incomplete last piece is not reported as damage.
 ---@return table[] pieces, string[] grasps, boolean is_damaged
 local function read_pieces(text)
   local pieces, grasps, pending = {}, {}, {}
@@ -96,7 +95,7 @@ local function read_pieces(text)
   return pieces, grasps, false
 end
 
--- The grasps of these lines, by a list that is written and read; nil: a line is damaged. Errors of the temporary file are raised.
+-- The grasps of these lines, which are written to a temporary file and read as a list; nil: a line is damaged. Errors of the temporary file are raised.
 local function read_grasps(lines)
   local path = os.tmpname()
   local gone <close> = setmetatable({}, {__close = function() os.remove(path) end})
@@ -109,7 +108,7 @@ local function read_grasps(lines)
   error(list, 0)
 end
 
--- the pieces by the number of their first start; nil: a grasp lacks its start
+-- the pieces by the number of their first start; nil: the start of a grasp is missing
 local function restored(pieces, grasps)
   local known, at = {}, 0
   for _, piece in ipairs(pieces) do
@@ -138,7 +137,7 @@ local function refuse(path, why)
   error(("%s: the journal of the search cannot be read: %s"):format(path, why), 0)
 end
 
--- what `read` returns of the file; nil: it does not exist. Raises an error if it exists and cannot be read.
+-- the result of `file:read(amount)`; nil: the file does not exist. Raises an error if it exists and cannot be read.
 local function read_file(path, amount)
   local file, why, code = io.open(path, "rb")
   if not file then
@@ -183,7 +182,7 @@ function journal.read(path)
 end
 
 --- A journal for clench.plan.batch.
----@param options {known?: table, write: fun(lines: string), is_ended: fun(): boolean, listed?: grasp[], keep?: integer}  known: of journal.read; write: stores a piece; is_ended: true if the search must end; listed: grasps of the same search that need not be known; keep: the smallest number of grasps to keep
+---@param options {known?: table, write: fun(lines: string), is_ended: fun(): boolean, listed?: grasp[], keep?: integer}  known: of journal.read; write: stores a piece; is_ended: returns true if the search must end; listed: grasps of the same search, with or without a record in the journal; keep: minimum number of grasps to keep
 function journal.new(options)
   return setmetatable({known = options.known or {}, write = options.write, is_ended = options.is_ended, listed = options.listed or {},
                        keep = options.keep}, Journal)

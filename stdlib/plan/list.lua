@@ -5,7 +5,7 @@ local new_job = require "clench.plan.job"
 local new_run = require "clench.plan.run"
 local closing = require "clench.plan.closing"
 
--- a grasp's own state, or that before it closed, its DOFs found by their names; or a table of both
+-- the state before the grasp closed, else that of the grasp itself, with DOFs found by their names; a table is returned unchanged
 local function state_of(item, hand)
   if clench.type(item) ~= "grasp" then return item end
   local dofs, dofs_before = item:dofs_for(hand)
@@ -14,16 +14,16 @@ local function state_of(item, hand)
   return {pose = before.pose, dofs = dofs_before, way = item.pose and (item.pose.position - before.pose.position):norm()}
 end
 
-local margin = 0.01  -- of the way from a pregrasp to the first touch [m]
+local margin = 0.01  -- added to the travel from a pregrasp to the first touch [m]
 
--- how far the hand comes; nil: not at all
+-- maximum travel of the hand to the first touch; nil: it does not approach
 local function approach_of(state, given)
   if given then return given > 0 and given or nil end
   return state.way and state.way > 1e-6 and state.way + margin or nil
 end
 
 local function check_dofs(read, place, dofs, hand)
-  -- by name, the others as they are
+  -- a table by names; DOFs that it omits keep their values
   if type(dofs) == "table" and #dofs == 0 and next(dofs) ~= nil then return end
   local count = #hand.dofs
   if type(dofs) ~= "table" or #dofs ~= count then read:expected(place, ("%d numbers, one per DOF"):format(count), dofs) end
@@ -51,16 +51,16 @@ local function read_states(read, hand)
   return out
 end
 
---- Tries a given list of states, of another planner, hand or file: the hand closes from each.
----@param options table  the hand, the object and how the search goes
+--- Tries a given list of states, from another planner, another hand or a file: the hand closes from each.
+---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
----@option states grasps|table  grasps, which begin at their pregrasps, or a list of {pose = of the hand in the object, dofs =}
----@option approach? number [m, >= 0, <= 1000000]  longest travel to the first touch; by default as far as the grasp came from its pregrasp,
+---@option states grasps|table  grasps, which start at their pregrasps, or a list of {pose = of the hand in the object, dofs =}
+---@option approach? number [m, >= 0, <= 1000000]  maximum travel to the first touch; by default the distance of the grasp from its pregrasp,
 ---  else 0
----@option energy? string|energy|function  noted with each grasp, measured before it closes
+---@option energy? string|energy|function  stored with each grasp, computed before the hand closes
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
 ---@like clench.plan.anneal  seconds, seed, threads, contacts, touch, grasp, world, max_effort
----@return {grasps: grasps, report: table} # all in contact, the largest epsilon first
+---@return {grasps: grasps, report: table} # all grasps with contacts, in order of decreasing epsilon
 --- > run = clench.plan.list {hand = hand, object = flask, states = {{pose = grasp.pose, dofs = grasp.dofs}, grasp}}
 --- > #run.grasps, run.report.candidates  --> 1, 2
 --- > clench.plan.list {hand = hand, object = flask, states = {3}}  --> error: states[1]: expected a grasp or {pose =, dofs =}, got 3
@@ -81,14 +81,14 @@ return function(options)
     end
     return value
   end
-  local told = {planner = "plan.list", candidates = 0, rejected = {}}
+  local stats = {planner = "plan.list", candidates = 0, rejected = {}}
   local found = {}
   job:search_in_time(function()
     for i, state in ipairs(states) do
       if not job:goes_on() then break end
-      told.candidates = told.candidates + 1
+      stats.candidates = stats.candidates + 1
       local value = energy_at(state)
-      local grasp = job:close(job.hand, job.object, state, told, approach_of(state, approach))
+      local grasp = job:close(job.hand, job.object, state, stats, approach_of(state, approach))
       if grasp then found[#found + 1] = closing.note(grasp, "list", {energy = value, number = i}) end
     end
   end)
@@ -97,5 +97,5 @@ return function(options)
     return a.info.number < b.info.number
   end)
   job:finish()
-  return new_run(job, found, told, {count = count, distance = 1e-6})
+  return new_run(job, found, stats, {count = count, distance = 1e-6})
 end

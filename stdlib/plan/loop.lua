@@ -4,13 +4,13 @@ local new_run = require "clench.plan.run"
 local chain = require "clench.plan.chain"
 local closing = require "clench.plan.closing"
 
---- Annealing again and again: what a loop found is avoided by those that follow, so that they look elsewhere.
----@param options table  the hand, the object and how the search goes
+--- Repeated annealing: each loop avoids the states that earlier loops found, so that it searches elsewhere.
+---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
 ---@option energy? string|energy|function = "guided_potential_quality"  objective
----@option steps? integer [1 to 1000000000] = 70000  steps of annealing in all
+---@option steps? integer [1 to 1000000000] = 70000  total number of annealing steps
 ---@option loop_steps? integer [1 to 1000000000] = 5000  steps of each loop
----@option max_energy? number = 10  states above it are not kept
+---@option max_energy? number = 10  states with higher energies are not kept
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
 ---@like clench.plan.anneal  seconds, seed, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables,
 ---  collisions, max_tries, contacts, touch, threads, grasp, world, max_effort
@@ -28,16 +28,16 @@ return function(options)
   end)
   local search = job:annealing {energy = job:energy_of(job.energy), seed = job.seed, schedule = "loop",
                                 best = {distance = 0.1, max_energy = max_energy}}
-  local told, found, done = nil, {}, 0
+  local stats, found, done = nil, {}, 0
   local loops = 0
   job:interruptible(function()
     while done < job.steps and job:goes_on() and #found < count do
       local before = done
-      told = chain.run(job, search, math.min(loop_steps, job.steps - done), told)
-      done, loops = told.steps, loops + 1
-      chain.energies(told, search)
+      stats = chain.run(job, search, math.min(loop_steps, job.steps - done), stats)
+      done, loops = stats.steps, loops + 1
+      chain.energies(stats, search)
       for _, state in ipairs(search.best) do
-        local grasp = job:close(job.hand, job.object, state, told)
+        local grasp = job:close(job.hand, job.object, state, stats)
         if grasp then found[#found + 1] = closing.note(grasp, "loop", {energy = state.energy, step = state.step, seed = job.seed, loop = loops}) end
         search:avoid(state)
       end
@@ -46,10 +46,10 @@ return function(options)
       if done == before then break end  -- no legal neighbor
     end
   end)
-  told = told or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0}
-  told.planner, told.loops, told.threshold = "plan.loop", loops, max_energy
+  stats = stats or {steps = 0, accepted = 0, in_collision = 0, avoided = 0, stuck = 0}
+  stats.planner, stats.loops, stats.threshold = "plan.loop", loops, max_energy
   table.sort(found, function(a, b) return a.info.energy < b.info.energy end)
-  if #found == 0 and not job.stopped then chain.nearest(job, search, told) end
+  if #found == 0 and not job.stopped then chain.nearest(job, search, stats) end
   job:finish()
-  return new_run(job, found, told, {count = count})
+  return new_run(job, found, stats, {count = count})
 end

@@ -1,11 +1,11 @@
 local closing = require "clench.plan.closing"
 
---- A start near another one: turned about where the hand grasped, moved, and its DOFs changed.
+--- A start near another one: turned about the middle of the grasp, moved, and with changed DOFs.
 ---@param state {pose: pose, dofs: number[], reach?: number, retreat?: number}
----@param center vec3  where the hand grasped, in the object
+---@param center vec3  middle of the grasp, in the object
 ---@param random random
----@param size number  1: by some 6 mm, 9 degrees, and 6 % of the DOFs' ranges
----@param hand robot  in the world where it may be placed: DOFs that make it collide are changed less
+---@param size number  scale of the changes; 1: standard deviations of 6 mm per axis, 9 degrees, and 6 % of the DOFs' ranges
+---@param hand robot  in a world in which it may be moved: changes of DOFs that make it collide are reduced
 ---@param object body
 return function(state, center, random, size, hand, object)
   local turn = clench.pose {axis = random:direction(), angle = random:normal() * 0.15 * size}

@@ -4,12 +4,12 @@ local new_job = require "clench.plan.job"
 local closing = require "clench.plan.closing"
 
 local best_states = {size = 20, distance = 0.4}
-local near_object = {behind = 0.03, before = 0.2}  -- how far the search looks along the approach [m]
+local near_object = {behind = 0.03, before = 0.2}  -- range of the search along the approach [m]
 local max_solutions = 10                                    -- solutions that are kept
 
 local Online = class "planner"
 
--- how far a grasp is from where the hand is now: 45 degrees count as much as 50 mm aside
+-- distance of a grasp from the present pose of the hand: 45 degrees count as much as 50 mm to the side
 local function closeness(X_WH_now, X_WH_grasp)
   local between = X_WH_now:inverse() * X_WH_grasp
   local p = between.position
@@ -26,7 +26,7 @@ local function rank(self)
   while #self.solutions > max_solutions do table.remove(self.solutions) end
 end
 
--- the planner's world is as the user's: hand and object may have been moved since
+-- brings the planner's copy of hand and object to the poses in the user's world, which may have changed
 local function follow(self)
   local job = self.job
   job.hand:set_posture(job.given_hand.pose, job.given_hand.dofs)
@@ -41,9 +41,9 @@ local function is_new(self, grasp)
   return true
 end
 
---- Searches on, from where hand and object are now; what it finds is closed on and kept when in force closure.
----@param steps? integer  500
----@return grasp[]  those that are known, the nearest to the hand first
+--- Continues the search around the present poses of hand and object; closes from the best states, and keeps grasps in force closure.
+---@param steps? integer  number of steps, 500 by default
+---@return grasp[]  all known grasps, the nearest to the hand first
 function Online:search(steps)
   local job = self.job
   self.periods = self.periods + 1
@@ -66,7 +66,7 @@ function Online:search(steps)
   return self:grasps()
 end
 
---- The grasps that are known, the nearest to where the hand is now first.
+--- All known grasps, the nearest to the present pose of the hand first.
 function Online:grasps()
   rank(self)
   local list = clench.grasps()
@@ -74,7 +74,7 @@ function Online:grasps()
   return list
 end
 
---- The DOFs of the nearest grasp before it closes, opened further the farther the hand still is: fully at 0.2 m.
+--- DOFs of the nearest grasp before it closes; they open in proportion to the distance of the hand, fully from 0.2 m.
 ---@return number[]?
 function Online:preshape()
   rank(self)
@@ -89,14 +89,14 @@ function Online:preshape()
   return dofs
 end
 
---- A search that goes on while hand and object move: each `planner:search()` looks around where they are now, and what was
---- found is ranked by how near it is to the hand. Nothing of the user's world is moved.
----@param options table  the hand, the object and how the search goes
+--- A search that continues while hand and object move: each `planner:search()` looks around their present poses, and ranks the grasps by their distance from
+--- the hand. It moves nothing in the user's world.
+---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
----@option energy? string|energy = "contact"  objective, one of the engine
+---@option energy? string|energy = "contact"  objective; functions of the script are not allowed
 ---@like clench.plan.anneal  seed, threads, posture, semi_axes, values, targets, fixed, variables, collisions, max_tries,
 ---  contacts, touch, grasp, world, max_effort
----@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs to go on with, `tested`, `found`
+---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs for the further approach, `tested`, `found`
 --- > planner = clench.plan.online {hand = hand, object = flask}
 --- > list = planner:search(200)
 --- > planner.tested > 0, #list == #planner:grasps()  --> true, true
@@ -104,7 +104,7 @@ return function(options)
   local job = new_job("plan.online", options, function(read, job)
     job.energy = read:get "energy"
     if clench.type(job.energy) == "energy" and not job.energy.any_thread then
-      read:fail("energy: expected one of the engine's, for the planner moves a copy of the world")
+      read:fail("energy: expected an energy of the engine, as the planner moves a copy of the world")
     end
   end)
   return setmetatable({job = job, energy = job:energy_of(job.energy), solutions = {}, periods = 0, tested = 0, found = 0}, Online)

@@ -1,8 +1,8 @@
---- How a hand is turned: its approach direction, across it the way from the fingers to the thumb, and the middle between
---- them, where it holds things.
+--- The grasp frame of a hand: its approach direction, the direction across it from the fingers to the thumb, and the point between them at which it holds
+--- objects.
 local opposition = {}
 
---- The frame at a point, +z along the approach and +x towards the thumb, as nearly as a right angle allows.
+--- The frame at a point, +z along the approach and +x towards the thumb, as closely as orthogonality allows.
 function opposition.frame(point, direction, thumb)
   return clench.pose {xyz = point, z_axis = direction, x_axis = thumb}
 end
@@ -13,7 +13,7 @@ local function mean(points)
   return sum / #points
 end
 
---- Chains that close: neither a palm nor a wrist nor a frame that marks a place is a finger. Where nothing closes, all are.
+--- Chains with a closing DOF: palms, wrists and chains that only mark a frame are not fingers. All chains if nothing closes.
 function opposition.fingers(hand)
   local info, fingers = hand.dof_info, {}
   for _, chain in ipairs(hand.chains) do
@@ -29,7 +29,7 @@ local function tips_of(hand)
   for _, chain in ipairs(opposition.fingers(hand)) do
     local last = chain.links[#chain.links]
     if last then
-      local bounds = last.bounds_in_world  -- nil of a frame without a surface, as URDF marks a tip
+      local bounds = last.bounds_in_world  -- nil for a frame without a surface, by which URDF files mark a tip
       tips[#tips + 1] = bounds and (bounds.low + bounds.high) * 0.5 or last.pose.position
     end
   end
@@ -44,8 +44,8 @@ local function all_but(points, number)
   return others
 end
 
---- The direction to the finger whose tip stands farthest from the others' mean, across the approach, in the world.
----@return vec3? direction, integer? finger  which of the tips; nil: no two fingers stand apart
+--- The direction to the finger whose tip is farthest from the mean of the others, across the approach, in the world.
+---@return vec3? direction, integer? finger  index of the tip; nil: no two fingers are apart
 function opposition.thumb(hand)
   local z = hand.approach.direction
   local tips = tips_of(hand)
@@ -55,14 +55,14 @@ function opposition.thumb(hand)
     if #others > 0 then
       local way = tip - mean(others)
       way = way - z * way:dot(z)
-      -- of two fingers alike the first counts
+      -- of two equal fingers the first is taken
       if way:norm() > far * (1 + 1e-9) then thumb, far, number = way / way:norm(), way:norm(), i end
     end
   end
   return thumb, number
 end
 
---- The middle between the thumb's tip and the others' with these DOFs, in the world.
+--- The midpoint between the thumb's tip and the mean of the others with these DOFs, in the world.
 ---@param finger integer  the thumb, as of opposition.thumb
 function opposition.middle(hand, dofs, finger)
   local world = hand.world
@@ -74,7 +74,7 @@ function opposition.middle(hand, dofs, finger)
   return (tips[finger] + others) * 0.5
 end
 
---- The pose of the hand's base where a frame of approach and thumb at a point of it is the unit frame.
+--- The pose of the hand's base that brings the frame of approach and thumb, at a given point of the world, to the unit frame.
 function opposition.base_in_frame(hand, point, thumb)
   return opposition.frame(point, hand.approach.direction, thumb):inverse() * hand.pose
 end

@@ -1,11 +1,11 @@
---- Pads: the parts of fingertips that face what is between thumb and fingers. Where they are tells how wide a hand is open, and where
---- it holds things.
+--- Pads: the parts of fingertips that face the space between thumb and fingers. Their positions give the opening of a hand, and the point at which it holds
+--- objects.
 local opposition = require "clench.plan.opposition"
 local pads = {}
 
-local samples = 400       -- points of a fingertip that are looked at
-local facing = 0.8        -- cosine: what is turned away further is no pad
-local depth = 0.001       -- from the foremost point that is [m]
+local samples = 400       -- sampled points per fingertip
+local facing = 0.8        -- minimum cosine between the normals of a pad and its direction
+local depth = 0.001       -- of the pad below its foremost point [m]
 
 -- the last link of each finger, and points of its surface, in its frame
 local function tips_of(hand)
@@ -17,7 +17,7 @@ local function tips_of(hand)
   return tips
 end
 
--- the pad of a fingertip where it now stands: its middle and how far it reaches each way along the approach, in the world
+-- the pad of a fingertip at its present pose: its middle, and half of its length along the approach, in the world
 local function pad_of(tip, inward, approach)
   local pose = tip.link.pose
   local at = pose:inverse():rotate(inward)
@@ -46,7 +46,7 @@ end
 
 --- How a hand opens and closes between its pads.
 ---@param hand robot
----@return fun(dofs: number[], thumb: vec3, finger: integer): vec3, number, number  with these DOFs: the middle between the thumb's pad and the others', in the world; how far they stand apart along `thumb`, below 0 past each other; half the length of the shortest pad along the approach [m]
+---@return fun(dofs: number[], thumb: vec3, finger: integer): vec3, number, number  with these DOFs: the midpoint between the thumb's pad and the others', in the world; their distance along `thumb`, negative if they passed each other; half the length of the shortest pad along the approach [m]
 function pads.of(hand)
   local tips, world = tips_of(hand), hand.world
   return function(dofs, thumb, finger)

@@ -7,7 +7,7 @@ local opposition = require "clench.plan.opposition"
 local primitive_source = require "clench.plan.primitive_source"
 local primitive_starts = require "clench.plan.primitive_starts"
 
--- DOFs that closing does not move spread the fingers: not at all to oppose the thumb, by a third of their way around
+-- DOFs that closing does not move spread the fingers: at 0 they oppose the thumb, at a third of the range above 0 they form a circle
 local function derived_preshapes(hand)
   local open, closes = starts.opened(hand)
   local shapes = {opposing = {}, circle = {}}
@@ -36,7 +36,7 @@ local function read_preshapes(read, hand)
   return shapes
 end
 
-local max_size = 10  -- beyond it millimeters are more likely [m]
+local max_size = 10  -- larger numbers are probably millimeters [m]
 
 local function check_size(read, place, size)
   if type(size) ~= "number" or not (size > 0 and size < math.huge) then read:expected(place, "a number > 0", size) end
@@ -45,7 +45,7 @@ local function check_size(read, place, size)
   end
 end
 
--- which sizes each kind has
+-- names of the sizes of each kind
 local sizes = {sphere = {"radius"}, cylinder = {"radius", "height"}, cone = {"radius", "height"}}
 
 local function check_primitive(read, place, p)
@@ -60,7 +60,7 @@ local function check_primitive(read, place, p)
   for _, axis in ipairs(is_box and {"x", "y", "z"} or {}) do check_size(read, ("%s: size.%s"):format(place, axis), p.size[axis]) end
 end
 
--- the list, and what it was taken from
+-- the list, and its source
 local function read_primitives(read, object)
   local given, root = read:raw "primitives", read:raw "root"
   if root ~= nil and type(root) ~= "string" then read:expected("root", "a folder", root) end
@@ -76,13 +76,13 @@ local function read_primitives(read, object)
   return given, source
 end
 
---- An object as boxes, spheres, cylinders and cones, each approached from all sides (Miller, Knoop, Christensen and Allen
---- 2003): the hand comes to the first touch, closes, and where that holds nothing once more from a step further back.
----@param options table  the hand, the object and how the search goes
+--- Represents an object by boxes, spheres, cylinders and cones, and approaches each from all sides (Miller, Knoop, Christensen and Allen 2003): the hand moves
+--- to the first touch and closes; while the grasp has no force closure, it closes again from a step further back.
+---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object
----@option primitives? string|table  a file of clench.files.primitives, or such a list; by default primitives/<name>.iv beside the file of
----  the object or below root/models/objects, else the primitives in its own file, else its bounding box: report.primitives names which
----@option root? string  folder of GraspIt!
+---@option primitives? string|table  a file of clench.files.primitives, or such a list; by default primitives/<name>.iv in the folder of
+---  the object's file or below root/models/objects, else the primitives in the object's file, else its bounding box; report.primitives names the source
+---@option root? string  root folder of GraspIt!
 ---@option density? integer [1 to 100] = 2  density of the starts on each primitive
 ---@option preshapes? table  {opposing = dofs, circle = dofs}, derived from the hand by default
 ---@option thumb? vec3  direction to the thumb across the approach, in the frame of the base of the hand
@@ -91,7 +91,7 @@ end
 ---@like clench.plan.anneal  seconds, seed, threads, contacts, touch
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
 ---@like clench.plan.anneal  grasp, world, max_effort
----@return {grasps: grasps, report: table} # in force closure, the largest epsilon first
+---@return {grasps: grasps, report: table} # grasps in force closure, in order of decreasing epsilon
 --- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
 --- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12
 --- > clench.plan.primitive {hand = hand, object = flask, density = 1}.report.primitives:match "[^/]*/[^/]*$"  --> primitives/flask.iv
@@ -110,7 +110,7 @@ return function(options)
   end)
   local hand = job.hand
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)
-  if not thumb then require "clench.raise" "plan.primitive: thumb: this hand has no two fingers to tell it from; say where it is" end
+  if not thumb then require "clench.raise" "plan.primitive: thumb: it cannot be derived, as this hand has no two fingers; set this option" end
   local X_FH = opposition.base_in_frame(hand, hand.approach.point, thumb)
   local list, max_span = primitive_starts(own.primitives, own.density, own.rule)
   local function next_state(number)
@@ -118,12 +118,12 @@ return function(options)
     if not at then return end
     return {pose = opposition.frame(at.position, at.direction, at.thumb) * X_FH, dofs = own.preshapes[at.preshape]}
   end
-  local told = {planner = "plan.primitive", primitives = own.source}
+  local stats = {planner = "plan.primitive", primitives = own.source}
   if #list == 0 then
-    told.no_start = ("no primitive is of a size that a hand can grasp: thumb and fingers span at most %g mm"):format(1000 * max_span)
+    stats.no_start = ("no primitive has a size that a hand can grasp: thumb and fingers span at most %g mm"):format(1000 * max_span)
   end
-  local found = batch.try(job, told, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
+  local found = batch.try(job, stats, next_state, {planner = "primitive", limit = #list, count = own.count, on_grasp = own.on_grasp,
                                                   approach = 1, back = {count = 20, length = 0.004}})
   job:finish()
-  return new_run(job, batch.sort(found), told, {distance = 1e-9})
+  return new_run(job, batch.sort(found), stats, {distance = 1e-9})
 end

@@ -1,5 +1,5 @@
---- Default primitives of an object for the primitive planner: those of a file primitives/<name>.iv beside the file of the object or below
---- the root, else those among the nodes of its own file, else its bounding box.
+--- Default primitives of an object for the primitive planner: those of a file primitives/<name>.iv in the folder of the object's file or below the root, else
+--- those among the nodes of the object's file, else its bounding box.
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local on_behalf_of = require "clench.on_behalf_of"
@@ -53,7 +53,7 @@ local function of_geometry(subject, path)
     ok, list = pcall(clench.files.primitives, path)
   end
   if ok then return #list > 0 and list or nil end
-  -- other formats hold no primitives: no warning
+  -- other formats contain no primitives: no warning
   if is_stopped(list) or may_hold_primitives(path) then skip(subject, list) end
 end
 
@@ -67,7 +67,7 @@ end
 ---@param root? string
 ---@return table[] primitives, string source  a path, or "bounding box"
 return function(read, object, root)
-  if not object.mesh then read:fail("object: '%s' has no surface; the option primitives says what it is like", object.name) end
+  if not object.mesh then read:fail("object: '%s' has no surface; give its shape by the option primitives", object.name) end
   local source, report = object.source, object.mesh_report
   -- lengths in files apply only if the script does not scale the object
   if source ~= "" and not (report and report.unit_source == "option") then

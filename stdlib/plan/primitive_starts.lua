@@ -1,8 +1,9 @@
---- Where hands come from to boxes, spheres, cylinders and cones: positions, approach directions and thumbs around each, by
---- density, after GraspIt!'s primitive planner. In the frame of the primitive, whose axis is y.
-local standoff = 0.08  -- beyond the surface [m]
+--- Starts around boxes, spheres, cylinders and cones: positions, approach directions and thumb directions around each, by density, after GraspIt!'s primitive
+--- planner. In the frame of the primitive, whose axis is y.
+local standoff = 0.08  -- distance of the start from the surface [m]
 
--- sizes that can be grasped: a span between thumb and fingers, ends of cylinders, and across their sides [m]
+-- limits of sizes that can be grasped: maximum span between thumb and fingers, minimum radius of ends of cylinders, maximum diameter and minimum height for
+-- grasps across their sides [m]
 local max_span, min_end, max_round, min_side = 0.2, 0.005, 0.18, 0.028
 
 local v = clench.vec3
@@ -35,12 +36,12 @@ end
 function counts.rotations(m) return m == 1 and 2 or m <= 3 and 4 or m + 4 end
 function counts.both_thumbs(m) return m >= 3 end
 
--- a direction across z, turned about it by a part of a full turn
+-- a direction across z, turned about z by a fraction of a full turn
 local function around(z, side, part) return clench.pose {axis = z, angle = 2 * math.pi * part}:rotate(side) end
 
 local kinds = {}
 
--- an end: on the axis, looking back along it
+-- starts at one end: on the axis, with the approach along it towards the primitive
 local function add_end(add, m, height, way)
   local n = counts.rotations(m)
   for i = 0, n - 1 do
@@ -106,7 +107,7 @@ function kinds.cone(p, m, round, add)
       add_side(add, m, foot + normal * standoff, -normal, up, true, slant <= max_span)
     end
     if round(r) <= max_round and h >= min_side then
-      -- the edge of the bottom, met half as steeply
+      -- the edge of the bottom, approached along half of the slope
       local edge = out * math.cos(rise / 2) - y * math.sin(rise / 2)
       add_side(add, m, out * r - y * (h / 2) + edge * standoff, -edge, edge:cross(out:cross(y)), true, false)
     end
@@ -122,7 +123,7 @@ function kinds.box(p, m, _, add, whole)
     for _, way in ipairs {1, -1} do
       for i = 1, nb do
         for j = 1, nc do
-          -- the original's rule begins a whole edge from the center, not half of one
+          -- the original's rule starts at the full edge length from the center instead of half of it
           local point = axes[a] * (way * (size[a] * (whole and 1 or 0.5) + standoff)) +
                         axes[b] * (size[b] * (i / (nb + 1) - 0.5)) + axes[c] * (size[c] * (j / (nc + 1) - 0.5))
           for _, k in ipairs {b, c} do
@@ -139,8 +140,8 @@ end
 
 ---@param primitives table[]  of clench.files.primitives
 ---@param density integer  1 and more
----@param rule string  "graspit" compares radii with limits of diameters, and begins too far from boxes
----@return {position: vec3, direction: vec3, thumb: vec3, preshape: string, primitive: integer}[] starts, number max_span  in the object's frame; between thumb and fingers [m]
+---@param rule string  "graspit" compares radii with limits of diameters, and starts too far from boxes
+---@return {position: vec3, direction: vec3, thumb: vec3, preshape: string, primitive: integer}[] starts, number max_span  starts: in the object's frame; max_span: between thumb and fingers [m]
 return function(primitives, density, rule)
   local of_graspit = rule == "graspit"
   local function round(r) return of_graspit and r or 2 * r end

@@ -1,7 +1,7 @@
---- Silences warnings, as of soft contacts at an edge, while a planner tries thousands of grasps and throws them away.
+--- Suppresses warnings, for example of soft contacts at an edge, while a planner tries thousands of grasps and discards them.
 local shown = {debug = true, info = true, warning = true}
 
---- Warnings are silent until the variable that holds this is closed.
+--- Suppresses warnings until the to-be-closed variable that holds the result goes out of scope.
 return function()
   local before = clench.log.level()
   if shown[before] then clench.log.level "error" end

@@ -1,7 +1,7 @@
---- For a hand on an arm: which grasps the arm reaches, from the pose before the hand comes to the object on.
+--- For a hand on an arm: selects the grasps that the arm reaches, both at the pregrasp and at the grasp.
 local reach = {}
 
--- the arm's DOFs that bring the hand there, free of collision; nil: none were found
+-- DOFs of the arm that place the hand there without collision; nil: none were found
 local function reaches(arm, hand, X_WH)
   local result = arm:ik(hand.base, X_WH, {collision_free = true})
   return result.reached and result.dofs or nil
@@ -9,7 +9,7 @@ end
 
 ---@param job table  of clench.plan.job, with an arm
 ---@param grasps grasp[]
----@return grasp[] reached, integer others  each reached grasp with `info.arm_1` and so on, the arm's DOFs as it is held
+---@return grasp[] reached, integer others  others: number of the remaining grasps; each reached grasp has the arm's DOFs at the grasp as `info.arm_1` and so on
 function reach.filter(job, grasps)
   local world = job.given_world:clone()
   local hand, object = world:robot(job.given_hand.name), world:body(job.given_object.name)

@@ -1,10 +1,10 @@
---- A page of HTML that shows grasps: a table that sorts, pictures, and each grasp in 3-D. It holds all that it needs.
+--- A self-contained page of HTML that shows grasps: a table that can be sorted, pictures, and a 3-D view of each grasp.
 local base64 = require "clench.base64"
 local of_grasps = require "clench.plan.report_page_data"
 local find_three = require "clench.page.three"
 local text = require "clench.page.text"
 
-local largest = 100  -- grasps of a page
+local largest = 100  -- maximum number of grasps per page
 local escaped, json, code = text.escaped, text.json, text.code
 
 local function picture_of(world)
@@ -23,14 +23,14 @@ end
 
 -- heading, unit, key of the row, digits, meaning
 local columns = {
-  {"#", "", "number", "%d", "the largest epsilon first"},
-  {"epsilon", "", "epsilon", "%.4f", "the least wrench that breaks the grasp, with contact forces that sum to 1, torques divided by the length rho"},
+  {"#", "", "number", "%d", "in order of decreasing epsilon"},
+  {"epsilon", "", "epsilon", "%.4f", "magnitude of the smallest wrench that breaks the grasp, with contact forces that sum to 1 and torques divided by the length rho"},
   {"load margin", "weights", "load", "%.1f", "load that the hand can hold within its motors' limits, in the worst of six directions"},
-  {"perturbed", "epsilon", "perturbed", "%.4f", "the least epsilon when the hand closes again on the object displaced by a little, in the worst of six directions"},
-  {"shaken", "held in", "held", "%d of 6", "in how many of 6 directions the object was held when its weight pulled it in simulation"},
+  {"perturbed", "epsilon", "perturbed", "%.4f", "minimum epsilon when the hand closes again on the slightly displaced object, in the worst of six directions"},
+  {"shaken", "held in", "held", "%d of 6", "number of directions, of 6, in which the object was held when its weight pulled it in simulation"},
   {"contacts", "", "contacts", "%d", "points of the hand that touch the object"},
-  {"azimuth", "degrees", "azimuth", "%d", "where the hand comes from, about the world's z, from +x towards +y"},
-  {"elevation", "degrees", "elevation", "%d", "where the hand comes from: 90 is from above"},
+  {"azimuth", "degrees", "azimuth", "%d", "direction from which the hand comes: angle about the world's z axis, from +x towards +y"},
+  {"elevation", "degrees", "elevation", "%d", "direction from which the hand comes: 90 is from above"},
 }
 
 local function head_of(title, subtitle)
@@ -86,10 +86,10 @@ local function assumptions_of(lines)
 end
 
 local function words_of(words, notes, columns)
-  local out = {'<section class="words"><h2>What the columns mean</h2><dl>'}
+  local out = {'<section class="words"><h2>Columns</h2><dl>'}
   for i = 2, #columns do out[#out + 1] = ("<dt>%s</dt><dd>%s</dd>"):format(columns[i][1], escaped(columns[i][5])) end
   out[#out + 1] = "</dl>" .. assumptions_of(words.assumptions)
-  out[#out + 1] = "<h2>What the search did</h2><pre>" .. escaped(words.report) .. "</pre>"
+  out[#out + 1] = "<h2>Search</h2><pre>" .. escaped(words.report) .. "</pre>"
   for _, note in ipairs(notes) do out[#out + 1] = "<p>" .. escaped(note) .. "</p>" end
   return table.concat(out) .. "</section>\n"
 end
@@ -97,8 +97,8 @@ end
 ---@param hand robot
 ---@param object body
 ---@param grasps grasp[]  the first 100 are shown
----@param words {title: string, subtitle: string, report: string, assumptions?: string[], three?: string[]}  three: where three.js may be
----@return string html, string[] notes  sentences on what is left out or large
+---@param words {title: string, subtitle: string, report: string, assumptions?: string[], three?: string[]}  three: possible paths of three.js
+---@return string html, string[] notes  sentences about omitted grasps and pictures, and about large meshes
 return function(hand, object, grasps, words)
   local three, missing = find_three(words.three)
   if not three then error(missing, 0) end

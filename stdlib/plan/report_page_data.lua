@@ -1,4 +1,4 @@
---- What the 3-D view of a report page draws: each mesh once, and where the bodies stand in each grasp.
+--- Data for the 3-D view of a report page: each mesh once, and the poses of the bodies in each grasp.
 local page_meshes = require "clench.page.meshes"
 local report_rows = require "clench.plan.report_rows"
 local rounded, numbers = page_meshes.rounded, page_meshes.numbers
@@ -13,7 +13,7 @@ end
 ---@param object body
 ---@param grasps grasp[]
 ---@param visit? fun(row: table)  called while the hand holds the object in the world
----@return table data, table[] rows, string[] notes  of meshes that are large
+---@return table data, table[] rows, string[] notes  about large meshes
 return function(hand, object, grasps, visit)
   local world = hand.world
   local data = {parts = {}, still = {}, grasps = {}}

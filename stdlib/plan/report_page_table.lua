@@ -1,4 +1,4 @@
---- The script of a report page that sorts the table and chooses the grasp that the view shows; and the first picture.
+--- The script of a report page that sorts the table, selects the grasp for the view, and draws the first picture.
 return [==[
 const body = document.querySelector("tbody"), caption = view.querySelector(".shown");
 
@@ -19,7 +19,7 @@ document.addEventListener("keydown", e => {
   next.scrollIntoView({block: "nearest"});
 });
 
-// a column sorts by its numbers, the largest first but for the grasp's number; again: the other way
+// a column is sorted by decreasing values, the numbers of the grasps increase; a second click reverses the order
 document.querySelectorAll("th[data-column]").forEach(head => head.addEventListener("click", () => {
   const column = Number(head.dataset.column), was = head.getAttribute("aria-sort");
   const up = was ? was === "descending" : column === 0;
@@ -35,7 +35,7 @@ if (body.rows.length > 0) {
   select(body.rows[0]);
   resize();
   if (renderer) {
-    // how many of the points that were looked at are not background
+    // number of sampled pixels that are not background
     const gl = renderer.getContext(), size = [gl.drawingBufferWidth, gl.drawingBufferHeight], pixel = new Uint8Array(4);
     let covered = 0;
     for (let x = 1; x < 24; ++x) for (let y = 1; y < 24; ++y) {

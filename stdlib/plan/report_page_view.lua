@@ -1,4 +1,4 @@
---- The script of a report page that shows a grasp, after that of the scene.
+--- The script of a report page that shows a grasp; it follows the script of the scene.
 return [==[
 const still = data.still.map(part => { const mesh = solid(part); place(mesh, part.pose); return mesh; });
 const moving = data.parts.map(solid);
@@ -22,7 +22,7 @@ function showContacts(points) {
   }
 }
 
-// the floor that tells lengths: squares of 5 cm below everything, where no obstacle stands
+// the floor as a scale of length: squares of 5 cm below everything, if there is no obstacle
 let grid = null;
 if (data.still.length === 1 && data.still[0].kind === "object") {
   grid = new THREE.GridHelper(1, 20, 0x76828e, 0x9aa5b0);
@@ -31,7 +31,7 @@ if (data.still.length === 1 && data.still[0].kind === "object") {
   view.querySelector(".note").append(" \u00b7 squares: 5 cm");
 }
 
-// the side from which fingers hide the fewest contacts, the hand's base is not in front, and no obstacle either
+// the side from which fingers hide the fewest contacts, and neither the hand's base nor an obstacle is in front
 function sideThatShows(item) {
   const normals = item.points.map(p => new THREE.Vector3(p[3], p[4], p[5]).applyQuaternion(touches.quaternion));
   const way = new THREE.Vector3(...item.approach), ray = new THREE.Raycaster();
@@ -86,7 +86,7 @@ document.getElementById("through").addEventListener("change", e => {
   setObjectOpacity(e.target.checked, 1);
   redraw();
 });
-if (data.grasps.length === 0) view.querySelector(".note").textContent = "No grasp was found; what the search did is told below.";
+if (data.grasps.length === 0) view.querySelector(".note").textContent = "No grasp was found; see the report of the search below.";
 if (renderer && data.grasps.length > 0) {
   view.appendChild(renderer.domElement);
   window.addEventListener("resize", resize);

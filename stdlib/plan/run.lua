@@ -1,4 +1,4 @@
---- What a planner gives: grasps, best first, and a report.
+--- The result of a planner: grasps, best first, and a report.
 local assumptions = require "clench.plan.assumptions"
 local class = require "clench.class"
 local report = require "clench.plan.report"
@@ -10,12 +10,12 @@ local Run = class "run"
 function Run:__tostring() return ("%d grasps: %s"):format(#self.grasps, tostring(self.report)) end
 
 ---@param job table
----@param found grasp[]  in the order in which they count
----@param told table  of plan.report
----@param options {count?: integer, distance?: number, spread?: boolean}  spread: of more than `count` grasps, those from different sides are kept first
-return function(job, found, told, options)
-  told.out_of_reach = 0
-  if job.arm then found, told.out_of_reach = reach.filter(job, found) end
+---@param found grasp[]  best first
+---@param stats table  of plan.report
+---@param options {count?: integer, distance?: number, spread?: boolean}  spread: if there are more than `count` grasps, those from different sides are preferred
+return function(job, found, stats, options)
+  stats.out_of_reach = 0
+  if job.arm then found, stats.out_of_reach = reach.filter(job, found) end
   local is_new = distinct(job.hand, job.object, options.distance or 0)
   local unlike, alike = {}, 0
   for _, grasp in ipairs(found) do
@@ -24,8 +24,8 @@ return function(job, found, told, options)
   end
   local grasps = clench.grasps()
   for _, grasp in ipairs(options.spread and spread(job.hand, unlike, options.count) or unlike) do grasps:add(grasp) end
-  told.grasps, told.alike, told.found = #grasps, alike, #found
-  told.seconds, told.stopped = job:elapsed(), job.stopped
-  told.assumptions = told.assumptions or assumptions.of(job.hand, job.object, nil, {})
-  return setmetatable({grasps = grasps, report = report.new(job, told)}, Run)
+  stats.grasps, stats.alike, stats.found = #grasps, alike, #found
+  stats.seconds, stats.stopped = job:elapsed(), job.stopped
+  stats.assumptions = stats.assumptions or assumptions.of(job.hand, job.object, nil, {})
+  return setmetatable({grasps = grasps, report = report.new(job, stats)}, Run)
 end

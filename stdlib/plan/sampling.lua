@@ -1,4 +1,4 @@
---- What plan.sample and plan.random share: random starts, tried over threads.
+--- Shared by plan.sample and plan.random: random starts, tried in several threads.
 local assumptions = require "clench.plan.assumptions"
 local diagnosis = require "clench.plan.diagnosis"
 local drives = require "clench.drives"
@@ -11,7 +11,7 @@ local report = require "clench.plan.report"
 local script_line = require "clench.script_line"
 local starts = require "clench.plan.starts"
 
-local diagnosis_after = 3   -- a search that has found nothing by then is diagnosed [s]
+local diagnosis_after = 3   -- a search without grasps after this time is diagnosed [s]
 local max_diagnosis_time = 1  -- [s]
 
 local function diagnose(job, own, next_state, assumed)
@@ -19,7 +19,7 @@ local function diagnose(job, own, next_state, assumed)
   return diagnosis.text(diagnosis.of(job, next_state, own, seconds), assumed)
 end
 
--- Returns a function that diagnoses the search once if it has found nothing, and returns the result as a hint.
+-- Returns a function that diagnoses the search once if it has found no grasps, and returns the result as a hint.
 local function watch(job, own, next_state, assumed)
   return function(found)
     if own.diagnosis or found > 0 or not own.verify or job:elapsed() < diagnosis_after then return nil end
@@ -47,25 +47,25 @@ return function(name, options, read_more)
   if no_force then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, no_force)) end
   own.approach = 2 * own.standoff
   local assumed = assumptions.of(job.hand, job.object, own.verify, given_of[options] or {})
-  local told = {planner = "plan." .. name}
+  local stats = {planner = "plan." .. name}
   local journal = recorded[options]
   own.journal = journal
   local found = {}
   if no_force and own.verify.min_load > 0 and drives.is_inert(job.hand) then
-    told.verify, told.candidates, told.rejected = own.verify, 0, {}
+    stats.verify, stats.candidates, stats.rejected = own.verify, 0, {}
   else
     local hopeless = own.verify and report.too_wide(job)
     if hopeless then clench.log.warning(script_line() .. ("%s: %s"):format(job.subject, hopeless)) end
     local next_state = job:prepare(starts.random, own)
     own.hint = next_state and watch(job, own, next_state, assumed)
-    found = batch.try(job, told, next_state, own)
-    if #found == 0 and next_state and own.verify and not own.diagnosis and told.candidates > 0 and not job.stopped then
+    found = batch.try(job, stats, next_state, own)
+    if #found == 0 and next_state and own.verify and not own.diagnosis and stats.candidates > 0 and not job.stopped then
       own.diagnosis = job:interruptible(function() return diagnose(job, own, next_state, assumed) end)
     end
-    told.short = own.diagnosis ~= "" and own.diagnosis or nil
+    stats.short = own.diagnosis ~= "" and own.diagnosis or nil
     if journal then journal:add_listed(found) end
   end
   job:finish()
-  told.assumptions = assumed
-  return new_run(job, batch.sort(found), told, {count = math.max(own.count, journal and journal.keep or 0), distance = own.distance, spread = true})
+  stats.assumptions = assumed
+  return new_run(job, batch.sort(found), stats, {count = math.max(own.count, journal and journal.keep or 0), distance = own.distance, spread = true})
 end

@@ -4,7 +4,7 @@ local apart = math.cos(math.rad(30))  -- approach directions whose cosine is sma
 
 ---@param hand robot
 ---@param grasps grasp[]  best first
----@param count integer  how many are chosen
+---@param count integer  number of grasps to choose
 ---@return grasp[]  best first
 return function(hand, grasps, count)
   if #grasps <= count then return grasps end

@@ -1,12 +1,12 @@
---- Where a hand may begin: before a point of the object's surface, looking at it, or about two points that face each other;
---- more or less opened. See plan.neighbor for starts near those that succeeded.
+--- Starts of the hand: in front of a point of the object's surface, facing it, or around two points that face each other; opened more or less. See
+--- plan.neighbor for starts near successful ones.
 local facing = require "clench.plan.facing"
 local opposition = require "clench.plan.opposition"
 local pads = require "clench.plan.pads"
 local supports = require "clench.plan.supports"
 local starts = {}
 
-local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- from all that is not the hand
+local far_away = clench.pose {xyz = {0, 0, 9.5}}  -- away from all bodies except the hand
 
 -- Pairs of the hand's own parts that collide with these DOFs.
 local function self_collisions(hand, dofs)
@@ -17,7 +17,7 @@ end
 -- With more links, moving one DOF at a time takes too long: its time grows with the fourth power of the number of links.
 local many_links = 64
 
--- Moves all closing DOFs back together, by the smallest fraction of their ranges that leaves fewest collisions.
+-- Moves all closing DOFs back together, by the smallest fraction of their ranges that leaves the fewest collisions.
 local function freed_together(hand, dofs, count)
   local best, limits, info = dofs, hand.dof_limits, hand.dof_info
   for part = 0.1, 0.9, 0.1 do
@@ -35,8 +35,8 @@ local function freed_together(hand, dofs, count)
   return best
 end
 
--- Hands whose open DOFs make them collide with themselves (a thumb in the palm): the DOF whose smallest motion frees most
--- moves back, then the next one.
+-- For hands that collide with themselves when open (a thumb in the palm): moves back the DOF that resolves most collisions by the smallest motion, then the
+-- next one.
 local function freed(hand, dofs)
   local world = hand.world
   local here <close> = world:snapshot()
@@ -70,7 +70,7 @@ local function freed(hand, dofs)
   return dofs
 end
 
---- Which DOFs closing moves, and how the hand is when it is open, free of collision with itself where that can be.
+--- Returns the DOFs of the open hand, free of collision with itself if possible, and which DOFs move in closing.
 function starts.opened(hand)
   local world = hand.world
   local here <close> = world:snapshot()
@@ -83,7 +83,7 @@ function starts.opened(hand)
   return freed(hand, open), closes
 end
 
--- the DOFs closed by a part of the way, and spread by a part of the way to `values` of the range
+-- The DOFs, closed by a fraction of the range, and spread by a fraction of the distance to `values` in the range.
 local function posture(hand, closed, spread, values)
   local dofs = {}
   for i, value in ipairs(hand.open) do
@@ -100,10 +100,10 @@ local function posture(hand, closed, spread, values)
   return dofs
 end
 
-local max_closed = 0.35  -- of the way, where the hand begins
+local max_closed = 0.35  -- maximum closed fraction of a start
 
--- closed by a part of the way, at most `max`; DOFs that closing does not move (a spread) anywhere, or nearer to where they are open when
--- the hand would collide with itself
+-- Closed by a random fraction, at most `max`; DOFs that do not move in closing (a spread) get random values, or values nearer to the open posture if the hand
+-- would otherwise collide with itself.
 local function random_posture(hand, random, max)
   local closed, values = random:uniform(0, max), {}
   for i in ipairs(hand.open) do values[i] = random:uniform() end
@@ -117,11 +117,11 @@ local function random_posture(hand, random, max)
   return hand.open
 end
 
-starts.clearance = 0.002  -- left on both sides together of what comes between the pads [m]
-local closing_steps = 12  -- at which the distance between the pads is measured
+starts.clearance = 0.002  -- free space that is left on both sides together of an object between the pads [m]
+local closing_steps = 12  -- number of steps at which the distance between the pads is computed
 
--- The hand as it closes in free air: how far its pads stand apart, from the widest on down, and the base where the frame of approach and thumb
--- in the middle between them is the unit frame.
+-- The hand as it closes in free air: distance between its pads in decreasing order, and the pose of the base relative to the frame of approach and thumb in the
+-- middle between the pads.
 local function closings(self, thumb, finger)
   local measure, list = pads.of(self.robot), {}
   for i = 0, closing_steps do
@@ -138,8 +138,7 @@ local function closings(self, thumb, finger)
   return list
 end
 
--- What the starts of a hand have in common. The thumb is told from the open hand; between its pad and the fingers' lies what the hand
--- will hold.
+-- Data shared by all starts of a hand. The thumb is identified on the open hand; the hand holds objects between the pads of thumb and fingers.
 local function describe(hand)
   local before = hand.world:snapshot()
   local open, closes = starts.opened(hand)
@@ -160,19 +159,20 @@ local function describe(hand)
   return self
 end
 
---- How wide the hand opens between thumb and fingers; nil: it has no thumb [m].
+--- The opening width of the hand between thumb and fingers [m]; nil: it has no thumb.
 function starts.aperture(hand)
   return describe(hand).aperture
 end
 
--- The hand whose pads stand so far apart: how far it is closed then, and its base in the frame of approach and thumb in their middle.
+-- The hand with this distance between its pads: closed fraction, pose of the base in the frame of approach and thumb at their middle, and half of the length of
+-- the pads.
 local function holding(self, width)
   local list = self.closings
   local i = 1
   while i < #list and list[i + 1].width >= width do i = i + 1 end
   local a, b = list[i], list[i + 1] or list[i]
   local part = a.width > b.width and math.max(0, math.min(1, (a.width - width) / (a.width - b.width))) or 0
-  -- the frames lie apart without a turn
+  -- the frames differ by a translation only
   local shift = (b.X_FH.position - a.X_FH.position) * part
   return a.closed + part * (b.closed - a.closed), clench.pose {xyz = shift} * a.X_FH, a.pad
 end
@@ -190,7 +190,7 @@ local function across(direction, random) return unit(direction:cross(random:dire
 
 local max_upward = 0.3  -- cosine between approach and up direction: steeper approaches from below are rejected
 
---- An approach direction across a line, from any side. If the object stands on something, never from below, and straight down half of the time.
+--- An approach direction across a line, from any side. If the object has a support, never from below, and straight down in half of the cases.
 local function approach_across(hand, line, random)
   local up = hand.up
   if not up then return across(line, random) end
@@ -202,7 +202,7 @@ local function approach_across(hand, line, random)
   return direction and direction:dot(up) > 0 and -direction or direction
 end
 
---- A start before a point of the surface, along its normal or tilted.
+--- A start in front of a point of the surface, along its normal or tilted.
 local function before_surface(hand, surface, random, standoff)
   local at = any_of(surface, random)
   local direction = -at.normal
@@ -215,10 +215,10 @@ local function before_surface(hand, surface, random, standoff)
           dofs = random_posture(hand, random, max_closed), retreat = math.max(0, random:uniform(-0.03, 0.03))}
 end
 
-local to_palm = 0.06      -- largest further travel until the palm touches [m]
-local approach_distances = {0, 0.025, 0.06}  -- before where it is to close: there the hand is free as well [m]
+local to_palm = 0.06      -- maximum further travel until the palm touches [m]
+local approach_distances = {0, 0.025, 0.06}  -- distances before the closing pose at which the hand must also be free of collision [m]
 
--- Does the hand come to the object so that what is to be between its pads gets there, and not what is in the way?
+-- Does the hand reach its closing pose without collision, so that the chosen points get between its pads?
 local function gets_there(hand, object, direction, pose, dofs)
   local robot, X_WO = hand.robot, object.pose
   local free = true
@@ -231,13 +231,13 @@ local function gets_there(hand, object, direction, pose, dofs)
   return free
 end
 
-local max_points = 12  -- from which that of two fingers is chosen
+local max_points = 12  -- maximum number of points from which two fingers choose one
 
--- the lever of the weight about the normal line of a point of the surface [m]
+-- lever arm of the weight about the normal line of a point of the surface [m]
 local function lever_at(at, com) return (com - at.point):cross(at.normal):norm() end
 
--- A point of the surface. Two fingers hold torques about the line between them by friction alone, so for them the point whose normal passes
--- nearest to the center of mass is chosen from several.
+-- A random point of the surface. Two fingers resist torques about the line between them by friction only, so for them several points are sampled, and the point
+-- whose normal passes nearest to the center of mass is taken.
 local function surface_point(hand, object, surface, random)
   local best = any_of(surface, random)
   if not hand.is_two_fingered then return best end
@@ -256,7 +256,7 @@ local shallow = -0.85          -- depth at which little more than the ends of th
 local finger_clearance = 0.006  -- free distance that a finger needs beside a point [m]
 
 -- Is there enough free space for a finger beside each of two points?
--- middle, line, apart  between the points, unit vector from one to the other, and their distance [m], in the object's frame
+-- middle, line, apart  midpoint of the points, unit vector from one to the other, and their distance [m], in the object's frame
 local function is_clear_beside(world, object, middle, line, apart)
   for _, sign in ipairs {-1, 1} do
     local hit = world:raycast(object.pose * (middle + line * (sign * (apart / 2 + 1e-4))), object.pose:rotate(line * sign), finger_clearance)
@@ -265,8 +265,8 @@ local function is_clear_beside(world, object, middle, line, apart)
   return true
 end
 
--- Finds a direction across the line from which jaws reach the points without collision: at a random depth, or else with little more than the ends
--- of their pads.
+-- Finds a direction across the line from which jaws reach the points without collision: at a random depth, or else with little more than the ends of their
+-- pads.
 -- returns  the approach direction, and the distance from the middle of the points to the middle of the pads along it [m]; nil without such a direction
 local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   for _ = 1, sides do
@@ -278,7 +278,7 @@ local function free_side(hand, object, middle, line, pad, X_FH, dofs, random)
   end
 end
 
---- The thumb on one of two points that face each other and the fingers on the other, from any side across that line.
+--- A start with the thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 ---@param checked boolean  for jaws: only directions from which the hand reaches the points without collision
 local function about_two_points(hand, world, object, surface, random, options, checked)
   local width = math.min(options.width, hand.aperture - starts.clearance)
@@ -306,11 +306,11 @@ local function up_of(on, object)
   return sum:norm() > 0.7 and object.pose:inverse():rotate(sum / sum:norm()) or nil
 end
 
-local max_tries = 200  -- until two points face each other
+local max_tries = 200  -- maximum number of attempts to find two points that face each other
 
---- Start number n of a seed, the same in any order.
+--- The start with a given number, which depends only on the seed and this number.
 ---@param job table  of clench.plan.job
----@param options {standoff: number, friction: number, width: number, kind: string}  kind: "antipodal", or "both", by turns
+---@param options {standoff: number, friction: number, width: number, kind: string}  kind: "antipodal", or "both" in alternation
 ---@return fun(number: integer): table?
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
@@ -327,7 +327,7 @@ function starts.random(job, options)
         state = before_surface(hand, surface, random, options.standoff)
       end
       if state then return state end
-      -- an object without such pairs, or with none that the hand gets to, is approached along its normals
+      -- an object without such pairs, or without pairs that the hand can reach, is approached along its normals
       if try == max_tries // 2 and options.kind ~= "antipodal" then paired = false end
     end
   end

@@ -1,5 +1,5 @@
---- Supports of an object: the bodies, other than the hand, that it touches or overlaps by no more than the contact threshold, and the directions
---- in which they permit it to move.
+--- Supports of an object: the bodies, other than the hand, that it touches or overlaps by at most the contact threshold, and the directions in which they allow
+--- it to move.
 local Supports = {}
 Supports.__index = Supports
 local supports = {}
@@ -75,7 +75,7 @@ function supports.of(hand, object)
   return self
 end
 
---- Do the supports permit a motion in this direction: away from them, or along them?
+--- Do the supports allow a motion in this direction: away from them, or along them?
 ---@param direction vec3  of length 1
 function Supports:permit(direction)
   for _, normal in ipairs(self.normals) do
@@ -102,7 +102,7 @@ function Supports:slide(displaced, way)
   return clench.vec3(0, 0, 0)  -- wedged
 end
 
---- Switches off collisions of the object with its supports, so that it can be moved along them.
+--- Disables collisions of the object with its supports, so that it can be moved along them.
 function Supports:release(object)
   for _, list in ipairs {self.touched, self.overlapped} do
     for _, body in ipairs(list) do object.world:set_collision(false, object, body) end

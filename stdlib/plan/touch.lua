@@ -1,4 +1,4 @@
---- Which links a grasp may and must touch with: fingertip grasps, power grasps, or links by their names.
+--- Links that may and must touch in a grasp: fingertip grasps, power grasps, or links by their names.
 local described = require "clench.described"
 local opposition = require "clench.plan.opposition"
 local touch = {}
@@ -17,7 +17,7 @@ local function fingertips(hand)
   return tips
 end
 
--- the base and what is no finger
+-- the base and all links outside of the fingers
 local function palm(hand)
   local in_finger, names = {}, {}
   for _, finger in ipairs(opposition.fingers(hand)) do
@@ -35,7 +35,7 @@ local kinds = {
   fingertip = function(hand) return {may = fingertips(hand), must = {}} end,
   power = function(hand, read)
     local names = palm(hand)
-    if #names == 0 then read:fail("contacts: 'power' asks for a palm with a surface, and this hand has none") end
+    if #names == 0 then read:fail("contacts: 'power' requires a palm with a surface, which this hand does not have") end
     return {must = {names}}
   end,
 }
@@ -69,7 +69,7 @@ local function read_links(read, hand, given)
 end
 
 --- The options `contacts` and `touch` of a planner.
----@return {may?: string[], must: string[][]}?  must: of each list one
+---@return {may?: string[], must: string[][]}?  must: of each list at least one link must touch
 function touch.read(read, hand)
   local contacts, links = read:raw "contacts", read:raw "touch"
   if contacts ~= nil and links ~= nil then read:fail("expected contacts or touch, got both") end
@@ -79,7 +79,7 @@ function touch.read(read, hand)
   return kind(hand, read)
 end
 
-touch.forbidden, touch.missing = "touched with other links than it may", "not touched with all links that must"
+touch.forbidden, touch.missing = "touched with links that may not touch", "not touched with all links that must touch"
 
 local function has_any(set, names)
   for _, name in ipairs(names) do
@@ -88,7 +88,7 @@ local function has_any(set, names)
   return false
 end
 
---- returns  nil, or what is wrong with the links that touch
+--- returns  nil, or the fault of the links that touch
 function touch.fault(wanted, grasp)
   if not wanted then return nil end
   local touching, may = {}, {}

@@ -1,4 +1,4 @@
---- Does a grasp hold when it is not met exactly, and against loads? What is asked of a grasp that is called verified.
+--- Verification of grasps: does a grasp resist loads, and does it hold if the object is displaced before the hand closes?
 local give_way = require "clench.plan.give_way"
 local held_load = require "clench.study.motion.held_load"
 local opposition = require "clench.plan.opposition"
@@ -11,12 +11,12 @@ verification.defaults = {displacement = 0.001, force_ratio = held_load.force_rat
 verification.too_weak = "too weak against loads"
 verification.lost_when_shaken = "lost when shaken"
 
---- The load that two fingers hold at least with half of the friction: the weight, as the torsion that keeps the object from pivoting is the
---- least certain of all friction.
+--- Minimum load that a grasp of two fingers must hold with half of the friction: the weight, since the torsional friction that keeps the object from pivoting
+--- is the least certain of all friction.
 verification.min_slippery_load_of_two_fingers = 1
 verification.too_slippery = "too weak with half of the friction"
 
---- min_slippery_load of grasps that are shaken, too
+--- min_slippery_load of grasps that are also shaken
 verification.min_slippery_load_of_shaken = 2
 
 verification.directions = held_load.directions
@@ -24,7 +24,7 @@ verification.directions = held_load.directions
 local function moved(pose, way) return clench.pose {xyz = way} * pose end
 
 -- Moves the object along `way`, as far as its supports permit, by half of the distance at which the hand touches its other side.
--- returns  whether the object has moved
+-- returns  has the object moved?
 local function give(hand, object, home, way, held_up)
   local X_WO = object.pose
   way = held_up:slide(X_WO.position - home.position, way)
@@ -41,7 +41,7 @@ local function give(hand, object, home, way, held_up)
 end
 
 -- Closes on an object that is free to move: it yields while the hand touches it on one side only.
--- home  pose of the object where it stood; reach  largest displacement in one attempt [m]
+-- home  initial pose of the object; reach  maximum displacement in one attempt [m]
 local function close_on_free(hand, object, home, reach, held_up, options)
   local grasp
   for _ = 1, 3 do
@@ -64,7 +64,7 @@ local function close_around_free(hand, object, dofs, options)
   return clench.grasp(hand, object, options)
 end
 
--- does the object collide with anything but the hand?
+-- Does the object collide with any body except the hand?
 local function is_in_something(hand, object)
   for _, pair in ipairs(hand.world:colliding(object)) do
     if pair[1].robot ~= hand and pair[2].robot ~= hand then return true end
@@ -73,7 +73,7 @@ local function is_in_something(hand, object)
 end
 
 -- Displaces the object relative to the open hand: moves the object if its surroundings permit that, otherwise the hand in the opposite direction.
--- returns  whether the hand is free of collision there, or a little farther back along its approach
+-- returns  is the hand free of collision there, or a little farther back along its approach?
 local function displace(hand, object, at, direction, displacement, held_up)
   local X_WH, X_WO, way = at.hand, at.object, direction * displacement
   object.pose = moved(X_WO, way)
@@ -83,16 +83,16 @@ local function displace(hand, object, at, direction, displacement, held_up)
     hand:set_posture(X_WH, at.dofs)
   end
   if hand.world:collides(hand) then
-    -- the object is met earlier: the hand stays back by as much as it was displaced
+    -- the hand touches the object earlier: it stays back by twice the displacement
     hand:set_posture(moved(X_WH, hand.approach.direction * (-2 * displacement)), at.dofs)
   end
   return not hand.world:collides(hand)
 end
 
---- The least epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of
---- the grasp and the DOFs before it closed; 0 where something is in the way. Displacements are of the object relative to the hand: where a
---- support of the object blocks its displacement, the hand is moved in the opposite direction. An object that is touched on one side only
---- yields along its supports; jaws that one motor closes also turn about it. Looks no further once it is not above `enough`.
+--- The minimum epsilon when the hand closes again on the object displaced along each axis of the world, from the pose of the grasp and the DOFs before it
+--- closed; 0 if the hand collides. Displacements are of the object relative to the hand: if a support of the object blocks its displacement, the hand is moved
+--- in the opposite direction. An object that is touched on one side only yields along its supports; jaws that one motor closes also turn about it. Stops as
+--- soon as the minimum is at most `enough`.
 function verification.perturbed_epsilon(hand, object, grasp, displacement, enough, options)
   local world = hand.world
   local here <close> = world:snapshot()
@@ -144,7 +144,7 @@ function verification.squeeze(hand, object, grasp, force_ratio)
   return targets
 end
 
---- Do hand and object stay clear of everything else while they are lifted together?
+--- Do hand and object stay free of other collisions while they are lifted together?
 function verification.can_be_lifted(hand, object, height)
   local world = hand.world
   local here <close> = world:snapshot()
@@ -154,17 +154,16 @@ function verification.can_be_lifted(hand, object, height)
   for i = 1, steps do
     local up = clench.pose {xyz = {0, 0, height * i / steps}}
     hand.pose, object.pose = up * X_WH, up * X_WO
-    -- the first steps leave what the object stands on
+    -- the first step separates the object from its supports
     if world:collides(hand) or i > 1 and world:collides(object) then free = false break end
   end
   world:restore(here)
   return free
 end
 
---- Is the object held when its weight pulls it along each axis of the world in turn, by a hand that presses with force_ratio weights?
---- See study.shake.
+--- Is the object held when its weight pulls it along each axis of the world in turn, by a hand that presses with force_ratio weights? See study.shake.
 ---@param shake table  options of study.shake
----@return integer held  in how many of the six directions
+---@return integer held  number of directions, of six
 ---@return boolean survived
 function verification.shake(hand, object, shake, force_ratio)
   local weight = 9.81 * object.mass
@@ -174,10 +173,9 @@ function verification.shake(hand, object, shake, force_ratio)
   return verdict.held, verdict.survived
 end
 
---- Can the object pivot about a line between two fingers? Where no more than two fingers press, only the torsion of their patches resists
---- that; a palm stops it in one direction at most. A load margin counts on all points of a patch at once, but when the object moves by less
---- than the contact threshold, few of them carry the load, and these are often too near to the line. So grasps of this kind are verified in
---- motion.
+--- Can the object pivot about a line between two fingers? If at most two fingers press, only the torsional friction of their patches resists that; a palm stops
+--- it in one direction at most. A load margin assumes that all points of a patch act at once, but when the object moves by less than the contact threshold, few
+--- of them carry the load, and these are often too near to the line. So grasps of this kind are verified in motion.
 function verification.can_pivot(hand, grasp)
   local touching, count = {}, 0
   for _, name in ipairs(grasp.links) do touching[name] = true end
@@ -198,9 +196,9 @@ local function shaking_of(hand, grasp, options)
   return options.shake or nil, false
 end
 
----@param hand robot  as it holds the object
+---@param hand robot  in the state of the grasp
 ---@param options {displacement: number, min_epsilon: number, force_ratio: number, min_load: number, min_slippery_load: number, lift: number, grasp?: table, shake?: table|false, keep_lost?: boolean}  shake: nil: grasps that can pivot are shaken
----@return table? numbers, string? why, number? load  in weights, where that is too small; numbers: perturbed_epsilon, load_margin; directions_held and survived (1 or 0) of those that were shaken
+---@return table? numbers, string? why, number? load  load: in weights, if it is too small; numbers: perturbed_epsilon, load_margin; for shaken grasps also directions_held and survived (1 or 0)
 function verification.check(hand, object, grasp, options)
   if not grasp.collision_free then return nil, "in collision when closed" end
   if grasp.epsilon < options.min_epsilon then return nil, "epsilon too small" end
@@ -212,7 +210,7 @@ function verification.check(hand, object, grasp, options)
     return nil, verification.too_slippery
   end
   if options.lift > 0 and not verification.can_be_lifted(hand, object, options.lift) then
-    return nil, "in the way of the lift"
+    return nil, "in collision when lifted"
   end
   local epsilon = verification.perturbed_epsilon(hand, object, grasp, options.displacement, options.min_epsilon, options.grasp)
   if epsilon < options.min_epsilon then return nil, "lost when the object is displaced" end

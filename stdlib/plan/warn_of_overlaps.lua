@@ -1,9 +1,9 @@
---- Warnings before a search: what collides before anything moves counts against no grasp.
+--- Warns of collisions before a search; grasps are not rejected for them.
 local script_line = require "clench.script_line"
 local supports = require "clench.plan.supports"
 
--- Names of the pairs in which a body or robot overlaps others, except robots that are moved anyway and supports of an object; false if there
--- are no such pairs.
+-- Names of the pairs in which a body or robot overlaps others, except robots that move in the search and supports of an object; false if there are no such
+-- pairs.
 local function overlaps(world, thing, moved, stands_on)
   local names = {}
   for _, pair in ipairs(world:colliding(thing)) do
@@ -21,7 +21,7 @@ return function(subject, world, hand, object)
   local moved = {[hand.name] = true}
   local of_arm = hand.parent and overlaps(world, hand.parent, {})
   if of_arm then
-    clench.log.warning(script_line() .. ("%s: '%s' collides before anything moves, which is held against no grasp: %s"):format(
+    clench.log.warning(script_line() .. ("%s: '%s' collides before anything moves; grasps are not rejected for these collisions: %s"):format(
       subject, hand.parent.name, of_arm))
   end
   if hand.parent then moved[hand.parent.name] = true end
@@ -29,7 +29,7 @@ return function(subject, world, hand, object)
   for _, body in ipairs(supports.of(hand, object).touched) do stands_on[body.name] = true end
   local of_object = overlaps(world, object, moved, stands_on)
   if of_object then
-    clench.log.warning(script_line() .. ("%s: the object overlaps something before anything moves, which is held against no grasp: %s"):format(
+    clench.log.warning(script_line() .. ("%s: the object overlaps other bodies before anything moves; grasps are not rejected for these overlaps: %s"):format(
       subject, of_object))
   end
 end

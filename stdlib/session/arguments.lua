@@ -1,4 +1,4 @@
---- Arguments of commands: checked by the command's parameters, with defaults filled in.
+--- Arguments of commands: checked against the command's parameters, with defaults filled in.
 local described = require "clench.described"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
@@ -17,7 +17,7 @@ local function check_shortcut(command)
   raise(("session:command: %s: shortcut: expected a key in lower case, with ctrl+, alt+ and shift+ before it, in this order, got %s"):format(command.name, described(keys)))
 end
 
---- Raises an error of one sentence if a field of a command is missing, unknown or of a wrong type.
+--- Raises an error if a field of a command is missing, unknown or of a wrong type.
 function arguments.check_command(command)
   if type(command) ~= "table" then raise("session:command: expected a table, got " .. described(command)) end
   local name = command.name
@@ -110,7 +110,7 @@ local function names_in(list)
   return names
 end
 
---- The body, robot or link of an address; other values are returned unchanged.
+--- The body, robot or link with an address; other values are returned unchanged.
 function arguments.find(session, address)
   if type(address) ~= "string" then return address end
   local world = session.world or raise "session: no world is open"
@@ -129,27 +129,27 @@ function arguments.find(session, address)
   raise(("session: there is no body or robot '%s'%s"):format(address, suggest(address, names)))
 end
 
---- The body of an address; for a robot, its base.
+--- The body with an address; for a robot, its base.
 function arguments.find_body(session, address)
   local found = arguments.find(session, address)
   return clench.type(found) == "robot" and found.base or found
 end
 
---- The body or robot of an address in a list; without an address the selection.
+--- The body or robot with an address, in a list; without an address, the selection.
 function arguments.find_several(session, address)
   if address ~= nil then return {arguments.find(session, address)} end
   if #session.selection == 0 then raise "session: expected a body or robot, as nothing is selected" end
   return {table.unpack(session.selection)}
 end
 
---- The job of a number in `session.jobs`; the last one by default.
+--- The job with a number in `session.jobs`; the last one by default.
 function arguments.find_job(session, number)
   local jobs = session.jobs
   if #jobs == 0 then raise "session: no job was started" end
   return jobs[number or #jobs] or raise(("session: job: expected 1 to %d, got %d"):format(#jobs, number))
 end
 
---- The robot of an address, or the current hand.
+--- The robot with an address; without an address, the current hand.
 function arguments.find_robot(session, address)
   local found = address == nil and session.hand or arguments.find(session, address)
   if clench.type(found) ~= "robot" then

@@ -1,4 +1,4 @@
---- Conditions under which commands are available: each returns whether it holds, and the reason why not.
+--- Conditions of the availability of commands: each returns a boolean, and the reason if it is false.
 local conditions = {}
 
 function conditions.world(session) return session.world ~= nil, "no world is open" end

@@ -1,18 +1,18 @@
---- Gestures: changes of many small parts, such as a drag or a playback, that are one step of undo.
+--- Gestures: sequences of many small changes, such as a drag or a playback, that form one step of undo.
 local history = require "clench.session.history"
 local script = require "clench.session.script"
 local gesture = {}
 
---- Begins a gesture; the one before it ends.
----@param label string  of the step of undo
----@param lines? fun(): string  lines of Lua that do the same, "" for nothing; by default the resulting poses and DOFs
+--- Begins a gesture, and ends the open one.
+---@param label string  label of the undo step
+---@param lines? fun(): string  returns lines of Lua with the same effect, "" if nothing changed; by default the resulting poses and DOFs
 ---@param over? fun()  called when it ends or is cancelled
 function gesture.begin(session, label, lines, over)
   gesture.finish(session)
   session.gesture = {label = label, lines = lines, over = over, before = history.state_of(session)}
 end
 
--- the open gesture, which is open no longer
+-- closes the open gesture and returns it
 local function take(session)
   local current = session.gesture
   session.gesture = nil
@@ -20,7 +20,7 @@ local function take(session)
   return current
 end
 
---- Ends the open gesture, if there is one; without a change it leaves no step. If its result cannot be logged, the session is as before.
+--- Ends the open gesture, if there is one; without a change no undo step is added. If its result cannot be logged, the session is restored.
 function gesture.finish(session)
   local current = take(session)
   if not current then return end
@@ -34,7 +34,7 @@ function gesture.finish(session)
   session:emit("changed", {gesture = current.label})
 end
 
---- Ends the open gesture and takes back its changes.
+--- Ends the open gesture and reverts its changes.
 function gesture.cancel(session)
   local current = take(session)
   if not current then return end

@@ -1,8 +1,8 @@
---- Undo: the states of a session between its commands. A state holds the world's handle and a clone of the world, so that handles of a script
---- stay valid after undo, those of removed bodies too.
+--- Undo: the states of a session between its commands. A state has the world's handle and a clone of the world, so that handles in a script stay valid after
+--- undo, including those of removed bodies.
 local history = {}
 
-local max_states = 1000  -- that can be undone; clones share meshes and what has not changed
+local max_states = 1000  -- maximum number of states that can be undone; clones share meshes and unchanged data
 
 function history.new() return {done = {}, undone = {}} end
 
@@ -13,7 +13,7 @@ local function alive(list, thing)
   end
 end
 
---- The session as it is, before a command changes it.
+--- The present state of the session, before a command changes it.
 function history.state_of(session)
   return {world = session.world, clone = session.world and session.world:clone(), hand = session.hand, object = session.object, path = session.path,
           selection = {table.unpack(session.selection)}, stack = {table.unpack(session.stack)}}
@@ -31,7 +31,7 @@ function history.take(session, world)
   session.hand, session.object = world.robots[1], world.objects[1]
 end
 
---- Drops what is no longer in the world from hand, object and selection.
+--- Removes bodies and robots that are no longer in the world from hand, object and selection.
 function history.refresh(session)
   local world = session.world
   if not world then return end

@@ -1,9 +1,9 @@
---- Jobs of a session: progress and ends are events of the session, and the grasps that planners send are kept.
+--- Jobs of a session: their progress and end become events of the session, and the grasps that planners send are stored.
 local jobs = {}
 
-local interval = 0.1  -- between two events of progress [s]
+local interval = 0.1  -- time between two progress events [s]
 
--- takes over the events that have arrived
+-- stores the events that have arrived
 local function collect(session, job)
   local found = session.found[job]
   for _, event in ipairs(job:events()) do
@@ -12,8 +12,8 @@ local function collect(session, job)
   return found
 end
 
---- Adds a job to `session.jobs`, and follows it in the loop.
----@param name string  of the command that has started it
+--- Adds a job to `session.jobs`, and monitors it in the loop.
+---@param name string  name of the command that started it
 function jobs.add(session, job, name)
   session.jobs[#session.jobs + 1], session.found[job] = job, {}
   clench.loop.spawn(function()
@@ -28,7 +28,7 @@ function jobs.add(session, job, name)
   return job
 end
 
---- Grasps of a planner's job: those of its result, the best first, or those that were found until now.
+--- Grasps of a planner's job: those of its result, best first, or those found so far.
 function jobs.grasps(session, job)
   local found = collect(session, job)
   if job.state ~= "done" then return found end

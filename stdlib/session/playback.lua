@@ -1,12 +1,13 @@
---- Dynamics beside the clock: a coroutine of `clench.loop` steps the world while it plays. One playback is one gesture, thus one step of undo; it is logged as its number of steps.
+--- Simulation in real time: a coroutine of `clench.loop` steps the world. A playback is one gesture, thus one step of undo; it is logged as its number of
+--- steps.
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local script = require "clench.session.script"
 local playback = {}
 
-local budget = 0.012  -- of one turn of the loop [s]
-local max_lag = 0.1   -- the clock waits for scenes that take longer than this [s]
-local pause = 0.004   -- between turns [s]
+local budget = 0.012  -- time for steps in one turn of the loop [s]
+local max_lag = 0.1   -- a longer lag of the simulation is skipped [s]
+local pause = 0.004   -- pause between turns [s]
 
 function playback.is_on(session) return session.playing ~= nil end
 
@@ -24,7 +25,7 @@ local function catch_up(playing, world)
   if lag > max_lag * playing.speed then playing.skipped = playing.skipped + lag end
 end
 
--- one turn of the loop; an error ends the playback and becomes a diagnostic
+-- one turn of the loop; an error ends the playback and is reported as a diagnostic
 local function turn(session, playing)
   local ok, problem = pcall(catch_up, playing, session.world)
   if ok then
@@ -36,7 +37,7 @@ local function turn(session, playing)
   session:emit("diagnostic", {severity = "error", text = error_text(problem), count = 1})
 end
 
---- Starts to step the world.
+--- Starts the playback.
 ---@param speed number  simulated seconds per second of the clock
 function playback.start(session, speed)
   local loop = clench.loop
@@ -52,7 +53,7 @@ function playback.start(session, speed)
   end)
 end
 
---- Ends the playback; what it did becomes one step of undo.
+--- Ends the playback; its changes become one undo step.
 function playback.stop(session) session:end_gesture() end
 
 return playback

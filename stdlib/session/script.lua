@@ -7,7 +7,7 @@ local function number(x)
   if x ~= x then return "0 / 0" end
   if x == math.huge or x == -math.huge then return x > 0 and "math.huge" or "-math.huge" end
   if math.type(x) == "integer" then return ("%d"):format(x) end
-  -- the shortest of the texts that are read back to the bit
+  -- the shortest text that is read back bit-exactly
   for digits = 15, 16 do
     local text = ("%." .. digits .. "g"):format(x)
     if tonumber(text) == x then return text end
@@ -35,14 +35,14 @@ function script.literal(value)
   end
   table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
   for _, key in ipairs(keys) do
-    -- a name that is no word of Lua stands without brackets
+    -- a name that is not a keyword of Lua needs no brackets
     local is_name = type(key) == "string" and key:match "^[%a_][%w_]*$" and load("local " .. key .. " = 1")
     parts[#parts + 1] = (is_name and key or "[" .. script.literal(key) .. "]") .. " = " .. script.literal(value[key])
   end
   return "{" .. table.concat(parts, ", ") .. "}"
 end
 
---- The call that finds a body, a robot or a link: `world:body "flask"`.
+--- The expression that finds a body, a robot or a link: `world:body "flask"`.
 function script.name_of(thing)
   if clench.type(thing) == "robot" then return ("world:robot(%q)"):format(thing.name) end
   local robot = thing.robot
@@ -50,7 +50,7 @@ function script.name_of(thing)
   return robot.base == thing and ("world:robot(%q).base"):format(robot.name) or ("world:robot(%q):link(%q)"):format(robot.name, thing.name)
 end
 
---- The loop that makes some steps.
+--- The loop that runs a number of steps.
 function script.steps(count, step) return ("for _ = 1, %d do world:run(%s) end"):format(count, number(step)) end
 
 local function same(a, b)
@@ -60,7 +60,7 @@ local function same(a, b)
   return true
 end
 
--- rows of joints that their DOFs do not move
+-- rows of joints that have left their DOFs
 local function loose_joints(robot)
   local rows = {}
   for c, chain in ipairs(robot.chains) do
@@ -71,7 +71,7 @@ local function loose_joints(robot)
   return rows
 end
 
--- joints: joints that have left their DOFs are listed, too
+-- joints: joints that have left their DOFs are also listed
 local function lines_of_robot(robot, old, joints, lines)
   local name = script.name_of(robot)
   if robot.pose ~= old.pose and not robot.parent then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(robot.pose)) end
@@ -97,27 +97,27 @@ local function lines_of_change(world, old, joints)
   return table.concat(lines, "\n")
 end
 
--- do the lines lead from the old world to the present one? They are tried, so that nothing that they leave out goes unnoticed
+-- Do the lines reproduce the present world from the old one? They are executed on a copy, so that nothing is lost unnoticed.
 local function leads(text, old, world)
   local copy = old:clone()
   local try = load("local clench, world = ... " .. text, "=script", "t")
   return pcall(try, clench, copy) and copy:hash() == world:hash()
 end
 
---- Lines that bring a world from the state before a command to the present one: poses, DOFs, joints, masses and materials that differ.
+--- Lines that reproduce the present world from the state before a command: poses, DOFs, joints, masses and materials that differ.
 function script.of_change(session, before)
   local world = session.world
-  if before.world ~= world or not world then raise "session: a command that opens another world must say what it does, by its field script" end
+  if before.world ~= world or not world then raise "session: a command that opens another world needs a field script, which returns its lines of Lua" end
   local old = before.clone
-  if #world.bodies ~= #old.bodies then raise "session: a command that adds or removes bodies must say what it does, by its field script" end
+  if #world.bodies ~= #old.bodies then raise "session: a command that adds or removes bodies needs a field script, which returns its lines of Lua" end
   for _, joints in ipairs {false, true} do
     local text = lines_of_change(world, old, joints)
     if leads(text, old, world) then return text end
   end
-  raise "session: a command that changes more than poses, DOFs, masses and materials must say what it does, by its field script"
+  raise "session: a command that changes more than poses, DOFs, masses and materials needs a field script, which returns its lines of Lua"
 end
 
---- The commands done and not undone, as a script; its local `world` is the open world.
+--- The commands in the history that were not undone, as a script; its local `world` is the open world.
 function script.of(session)
   local lines = {'local clench = require "clench"', "local world"}
   for _, entry in ipairs(session.history.done) do

@@ -1,9 +1,9 @@
 -- stdlib/shapes/axis.lua
---- Where a shape with an axis stands: a length along z, centered on the origin, or the two points of its axis.
+--- Position of a shape with an axis: a length along z, centered on the origin, or the two end points of its axis.
 local vector = require "clench.shapes.vector"
 local mesh = require "clench.shapes.mesh"
 
---- Reads `size` (a name of the length) or `from` and `to`.
+--- Reads `size` (the option that gives the length), or `from` and `to`.
 ---@return number length, fun(mesh: table): table place  moves a mesh that starts at z = 0 and rises along +z
 return function(o, size)
   local length, from, to = o:raw(size), o:point "from", o:point "to"

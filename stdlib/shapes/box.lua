@@ -4,14 +4,14 @@ local read_options = require "clench.shapes.options"
 local corners = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}
 local faces = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}
 
---- A box centered on the origin, its edges sharp, cut or rounded.
+--- A box centered on the origin, with sharp, chamfered or rounded edges.
 ---@param options table  {x, y, z, ...} or by name
 ---@option x number [m, > 0]  size along x
 ---@option y number [m, > 0]  size along y
 ---@option z number [m, > 0]  size along z
----@option chamfer? number [m, >= 0] = 0  width cut off each face beside the edges
+---@option chamfer? number [m, >= 0] = 0  width of the chamfers on each face
 ---@option rounding? number [m, >= 0] = 0  radius of the edges
----@option segments? integer [1 to 64] = 4  per quarter turn of a rounding
+---@option segments? integer [1 to 64] = 4  segments per quarter turn of a rounding
 ---@return table mesh
 return function(options)
   local o = read_options("box", options, {"x", "y", "z"})

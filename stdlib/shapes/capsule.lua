@@ -3,15 +3,14 @@ local read_options = require "clench.shapes.options"
 local axis = require "clench.shapes.axis"
 local revolve = require "clench.shapes.revolve"
 
---- A rod with round ends along z, centered on the origin, or between the centers of its ends. With two radii it
---- is the hull of two spheres.
+--- A rod with spherical ends along z, centered on the origin, or between the centers of its ends. With two radii it is the hull of two spheres.
 ---@param options table  {radius, length, ...} or by name
 ---@option radius number [m, > 0]  radius of the ends
 ---@option length? number [m, > 0]  distance of the centers of the ends
----@option top? number [m, > 0]  radius of the far end, the same by default
----@option from? vec3 [m]  beginning of the axis, in place of the length
+---@option top? number [m, > 0]  radius of the far end, by default that of the other end
+---@option from? vec3 [m]  start of the axis, instead of the length
 ---@option to? vec3 [m]  end of the axis
----@option segments? integer [4 to 1024] = 32  around the axis
+---@option segments? integer [4 to 1024] = 32  segments around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("capsule", options, {"radius", "length"})
@@ -23,7 +22,7 @@ return function(options)
   if math.abs(radius - top) >= length then
     o:fail("the radii must differ by less than the length, %.6g, got %.6g and %.6g", length, radius, top)
   end
-  -- the common tangent leaves both spheres at this height above their equators
+  -- latitude at which the common tangent touches both spheres [rad]
   local tangent = math.asin((radius - top) / length)
   local steps = math.max(2, segments // 4)
   local profile = {{0, -radius}}

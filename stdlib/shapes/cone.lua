@@ -8,9 +8,9 @@ local revolve = require "clench.shapes.revolve"
 ---@option bottom number [m, >= 0]  radius at the bottom
 ---@option top? number [m, >= 0] = 0  radius at the top; at most one of the two is 0
 ---@option height? number [m, > 0]  distance of the ends
----@option from? vec3 [m]  beginning of the axis, in place of the height
+---@option from? vec3 [m]  start of the axis, instead of the height
 ---@option to? vec3 [m]  end of the axis
----@option segments? integer [3 to 4096] = 48  around the axis
+---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("cone", options, {"bottom", "top", "height"})

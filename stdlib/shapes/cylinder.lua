@@ -8,11 +8,11 @@ local revolve = require "clench.shapes.revolve"
 ---@param options table  {radius, height, ...} or by name
 ---@option radius number [m, > 0]  radius of the cylinder
 ---@option height? number [m, > 0]  distance of the ends
----@option from? vec3 [m]  beginning of the axis, in place of the height
+---@option from? vec3 [m]  start of the axis, instead of the height
 ---@option to? vec3 [m]  end of the axis
----@option chamfer? number [m, >= 0] = 0  width cut off each face beside the rims
+---@option chamfer? number [m, >= 0] = 0  width of the chamfers on each face
 ---@option rounding? number [m, >= 0] = 0  radius of the rims
----@option segments? integer [3 to 4096] = 48  around the axis
+---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("cylinder", options, {"radius", "height"})

@@ -3,12 +3,11 @@ local read_options = require "clench.shapes.options"
 local polygon = require "clench.shapes.polygon"
 local revolve = require "clench.shapes.revolve"
 
---- A turned solid: the profile {r, z}, ... swept about the z axis. A profile that starts and ends on the axis
---- (r = 0) bounds a solid body, such as a bottle with its inside; one that stays off the axis is a loop, and
---- bounds a ring.
+--- A solid of revolution: the profile {r, z}, ... swept about the z axis. A profile that starts and ends on the axis (r = 0) bounds a solid body, such as a
+--- bottle with its inside; a profile off the axis is a loop, and bounds a ring.
 ---@param options table  {profile, ...} or by name
----@option profile number[][] [m]  points {r, z}, in either sense
----@option segments? integer [3 to 4096] = 48  around the axis
+---@option profile number[][] [m]  points {r, z}, in either orientation
+---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@return table mesh
 return function(options)
   local o = read_options("lathe", options, {"profile"})
@@ -20,7 +19,7 @@ return function(options)
     if p[1] == 0 then
       on_axis = on_axis + 1
       if i > 1 and i < #profile then
-        o:fail("profile[%d] must lie off the axis, for only its ends may touch it, got radius 0", i)
+        o:fail("profile[%d] must be off the axis, which only its ends may touch, got radius 0", i)
       end
     end
   end

@@ -4,10 +4,9 @@ local within = require "clench.within"
 local read_options = require "clench.shapes.options"
 local skin = require "clench.shapes.skin"
 
---- The solid through a row of cross-sections, each a ring of points {x, y, z}. All rings run the same way round
---- and have the same number of points, in step; the first and the last may be a single point, an apex, and are
---- filled flat otherwise.
----@param sections number[][][]  two rings or more [m]
+--- The solid through a sequence of cross-sections, each a ring of points {x, y, z}. All rings have the same orientation and the same number of corresponding
+--- points; the first and the last may be a single point, an apex, and are capped by flat faces otherwise.
+---@param sections number[][][]  two or more rings [m]
 ---@return table mesh
 return function(sections)
   local o = read_options("loft", sections)
@@ -31,7 +30,7 @@ return function(sections)
     end
     if #ring > 1 then
       count = count or #ring
-      if #ring ~= count then o:fail("ring %d must have %d points like those before it, got %d", i, count, #ring) end
+      if #ring ~= count then o:fail("ring %d must have %d points like the rings before it, got %d", i, count, #ring) end
     end
     rings[i] = points
   end

@@ -1,11 +1,11 @@
 -- stdlib/shapes/measure.lua
---- What a shape measures: bounds, volume, mass properties, and whether it is closed.
+--- Measures of a shape: bounds, volume, mass properties, and whether it is closed.
 local raise = require "clench.raise"
 local mesh = require "clench.shapes.mesh"
 local vector = require "clench.shapes.vector"
 local measure = {}
 
---- Least and largest coordinates.
+--- Minimum and maximum coordinates.
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number[] low, number[] high  [m]
 function measure.bounds(shape)
@@ -17,7 +17,7 @@ function measure.bounds(shape)
   return low, high
 end
 
---- Volume enclosed, > 0 when the triangles face outward; overlaps of a union's parts count twice.
+--- Enclosed volume, > 0 if the triangles face outward; overlaps between parts of a union count twice.
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number volume  [m^3]
 function measure.volume(shape) return mesh.volume6(mesh.check(shape, "shapes.volume")) / 6 end
@@ -35,9 +35,9 @@ function measure.area(shape)
   return sum
 end
 
---- Is every edge run exactly once each way, so that the surface bounds a solid?
+--- Does every edge occur exactly once in each direction, so that the surface bounds a solid?
 ---@param shape table  {vertices = ..., triangles = ...}
----@return boolean closed, string? why  what is wrong, when it is not
+---@return boolean closed, string? why  the fault if it is not closed
 function measure.closed(shape)
   shape = mesh.check(shape, "shapes.closed")
   local runs, count = {}, #shape.vertices + 1
@@ -46,7 +46,7 @@ function measure.closed(shape)
       local a, b = t[k], t[k % 3 + 1]
       if a == b then return false, ("triangle %d has a corner twice"):format(i) end
       local key = a * count + b
-      if runs[key] then return false, ("triangles %d and %d run along an edge the same way"):format(runs[key], i) end
+      if runs[key] then return false, ("triangles %d and %d run along an edge in the same direction"):format(runs[key], i) end
       runs[key] = i
     end
   end
@@ -59,7 +59,7 @@ function measure.closed(shape)
   return true
 end
 
---- Integrals over the solid, for uniform density; overlaps of a union's parts count twice.
+--- Integrals over the solid, for uniform density; overlaps between parts of a union count twice.
 --- Source: Eberly (2002), polyhedral mass properties: moments of the tetrahedra from a point to each triangle
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return {volume: number, centroid: number[], inertia: number[][]} mass  [m^3, m]; inertia about the centroid for
@@ -83,7 +83,7 @@ function measure.mass(shape)
       end
     end
   end
-  -- of less the quotient overflows
+  -- the quotient of smaller volumes overflows
   if math.abs(volume) < 1e-300 then raise("shapes.mass: expected a solid, got a shape without volume") end
   local center, spread, inertia = vector.scale(first, 1 / volume), {}, {}
   for i = 1, 3 do

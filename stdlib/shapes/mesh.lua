@@ -8,7 +8,7 @@ local vector = require "clench.shapes.vector"
 local within = require "clench.within"
 local mesh = {}
 
---- of all coordinates [m]
+--- bound of all coordinates [m]
 mesh.largest = 1e9
 
 local function fail(subject, format, ...) raise(subject .. ": " .. format:format(...)) end
@@ -24,7 +24,7 @@ local function check_vertex(subject, i, p)
   end
 end
 
--- a copy with vertices as lists, of a mesh or of a table that has vectors among its vertices; else the shape itself
+-- a copy with vertices as lists, for a mesh or a table with vectors among its vertices; else the shape itself
 local function with_lists(shape)
   local vectors = clench.type(shape) == "mesh"
   if not vectors and (type(shape) ~= "table" or type(shape.vertices) ~= "table") then return shape end
@@ -36,7 +36,7 @@ local function with_lists(shape)
   return {vertices = vertices, triangles = shape.triangles, round = type(shape) == "table" and shape.round or nil}
 end
 
---- A shape as a table of lists; meshes of bodies and vertices that are vectors are converted. Raises an error of one sentence for other values.
+--- A shape as a table of lists; meshes of bodies and vertices that are vectors are converted. Raises an error for other values.
 function mesh.check(shape, subject)
   shape = with_lists(shape)
   if type(shape) ~= "table" or type(shape.vertices) ~= "table" or type(shape.triangles) ~= "table" then
@@ -49,7 +49,7 @@ function mesh.check(shape, subject)
     for k = 1, 3 do
       local got = t
       if type(t) == "table" then got = t[k] end
-      -- '3' would be made an integer too
+      -- a string such as '3' would also convert to an integer
       local index = type(got) == "number" and math.tointeger(got)
       if not index or index < 1 or index > count then
         fail(subject, "triangle %d must name vertices 1 to %d, got %s", i, count, described(got))
@@ -60,7 +60,7 @@ function mesh.check(shape, subject)
   return shape
 end
 
---- equal points become one; triangles left with a corner twice are dropped, and points without triangle
+--- Merges equal points; removes triangles that then have a corner twice, and points without triangles.
 function mesh.weld(shape)
   local vertices, triangles, index_of = {}, {}, {}
   local function place(i)
@@ -82,7 +82,7 @@ function mesh.weld(shape)
   return {vertices = vertices, triangles = triangles}
 end
 
---- six times the signed volume, about the first vertex so that distant shapes lose no digits
+--- Six times the signed volume, relative to the first vertex so that distant shapes lose no digits.
 function mesh.volume6(shape)
   local origin, sum = shape.vertices[1], 0
   for _, t in ipairs(shape.triangles) do
@@ -94,20 +94,20 @@ function mesh.volume6(shape)
   return sum
 end
 
---- every triangle run the other way round
+--- Reverses the orientation of every triangle.
 function mesh.flip(shape)
   for _, t in ipairs(shape.triangles) do t[2], t[3] = t[3], t[2] end
   return shape
 end
 
---- turns a closed shape's triangles outward; throws one sentence when it encloses nothing
+--- Orients the triangles of a closed shape outward; raises an error if it has no volume.
 function mesh.outward(shape, subject)
   local volume = #shape.triangles > 0 and mesh.volume6(shape) or 0
   if volume == 0 then fail(subject, "expected a solid, got a shape without volume") end
   return volume > 0 and shape or mesh.flip(shape)
 end
 
---- a copy with every vertex p replaced by map(p); throws one sentence when that is no point any more
+--- A copy with every vertex p replaced by map(p); raises an error if the result is not a point.
 function mesh.map(shape, map, subject)
   local vertices, triangles = {}, {}
   for i, p in ipairs(shape.vertices) do

@@ -1,4 +1,4 @@
---- The options of a shape, by its name. No length is beyond what a mesh may reach.
+--- Reads the options of a shape, with error messages for its name. Lengths are limited to the coordinates of meshes.
 local options = require "clench.options"
 local mesh = require "clench.shapes.mesh"
 

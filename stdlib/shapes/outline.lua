@@ -3,7 +3,7 @@ local within = require "clench.within"
 local read_options = require "clench.shapes.options"
 local polygon = require "clench.shapes.polygon"
 
---- where the arc that rounds the corner p begins and ends, and its center; nil when the corner is straight
+--- Start, end and center of the arc that rounds the corner p; nil if the corner is straight.
 local function corner_arc(p, before, after, radius)
   local ux, uy = before[1] - p[1], before[2] - p[2]
   local vx, vy = after[1] - p[1], after[2] - p[2]
@@ -21,10 +21,10 @@ end
 
 --- A simple polygon with rounded corners, counter-clockwise.
 ---
---- Each corner is {x, y} or {x, y, radius}; `rounding` is the radius of those that name none.
+--- Each corner is {x, y} or {x, y, radius}; `rounding` is the radius of corners without one.
 ---@param options table  the corners, and by name
----@option rounding? number [m, >= 0] = 0  radius of corners that name none
----@option segments? integer [1 to 256] = 6  per corner
+---@option rounding? number [m, >= 0] = 0  radius of corners without one
+---@option segments? integer [1 to 256] = 6  segments per corner
 ---@return number[][] points
 return function(options)
   local o = read_options("outline", options)

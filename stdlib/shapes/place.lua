@@ -1,5 +1,5 @@
 -- stdlib/shapes/place.lua
---- Shapes moved, turned, scaled, mirrored: each returns a new mesh and leaves the given one alone.
+--- Transforms of shapes: translation, rotation, scaling and reflection. Each returns a new mesh and leaves the given one unchanged.
 local raise = require "clench.raise"
 local described = require "clench.described"
 local mesh = require "clench.shapes.mesh"
@@ -19,7 +19,7 @@ local function check_vector(subject, what, v)
   return v
 end
 
---- The shape moved by an offset.
+--- Translates a shape by an offset.
 ---@param shape table  mesh as functions of clench.shapes return it
 ---@param offset number[]  {x, y, z} [m]
 ---@return table mesh
@@ -29,11 +29,11 @@ function place.move(shape, offset)
   return mesh.map(shape, function(p) return vector.add(p, offset) end, "shapes.move")
 end
 
---- The shape turned about an axis through a point.
----@param shape table  mesh as functions of clench.shapes return it
+--- Rotates a shape about an axis through a point.
+---@param shape table  mesh in the form of clench.shapes
 ---@param axis number[]  {x, y, z}, of any length
 ---@param angle number  right-handed [rad]
----@param about? number[]  a point of the axis, else the origin [m]
+---@param about? number[]  a point of the axis, the origin by default [m]
 ---@return table mesh
 function place.turn(shape, axis, angle, about)
   shape = mesh.check(shape, "shapes.turn")
@@ -48,7 +48,7 @@ function place.turn(shape, axis, angle, about)
   end, "shapes.turn")
 end
 
---- The shape scaled about the origin, by one factor or by one for each axis.
+--- Scales a shape about the origin, by one factor or by one per axis.
 ---@param shape table  mesh as functions of clench.shapes return it
 ---@param factor number|number[]  > 0
 ---@return table mesh
@@ -64,9 +64,9 @@ function place.scale(shape, factor)
   return mesh.map(shape, function(p) return {k[1] * p[1], k[2] * p[2], k[3] * p[3]} end, "shapes.scale")
 end
 
---- The shape mirrored in the plane through the origin at right angles to an axis.
+--- Reflects a shape in the plane through the origin perpendicular to an axis.
 ---@param shape table  mesh as functions of clench.shapes return it
----@param axis "x"|"y"|"z"  axis whose coordinates change their sign
+---@param axis "x"|"y"|"z"  axis whose coordinates change sign
 ---@return table mesh
 function place.mirror(shape, axis)
   shape = mesh.check(shape, "shapes.mirror")

@@ -3,7 +3,7 @@
 local raise = require "clench.raise"
 local polygon = {}
 
--- every edge is held against every other one
+-- limited, as every edge is compared with every other edge
 local max_points = 1024
 
 local function check_count(points, subject)
@@ -12,7 +12,7 @@ end
 
 local function cross(o, a, b) return (a[1] - o[1]) * (b[2] - o[2]) - (a[2] - o[2]) * (b[1] - o[1]) end
 
---- signed area, > 0 when counter-clockwise
+--- Signed area, > 0 if counter-clockwise.
 function polygon.area(points)
   local sum, o = 0, points[1]
   for i = 2, #points - 1 do sum = sum + cross(o, points[i], points[i + 1]) end
@@ -31,14 +31,14 @@ local function meet(a, b, c, d)
   return on_segment(a, c, d) or on_segment(b, c, d) or on_segment(c, a, b) or on_segment(d, a, b)
 end
 
---- numbers of the first two edges that meet though they are no neighbors, or of an edge without length
+--- Indices of the first two edges that touch without being neighbors, or of an edge without length.
 function polygon.crossing(points)
   local n = #points
   local function corner(i) return points[(i - 1) % n + 1] end
   for i = 1, n do
     local a, b = corner(i), corner(i + 1)
     if a[1] == b[1] and a[2] == b[2] then return i, i end
-    -- neighbors meet where they join; they must not fold back onto each other
+    -- neighbors touch at their common corner; they must not fold back onto each other
     if on_segment(corner(i + 2), a, b) or (n > 3 and on_segment(a, b, corner(i + 2))) then return i, i % n + 1 end
     for j = i + 2, n do
       if not (i == 1 and j == n) and meet(a, b, corner(j), corner(j + 1)) then return i, j end
@@ -46,7 +46,7 @@ function polygon.crossing(points)
   end
 end
 
---- the points counter-clockwise; throws one sentence when they bound no simple area
+--- The points in counter-clockwise order; raises an error if they do not bound a simple area.
 function polygon.simple(points, subject)
   check_count(points, subject)
   local i, j = polygon.crossing(points)
@@ -60,7 +60,7 @@ function polygon.simple(points, subject)
   return ordered
 end
 
---- every edge of a counter-clockwise polygon moved inward by `distance`; corners keep their number
+--- Moves every edge of a counter-clockwise polygon inward by `distance`; corners keep their indices.
 function polygon.inset(points, distance)
   local n, moved = #points, {}
   for i, p in ipairs(points) do
@@ -69,7 +69,7 @@ function polygon.inset(points, distance)
     local vx, vy = after[1] - p[1], after[2] - p[2]
     local lu, lv = math.sqrt(ux * ux + uy * uy), math.sqrt(vx * vx + vy * vy)
     ux, uy, vx, vy = ux / lu, uy / lu, vx / lv, vy / lv
-    -- the corner slides along the bisector until both edges have moved by the distance
+    -- the corner moves along the bisector until both edges have moved by the distance
     local bisector = 1 + ux * vx + uy * vy
     moved[i] = {p[1] - distance * (uy + vy) / bisector, p[2] + distance * (ux + vx) / bisector}
   end
@@ -80,7 +80,7 @@ local function inside(p, a, b, c)
   return cross(a, b, p) >= 0 and cross(b, c, p) >= 0 and cross(c, a, p) >= 0
 end
 
---- how good an ear corner i is (smallest height over longest side), or nil when it is none
+--- Quality of the ear at corner i (smallest height over longest side); nil if it is not an ear.
 local function ear(points, ring, i)
   local n = #ring
   local a, b, c = points[ring[(i - 2) % n + 1]], points[ring[i]], points[ring[i % n + 1]]
@@ -94,7 +94,7 @@ local function ear(points, ring, i)
   return area / math.max(squared(a, b), squared(b, c), squared(c, a))
 end
 
---- triangles {i, j, k} that fill a simple counter-clockwise polygon, by ear clipping, best ear first
+--- Triangles {i, j, k} that fill a simple counter-clockwise polygon, by ear clipping, best ear first.
 --- source  Meisters (1975), polygons have ears; Eberly (2008), triangulation by ear clipping
 function polygon.triangulate(points, subject)
   check_count(points, subject)
@@ -107,7 +107,7 @@ function polygon.triangulate(points, subject)
       if quality[i] > quality[best] then best = i end
     end
     if quality[best] < 0 then
-      -- a clipped corner may have freed an ear elsewhere
+      -- a clipped corner may have created an ear elsewhere
       for i = 1, #ring do
         quality[i] = ear(points, ring, i) or -1
         if quality[i] > quality[best] then best = i end

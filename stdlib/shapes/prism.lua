@@ -4,7 +4,7 @@ local arc = require "clench.shapes.arc"
 local polygon = require "clench.shapes.polygon"
 local skin = require "clench.shapes.skin"
 
---- the outline moved inward by `inset` at height z; throws when an edge would vanish
+--- The outline moved inward by `inset`, at height z; raises an error if an edge would vanish.
 local function layer(o, outline, inset, z)
   local moved = inset > 0 and polygon.inset(outline, inset) or outline
   local ring = {}
@@ -12,7 +12,7 @@ local function layer(o, outline, inset, z)
     local a, b = outline[i], outline[i % #outline + 1]
     local q = moved[i % #moved + 1]
     if (b[1] - a[1]) * (q[1] - p[1]) + (b[2] - a[2]) * (q[2] - p[2]) <= 0 then
-      o:fail("the bevel must leave some of every edge, got %.6g, which uses up edge %d", inset, i)
+      o:fail("the bevel must leave a part of every edge, got %.6g, which removes edge %d", inset, i)
     end
     ring[i] = {p[1], p[2], z}
   end
@@ -20,13 +20,13 @@ local function layer(o, outline, inset, z)
   return ring
 end
 
---- A prism from z = 0 to z = height over a simple polygon, convex or not, its two rims sharp, cut or rounded.
+--- A prism from z = 0 to z = height over a simple polygon, convex or not, with sharp, chamfered or rounded rims.
 ---@param options table  {outline, height, ...} or by name
----@option outline number[][] [m]  points {x, y}, in either sense
+---@option outline number[][] [m]  points {x, y}, in either orientation
 ---@option height number [m, > 0]  distance of the ends
----@option chamfer? number [m, >= 0] = 0  width cut off each face beside the rims
+---@option chamfer? number [m, >= 0] = 0  width of the chamfers on each face
 ---@option rounding? number [m, >= 0] = 0  radius of the rims
----@option segments? integer [1 to 64] = 4  per rounding
+---@option segments? integer [1 to 64] = 4  segments per rounding
 ---@return table mesh
 return function(options)
   local o = read_options("prism", options, {"outline", "height"})

@@ -1,9 +1,9 @@
 -- stdlib/shapes/revolve.lua
---- The solid that a profile of points {r, z} sweeps about the z axis.
+--- The solid swept by a profile of points {r, z} about the z axis.
 local skin = require "clench.shapes.skin"
 
 ---@param profile number[][]  r >= 0; r = 0 only at the ends
----@param closed boolean  does the last point join the first, off the axis?
+---@param closed boolean  true: the profile is a loop off the axis
 return function(profile, closed, segments, subject)
   local rings = {}
   for i, p in ipairs(profile) do

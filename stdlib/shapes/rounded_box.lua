@@ -3,13 +3,13 @@ local read_options = require "clench.shapes.options"
 local arc = require "clench.shapes.arc"
 local skin = require "clench.shapes.skin"
 
---- a rectangle with rounded corners at height z, counter-clockwise; hx, hy reach to the corners' centers
+--- A rectangle with rounded corners at height z, counter-clockwise; (±hx, ±hy) are the centers of the corners.
 local function rectangle(hx, hy, radius, z, segments)
   local points = {}
   for corner = 0, 3 do
     local sx, sy = (corner == 0 or corner == 3) and 1 or -1, corner < 2 and 1 or -1
     for k = 0, segments do
-      -- the corner's quarter turn, run so that the angle grows
+      -- the corner's quarter turn, in increasing angle
       local c, s = arc(sx * sy > 0 and k or segments - k, segments)
       points[#points + 1] = {sx * (hx + radius * c), sy * (hy + radius * s), z}
     end

@@ -1,6 +1,6 @@
 -- stdlib/shapes/skin.lua
---- The closed surface over a stack of rings: bands between neighbors, caps over the ends. A ring is a list of
---- points; a ring of one point is an apex. All other rings have the same number of points, in step.
+--- The closed surface over a stack of rings: bands between neighbors, and end caps. A ring is a list of points; a ring of one point is an apex. All other rings
+--- have the same number of corresponding points.
 local raise = require "clench.raise"
 local vector = require "clench.shapes.vector"
 local mesh = require "clench.shapes.mesh"
@@ -13,7 +13,7 @@ local function distance2(a, b)
   return vector.dot(d, d)
 end
 
---- triangles between two rings, given as first vertex and count each
+--- Triangles between two rings, each given by its first vertex and count.
 local function band(triangles, vertices, a, na, b, nb)
   for i = 0, math.max(na, nb) - 1 do
     local a0, a1 = a + i % na, a + (i + 1) % na
@@ -23,7 +23,7 @@ local function band(triangles, vertices, a, na, b, nb)
     elseif nb == 1 then
       triangles[#triangles + 1] = {a0, a1, b0}
     elseif distance2(vertices[a0], vertices[b1]) <= distance2(vertices[a1], vertices[b0]) * (1 + 1e-9) then
-      -- the shorter diagonal, with a bias that rounding cannot tip
+      -- the shorter diagonal, with a bias so that rounding errors do not change the choice
       triangles[#triangles + 1] = {a0, a1, b1}
       triangles[#triangles + 1] = {a0, b1, b0}
     else
@@ -33,7 +33,7 @@ local function band(triangles, vertices, a, na, b, nb)
   end
 end
 
---- a ring seen along its own normal (Newell's), and whether that is counter-clockwise
+--- Projects a ring along its own normal (Newell's); returns also whether it is counter-clockwise.
 local function flatten(ring)
   local normal = {0, 0, 0}
   for i, p in ipairs(ring) do
@@ -50,7 +50,7 @@ local function flatten(ring)
   return flat
 end
 
---- fills an end ring; one that has shrunk to a line or a point needs no cap
+--- Caps an end ring; a ring that has shrunk to a line or a point needs no cap.
 local function cap(triangles, ring, first, outward, subject)
   local distinct, index = {}, {}
   for i, p in ipairs(ring) do
@@ -69,7 +69,7 @@ local function cap(triangles, ring, first, outward, subject)
 end
 
 ---@param rings number[][][]
----@param closed boolean  is the last ring joined to the first?
+---@param closed boolean  true: the last ring is joined to the first
 ---@param subject string  for messages
 ---@return table mesh
 return function(rings, closed, subject)

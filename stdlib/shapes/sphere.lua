@@ -12,7 +12,7 @@ local function icosahedron()
                     {4, 9, 10}, {5, 10, 6}, {3, 5, 12}, {7, 3, 11}, {9, 7, 8}, {10, 9, 2}}
 end
 
---- each triangle becomes four, the new vertices pushed out to the unit sphere
+--- Divides each triangle into four, with the new vertices projected onto the unit sphere.
 local function subdivide(vertices, triangles)
   local middle_of, finer = {}, {}
   local base = #vertices + 1
@@ -34,10 +34,10 @@ local function subdivide(vertices, triangles)
   return finer
 end
 
---- A sphere about the origin: an icosahedron, subdivided; its vertices lie on the sphere.
+--- A sphere about the origin: a subdivided icosahedron, with its vertices on the sphere.
 ---@param options table  {radius, ...} or by name
 ---@option radius number [m, > 0]  radius of the sphere
----@option subdivisions? integer [0 to 7] = 3  20 * 4^subdivisions triangles
+---@option subdivisions? integer [0 to 7] = 3  number of subdivisions; the mesh has 20 * 4^subdivisions triangles
 ---@return table mesh
 return function(options)
   local o = read_options("sphere", options, {"radius"})

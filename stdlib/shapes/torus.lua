@@ -5,9 +5,9 @@ local revolve = require "clench.shapes.revolve"
 --- A torus about the z axis.
 ---@param options table  {radius, tube, ...} or by name
 ---@option radius number [m, > 0]  distance of the center of the tube from the axis
----@option tube number [m, > 0]  radius of the tube, smaller
----@option segments? integer [3 to 4096] = 48  around the axis
----@option sides? integer [3 to 1024] = 24  around the tube
+---@option tube number [m, > 0]  radius of the tube, smaller than `radius`
+---@option segments? integer [3 to 4096] = 48  segments around the axis
+---@option sides? integer [3 to 1024] = 24  segments around the tube
 ---@return table mesh
 return function(options)
   local o = read_options("torus", options, {"radius", "tube"})

@@ -5,7 +5,7 @@ local polygon = require "clench.shapes.polygon"
 local skin = require "clench.shapes.skin"
 local vector = require "clench.shapes.vector"
 
---- unit directions of the path's segments; throws when one has no length
+--- Unit directions of the path's segments; raises an error if one has no length.
 local function directions(o, path, closed)
   local list = {}
   for i = 1, #path - (closed and 0 or 1) do
@@ -15,7 +15,7 @@ local function directions(o, path, closed)
   return list
 end
 
---- x turned by the least rotation that takes unit vector a to b
+--- Rotates x by the smallest rotation that maps the unit vector a to b.
 local function carry(x, a, b)
   local axis = vector.cross(a, b)
   local sine = vector.norm(axis)
@@ -23,7 +23,7 @@ local function carry(x, a, b)
   return vector.turn(x, vector.scale(axis, 1 / sine), math.atan(sine, vector.dot(a, b)))
 end
 
---- the section's x axis along each segment, turned as little as the path allows
+--- The section's x axis along each segment, with the least twist.
 --- source  Bishop (1975), frames that do not turn about the curve
 local function section_axes(o, dirs, up)
   local x = vector.frame(dirs[1])
@@ -39,7 +39,7 @@ local function section_axes(o, dirs, up)
   return axes
 end
 
---- the section at a path point, on the plane that halves the bend there
+--- The section at a point of the path, in the plane that bisects the bend there.
 local function mitred(o, section, p, i, dir_in, dir_out, x, angle, radius)
   local normal = vector.unit(vector.add(dir_in, dir_out))
   if not normal then o:fail("path[%d] must not turn straight back, got a bend of 180 degrees", i) end
@@ -54,7 +54,7 @@ local function mitred(o, section, p, i, dir_in, dir_out, x, angle, radius)
   return ring
 end
 
---- rings that round an end off to a point: half an ellipsoid over the end ring, rising along `dir`
+--- Rings that close an end in a dome: half an ellipsoid over the end ring, rising along `dir`.
 local function dome(ring, center, dir, height, steps)
   local rings = {}
   for k = 1, steps - 1 do
@@ -69,20 +69,20 @@ local function dome(ring, center, dir, height, steps)
   return rings
 end
 
---- every point of the section must move forward along every segment, or the tube would fold into itself
+--- Checks that every point of the section moves forward along every segment, since otherwise the tube would fold.
 local function check_bends(o, rings, dirs)
   for i, dir in ipairs(dirs) do
     local next_ring = rings[i % #rings + 1]
     for k, p in ipairs(rings[i]) do
       if vector.dot(vector.sub(next_ring[k], p), dir) <= 0 then
-        o:fail("the path must bend more gently than the tube is wide, got a fold between path[%d] and path[%d]", i,
+        o:fail("the path bends too sharply for the width of the tube, got a fold between path[%d] and path[%d]", i,
                i % #rings + 1)
       end
     end
   end
 end
 
---- one radius for each path point, and the section of radius 1, or the given profile with factors 1
+--- One radius per path point, and the section of radius 1, or the given profile with factors 1.
 local function read_section(o, count)
   local radius, profile, sides = o:raw "radius", o:raw "profile", o:get "sides"
   if (radius == nil) == (profile == nil) then
@@ -110,16 +110,16 @@ local function read_section(o, count)
   return section, radii
 end
 
---- A circle or another section swept along a path: a handle, a cable, a frame.
+--- Sweeps a circle or another section along a path, as for a handle, a cable or a frame.
 ---@param options table  {path, ...} or by name
 ---@option path number[][] [m]  points {x, y, z}
----@option radius? number|number[] [m, > 0]  radius of all or of each of the points
----@option profile? number[][] [m]  points {x, y} of another section, in place of the radius; its y is towards `up` at the start
+---@option radius? number|number[] [m, > 0]  one radius, or one per point
+---@option profile? number[][] [m]  points {x, y} of another section, instead of the radius; its y axis points towards `up` at the start
 ---@option closed? boolean = false  joins the last point to the first
 ---@option ends? "flat"|"round" = "flat"  form of the ends
----@option up? vec3  direction of y of the profile
----@option sides? integer [3 to 1024] = 24  of a round section
----@option steps? integer [2 to 64] = 6  of a round end
+---@option up? vec3  direction of the profile's y axis at the start
+---@option sides? integer [3 to 1024] = 24  number of segments of a round section
+---@option steps? integer [2 to 64] = 6  number of steps of a round end
 ---@return table mesh
 return function(options)
   local o = read_options("tube", options, {"path"})
@@ -132,7 +132,7 @@ return function(options)
   local axes = section_axes(o, dirs, up)
   local twist = 0
   if closed then
-    -- what the frame has turned on its way round is undone in equal parts
+    -- the twist of a closed path is removed in equal parts
     local x = carry(axes[#axes], dirs[#dirs], dirs[1])
     twist = -math.atan(vector.dot(vector.cross(axes[1], x), dirs[1]), vector.dot(axes[1], x)) / #path
   end

@@ -3,9 +3,9 @@ local raise = require "clench.raise"
 local described = require "clench.described"
 local mesh = require "clench.shapes.mesh"
 
---- Several closed shapes as one: their vertices and triangles side by side, nothing cut away. Parts may overlap;
---- inside is what any part encloses (the engine counts windings), but volume and mass count an overlap twice.
----@param parts table[]  meshes, one or more
+--- Combines several closed shapes: concatenates their vertices and triangles without removing anything. Parts may overlap; the interior is the union of the
+--- parts (the engine counts windings), but volume and mass count overlaps twice.
+---@param parts table[]  one or more meshes
 ---@return table mesh
 return function(parts)
   if type(parts) ~= "table" or #parts == 0 then

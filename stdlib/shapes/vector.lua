@@ -1,9 +1,9 @@
 -- stdlib/shapes/vector.lua
---- Vectors of three numbers, as far as the shapes need them.
+--- Vectors of three numbers, with the operations that shapes need.
 local vector = {list = require "clench.coordinates"}
 
 function vector.add(a, b) return {a[1] + b[1], a[2] + b[2], a[3] + b[3]} end
---- with a point: integers would go round in products
+--- a - b in floats: products of integers would wrap around
 function vector.sub(a, b) return {a[1] - b[1] + 0.0, a[2] - b[2] + 0.0, a[3] - b[3] + 0.0} end
 function vector.scale(a, k) return {k * a[1], k * a[2], k * a[3]} end
 function vector.dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
@@ -16,14 +16,14 @@ function vector.cross(a, b)
   return {a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1]}
 end
 
---- the unit vector along a, or nil when a has no direction
+--- The unit vector along a; nil if a has no direction.
 function vector.unit(a)
   local length = vector.norm(a)
   if not (length > 0) then return nil end
   return vector.scale(a, 1 / length)
 end
 
---- two unit vectors that form a right-handed frame x, y, z with the unit vector z
+--- Two unit vectors that form a right-handed frame x, y, z with the unit vector z.
 function vector.frame(z)
   local least, axis = math.huge, nil
   for k = 1, 3 do
@@ -36,7 +36,7 @@ function vector.frame(z)
   return x, vector.cross(z, x)
 end
 
---- a turned about the unit vector axis by angle [rad]
+--- Rotates a about a unit axis by an angle [rad].
 function vector.turn(a, axis, angle)
   local c, s = math.cos(angle), math.sin(angle)
   local part = vector.scale(axis, vector.dot(a, axis) * (1 - c))

@@ -1,11 +1,11 @@
---- Descriptions of entries, as `signature` parses them, with the options that @like takes from others.
+--- Descriptions of entries, as parsed by `signature`, with the options that @like takes from other entries.
 local packed_docs = require "clench.signature.packed_docs"
 local packed_text = require "clench.packed_text"
 local raise = require "clench.raise"
 local signature = require "clench.signature.grammar"
 local descriptions = {}
 
--- docs of the entries in C++ by name, listed when one is first needed
+-- docs of the entries in C++ by name, loaded on first use
 local docs
 local function doc_of_engine(name)
   if not docs then
@@ -21,11 +21,12 @@ local function doc_of_engine(name)
   return docs[name]
 end
 
--- "clench.plan.sample" lies in plan/sample.lua, "clench.csv.read" in csv.lua
+-- "clench.plan.sample" is in plan/sample.lua, "clench.csv.read" in csv.lua
 local function doc_of_stdlib(name)
-  local module, unit = name:match "^clench%.([%w_]+)%.?([%w_]*)$"
+  local module = name:match "^clench%.([%w_.]+)$"
   if not module then return nil end
-  for _, path in ipairs {module .. "/" .. unit .. ".lua", module .. ".lua"} do
+  local path, parent = module:gsub("%.", "/"), module:match "^(.*)%." or module
+  for _, path in ipairs {path .. ".lua", parent:gsub("%.", "/") .. ".lua"} do
     local text = packed_text(path)
     for _, entry in ipairs(text and packed_docs.of {path = path, text = text} or {}) do
       if "clench." .. entry.name == name then return entry.doc end
@@ -47,7 +48,7 @@ local function options_of(name)
   raise(("signature: @like %s: there is no such entry with options"):format(name), "internal")
 end
 
--- inserts the options of another entry, unless the parameter has its own of that name
+-- inserts the options of another entry, unless the parameter has an option of that name
 local function add_like(item, like)
   local at, from = like.at, options_of(like.entry)
   local names = like.names
@@ -65,13 +66,13 @@ local function add_like(item, like)
   end
 end
 
---- As signature.parse; @like is resolved.
+--- As signature.parse, with @like resolved.
 ---@param doc string
 ---@return table
 function descriptions.parse(doc)
   local parsed = signature.parse(doc)
   for _, item in ipairs(parsed.parameters) do
-    -- from the last one, so that the places of the others stay right
+    -- from the last one, so that the other positions stay valid
     for i = #(item.like or {}), 1, -1 do add_like(item, item.like[i]) end
     item.like = nil
   end
@@ -80,7 +81,7 @@ end
 
 local known = {}
 
---- The description of an entry; nil where there is none of that name.
+--- The description of an entry; nil if there is no entry of that name.
 ---@param name string  "clench.plan.sample", "world:on_step"
 ---@return table?
 function descriptions.of(name)

@@ -1,4 +1,4 @@
---- Does a value fit the description of a parameter, as `signature` gives it?
+--- Does a value fit the description of a parameter from `signature`?
 local coordinates = require "clench.coordinates"
 local within = require "clench.within"
 local fitting = {}
@@ -12,7 +12,7 @@ local function is_point(value)
   return is_number(value[1]) and is_number(value[2]) and is_number(value[3])
 end
 
--- what of each type an error asks for, and whether a value is one; of all other types clench.type decides
+-- text for errors and test for each type; other types are tested by clench.type
 local kinds = {
   any = {"anything", function() return true end},
   number = {"a finite number", is_number},
@@ -41,7 +41,7 @@ local function kind_of(name)
   return kinds[name] or kind_of_class(name)
 end
 
-local alternatives = {}  -- of each type, as {what, fits} each
+local alternatives = {}  -- by type, a list of {text, test}
 
 -- the parts of 'number|"exact"|{a: b|c}[]'
 local function alternatives_of(kind)
@@ -54,7 +54,7 @@ end
 
 local function bound(x) return ("%.10g"):format(x) end
 
--- what a number must be, by its bounds; `above`: it is too large
+-- text for a number within its bounds; `above`: it is too large
 local function range_text(item, above)
   local low = item.min and (item.min_open and "> " or ">= ") .. bound(item.min)
   if item.type == "integer" then
@@ -65,7 +65,7 @@ local function range_text(item, above)
   return low and "a number " .. low or "a finite number"
 end
 
--- what is asked for instead of a number beyond its bounds; nil: it is within them
+-- text for a number beyond its bounds; nil if it is within them
 local function range_fault(item, value)
   local low, high = item.min, item.max
   if low and not (value > low or value == low and not item.min_open) then return range_text(item) end
@@ -80,10 +80,10 @@ local function wanted(item, list)
   return #words > 0 and table.concat(words, ", ") .. " or " .. last or last
 end
 
---- What the value must be instead; nil where it fits.
+--- Text of the values that would fit; nil if the value fits.
 ---@param item table  parameter or option of signature.parse
 ---@param value any
----@param largest? number  of all numbers
+---@param largest? number  bound of all numbers
 ---@return string?
 function fitting.fault(item, value, largest)
   local list, fits = alternatives_of(item.type), false

@@ -2,23 +2,22 @@
 ---
 ---     Closes the fingers until contact stops them.
 ---     @param options? table
----     @option speed? number [m/s, > 0] = 1  the pace of the hand
----     @option limits.force? number [N, >= 0]  largest force of a finger
+---     @option speed? number [m/s, > 0] = 1  speed of the hand
+---     @option limits.force? number [N, >= 0]  maximum force of a finger
 ---     @return table result  `moved`, `stops`
 ---     @effect edits
 ---     > hand:autograsp().moved  --> true
 ---
---- A line is `name? type [unit, range] = default`, then two spaces and prose. A range is any of `>= 0`, `> 0`, `<= 1`, `< 1` and
---- `1 to 1000`; what else stands in the brackets is the unit. An @option belongs to the @param before it, a name with a dot to that
---- option. Options of few words may stand in the type instead, `{speed?: number}`, with `speed: prose` separated by semicolons.
---- `@like clench.plan.anneal  seed, world` adds these options of another entry, or all of them where none is named, to the @param before
---- it. A field has `@type type [unit, range]`. @effect is `reads`, `edits`, `files` or `long`.
+--- A line is `name? type [unit, range] = default`, then two spaces and prose. A range is any of `>= 0`, `> 0`, `<= 1`, `< 1` and `1 to 1000`; other text in the
+--- brackets is the unit. An @option belongs to the preceding @param, a name with a dot to that option. Short options may be given in the type instead,
+--- `{speed?: number}`, with `speed: prose` separated by semicolons. `@like clench.plan.anneal  seed, world` adds these options of another entry, or all of its
+--- options if none is named, to the preceding @param. A field has `@type type [unit, range]`. @effect is `reads`, `edits`, `files` or `long`.
 local raise = require "clench.raise"
 local signature = {}
 
 local effects = {reads = true, edits = true, files = true, long = true}
 
--- what stands before two blanks, and the prose after them
+-- the text before two blanks, and the prose after them
 local function split(line)
   local head, prose = line:match "^(.-)%s%s+(.*)$"
   return head or line, prose or ""
@@ -55,7 +54,7 @@ local function add_type(item, text)
   if head then
     local chunk = load("return " .. default, "=default", "t", {})
     local ok, value = pcall(chunk or error)
-    if not ok or value == nil then raise(("signature: the default of %s is no value: %s"):format(item.name, default)) end
+    if not ok or value == nil then raise(("signature: the default of %s is not a value: %s"):format(item.name, default)) end
     item.default, text = value, head
   end
   local kind, spec = text:match "^(.-)%s+%[(.*)%]$"
@@ -63,7 +62,7 @@ local function add_type(item, text)
   item.type = kind or text
 end
 
--- the last bracket of prose is the unit of what has none: "at most so long [s]"
+-- the last bracket of the prose is the unit of an item without one: "time limit [s]"
 local function add_text(item, prose)
   item.text = prose
   if not item.unit and not prose:find ";" then item.unit = prose:match "%[([^%[%]=]+)%]$" end
@@ -79,7 +78,7 @@ local function item_of(head, prose)
   return item
 end
 
---- Parts of a text between marks that stand in no bracket and no quotes.
+--- Parts of a text between marks outside of brackets and quotes.
 ---@param text string
 ---@param mark string  one character
 ---@return string[]
@@ -109,7 +108,7 @@ local function texts_of(prose)
   return texts
 end
 
--- the options in a type "{speed?: number, stages?: integer[]}"; nil when it names none
+-- the options in a type "{speed?: number, stages?: integer[]}"; nil if it names none
 local function fields_of(kind, prose)
   local inner = kind:match "^{(.*)}$"
   if not inner then return nil end
@@ -132,7 +131,7 @@ local function find(list, name)
   end
 end
 
--- adds an @option to the parameter before it, or to the option that its name begins with
+-- adds an @option to the preceding parameter, or to the option that its name begins with
 local function add_option(parsed, head, prose)
   local item = item_of(head, prose)
   local owner = parsed.parameters[#parsed.parameters]
@@ -157,7 +156,7 @@ end
 
 add.option = add_option
 
--- which options of which entry the last parameter has, too; `descriptions` adds them
+-- notes which options of another entry the last parameter also has; `descriptions` adds them
 function add.like(parsed, head, prose)
   local owner = parsed.parameters[#parsed.parameters]
   if not owner then raise(("signature: @like %s follows no @param"):format(head)) end
@@ -185,7 +184,7 @@ function add.effect(parsed, head)
   parsed.effect = head
 end
 
--- "> code" alone prepares; "> code  --> result" shows
+-- "> code" alone prepares an example; "> code  --> result" is one
 local function add_example(parsed, line, prepared)
   local code, result = line:match "^> (.-)%s*%-%->%s?(.*)$"
   if not code then
@@ -196,8 +195,8 @@ local function add_example(parsed, line, prepared)
   return {}
 end
 
---- The parts of a doc: text, effect, type (of a field), parameters with their fields, returns, examples, and `unused`, how many lines
---- of code no example follows.
+--- The parts of a doc: text, effect, type (of a field), parameters with their fields, returns, examples, and `unused`, the number of lines of code without a
+--- following example.
 ---@param text string
 ---@return table
 function signature.parse(text)
@@ -219,7 +218,7 @@ function signature.parse(text)
   return parsed
 end
 
---- The LuaCATS type of a parameter whose options stand on lines of their own: "{speed?: number}".
+--- The LuaCATS type of a parameter whose options have separate lines: "{speed?: number}".
 ---@param item table  of signature.parse
 ---@return string
 function signature.type_of(item)
@@ -236,7 +235,7 @@ local function value_text(value)
   return type(value) == "table" and require "clench.show"(value) or tostring(value)
 end
 
---- Unit, range and default of an item as a reader wants them: "[s, > 0] = 2"; "" when it has none.
+--- Unit, range and default of an item as text for readers: "[s, > 0] = 2"; "" if it has none.
 ---@param item table  of signature.parse
 ---@return string
 function signature.limits(item)

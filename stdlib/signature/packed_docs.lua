@@ -1,8 +1,8 @@
---- The comments before functions of the standard library: the docs of its entries.
+--- Extracts the docs of entries of the standard library from the comments before its functions.
 local packed_docs = {}
 
---- Each block of `---` lines before a function that a module offers, its `return function(...)` or its `function module.name(...)`,
---- as an entry's doc; those of folder/unit.lua are the folder's.
+--- Each block of `---` lines before a public function of a module, its `return function(...)` or its `function module.name(...)`, as the doc of an entry;
+--- functions of folder/unit.lua belong to the folder.
 ---@param file {path: string, text: string}
 ---@return {name: string, line: integer, doc: string}[]
 function packed_docs.of(file)
@@ -13,7 +13,7 @@ function packed_docs.of(file)
     number = number + 1
     local said = line:match "^%-%-%-%s?(.*)$"
     if said and not said:find "^[@>]" and #comment > 0 and comment[#comment]:sub(1, 1) == "@" then
-      -- a tag goes on: with its type while a brace is open, else with prose
+      -- a tag continues: with its type while a brace is open, else with prose
       local tag = comment[#comment]
       local _, opened = tag:gsub("{", "")
       local _, closed = tag:gsub("}", "")
@@ -25,7 +25,7 @@ function packed_docs.of(file)
       local name = line:match("^function " .. (unit or module) .. "%.([%w_]+)%(")
       local single = line:match "^return function%("
       local has_example = ("\n" .. table.concat(comment, "\n")):find("\n> ", 1, true)
-      -- a file outside of folders that returns one function is for scripts if its comment shows an example
+      -- a file outside of folders that returns one function is public if its comment has an example
       local offers = name or single and (unit or has_example)
       if offers and #comment > 0 then
         local full = name and (folder or module .. ".") .. name or module
@@ -37,16 +37,19 @@ function packed_docs.of(file)
   return found
 end
 
---- Functions of the standard library that scripts find by name: what a module's init.lua offers, or its only file.
+--- Functions of the standard library that scripts find by name: those that a module's init.lua, or its only file, provides.
 ---@param files {path: string, text: string}[]
 ---@return {name: string, doc: string, fn: function}[]
 function packed_docs.functions(files)
   local list = {}
   for _, file in ipairs(files) do
     for _, entry in ipairs(file.path:find "^host/" and {} or packed_docs.of(file)) do
-      local module, name = entry.name:match "^([%w_]+)%.?([%w_]*)$"
-      local ok, offered = pcall(function() return name == "" and clench[module] or clench[module][name] end)
-      -- another unit of the folder may have a function of that name, which it does not offer
+      local ok, offered = pcall(function()
+        local value = clench
+        for name in entry.name:gmatch "[^.]+" do value = value[name] end
+        return value
+      end)
+      -- another unit of the folder may have a function of that name that is not public
       if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then
         entry.fn = offered
         list[#list + 1] = entry

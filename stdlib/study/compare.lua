@@ -10,7 +10,7 @@ local put_back = require "clench.study.put_back"
 
 local function fail(format, ...) raise(("study.compare: " .. format):format(...)) end
 
--- a table without holes
+-- converts to a table, and rejects holes
 local function listed(grasps)
   if clench.type(grasps) == "grasps" then
     local list = {}
@@ -22,12 +22,12 @@ local function listed(grasps)
   for _ in pairs(grasps) do count = count + 1 end
   if count == 0 then fail "expected at least one grasp, got none" end
   for i = 1, count do
-    if grasps[i] == nil then fail("grasps: expected a list without holes or names, got none as number %d", i) end
+    if grasps[i] == nil then fail("grasps: expected a list without holes or names, but entry %d is missing", i) end
   end
   return grasps
 end
 
--- those of a planner or a file are applied to copies of the world
+-- grasps of planners and files, which belong to no world, are applied to copies of the world
 local function standing(grasps, world)
   local list = {}
   for i, grasp in ipairs(listed(grasps)) do
@@ -40,7 +40,7 @@ local function standing(grasps, world)
   return list
 end
 
--- the number of the best, by what counts as better; of equal ones the first
+-- the index of the best value; of equal values the first
 local function best_of(values, higher_is_better)
   local best = 1
   for i, value in ipairs(values) do
@@ -51,12 +51,12 @@ end
 
 local Comparison = class "comparison"
 
---- one panel per measure, one column per grasp
+--- One panel per measure, one column per grasp.
 function Comparison:chart(options)
   local series, larger = {}, higher_is_better()
   for i, name in ipairs(self.measures) do
     local values = {}
-    -- what is infinite has no height
+    -- infinite values have no column
     for k, value in ipairs(self.values[name]) do values[k] = math.abs(value) < math.huge and value end
     series[i] = {name = name, values = values, higher_is_better = larger[name]}
   end
@@ -68,14 +68,13 @@ function Comparison:chart(options)
   return clench.chart(drawing)
 end
 
---- Several measures of several grasps, side by side; `chart` draws them, one panel per measure, with the options title,
---- width and height of clench.chart.
+--- Computes several measures of several grasps. `chart` draws them, one panel per measure, with the options title, width and height of clench.chart.
 ---@param grasps grasp[]|grasps  grasps to measure
----@param options? table  what is compared
----@option world? world  in copies of it grasps of planners and files are applied and measured
----@option measures? string[] = {"epsilon", "volume"}  names, as of grasp:quality
+---@param options? table  settings of the comparison
+---@option world? world  grasps of planners and files are applied and measured in copies of it
+---@option measures? string[] = {"epsilon", "volume"}  names of measures, as in grasp:quality
 ---@option labels? string[]  one per grasp
----@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: the number of the best grasp, that with the largest value, or with the least of measures like gravity_effort
+---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: index of the best grasp, that with the largest value, or with the smallest for measures like gravity_effort
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
 --- > c:chart {width = 300, height = 200}  --> plot of 300 x 200 pixels

@@ -1,5 +1,5 @@
---- Which measures are better when larger.
----@return table<string, boolean>  by name, of all measures of grasp:quality
+--- Tells for each measure if larger values are better.
+---@return table<string, boolean>  by name, for all measures of grasp:quality
 return function()
   local by_name = {}
   for _, measure in ipairs(clench.measures()) do by_name[measure.name] = measure.higher_is_better end

@@ -5,23 +5,23 @@ local bounds = require "clench.study.motion.bounds"
 local new_trial = require "clench.study.motion.trial"
 local verdict = require "clench.study.motion.verdict"
 
-local ramp = 0.1  -- in which the speed is reached, and lost again [s]
+local ramp = 0.1  -- time to accelerate, and to decelerate [s]
 
---- A lift. In a copy of the world the hand presses without gravity and all comes to rest, as in study.shake; then gravity acts, what
---- carries the hand moves up with it, whatever its joints could do, and stays up for a while. The object is held while it is displaced by less than
---- max_distance and max_angle, as the hand's base sees it. What else stands in the world stays there.
----@param options table  the grasp, the motion and the grip
+--- Lifts a grasped object. In a copy of the world the hand presses without gravity and everything comes to rest, as in study.shake; then gravity acts, and the
+--- base of the hand, or of the robot that carries it, moves along `direction`, regardless of what joints could do, and stops for `hold`. The object is held
+--- while its displacement, in the frame of the hand's base, is less than max_distance and max_angle. All other bodies keep their poses.
+---@param options table  hand, object and settings of motion and grip
 ---@like clench.study.shake  hand, object, world
 ---@option height? number [m, > 0, <= 1000000] = 0.1  height of the lift
 ---@option speed? number [m/s, > 0, <= 1000000] = 0.1  speed of the lift
 ---@option hold? number [s, >= 0, <= 1000000] = 1  time for which the object is held at the end
----@option direction? vec3 = {0, 0, 1}  direction of the lift, of any length but zero
----@option mass? number [kg, > 0, <= 1e12]  mass of the object, its own by default
----@option gravity? vec3 [m/s^2]  that of the world by default
+---@option direction? vec3 = {0, 0, 1}  direction of the lift, of any nonzero length
+---@option mass? number [kg, > 0, <= 1e12]  mass of the object, by default that in the world
+---@option gravity? vec3 [m/s^2]  gravity, by default that of the world
 ---@like clench.study.shake  max_distance, max_angle, grip, grip_seconds, settle, friction_share
 ---@option grip_force? number [N, > 0, <= 1e15]  sum of the normal forces, ten weights of the object by default
----@option surroundings? boolean = true  false: everything else is taken away
----@return {survived: boolean, rows: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # rows: of "gravity", "lift" and "hold", {phase, moved [m], turned [rad], held, time [s] at which it was lost}, as far as it came
+---@option surroundings? boolean = true  false: all bodies except hand, carrier and object are removed
+---@return {survived: boolean, rows: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # rows: one for each of the phases "gravity", "lift" and "hold" that was reached, {phase, moved [m], turned [rad], held, time [s] at which it was lost}
 --- > clench.study.lift({hand = hand, object = flask, height = 0.02, hold = 0.1, settle = 0.1, mass = 0.1}).survived  --> true
 return function(options)
   local read = read_options("study.lift", options)
@@ -43,10 +43,10 @@ return function(options)
     return verdict.close(result)
   end
   trial.world.gravity = job.gravity
-  -- a short way has no room for the speed
+  -- a short lift does not reach the speed
   local length = height / speed + ramp
   local top = height / (length - ramp)
-  -- as fast as in the middle of the step that comes
+  -- speed at the middle of the next step
   local function rise()
     local began = trial.world.time
     return trial.world:on_step(function(world, dt)

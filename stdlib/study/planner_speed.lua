@@ -2,14 +2,14 @@ local read_options = require "clench.options"
 
 local all = {"contact", "potential_quality", "guided_potential_quality", "autograsp_quality", "strict_autograsp"}
 
---- How fast annealing is for a hand and an object on this machine, by energy: GraspIt!'s "Time Test".
----@param options table  the hand, the object and how long
+--- Speed of annealing with a hand and an object on this machine, by energy: GraspIt!'s "Time Test".
+---@param options table  hand, object and length of the runs
 ---@option hand robot  hand of the search
 ---@option object body  object of the search
 ---@option energies? string[]  names in clench.energy, all by default
----@option steps? integer [1 to 1000000000] = 1000  steps with each energy
+---@option steps? integer [1 to 1000000000] = 1000  number of steps with each energy
 ---@option seed? integer = 1  seed of the random numbers
----@return {energy: string, steps: integer, seconds: number, steps_per_second: number, accepted: number, in_collision: number}[]  accepted: part of the steps; in_collision: neighbors per step that collided
+---@return {energy: string, steps: integer, seconds: number, steps_per_second: number, accepted: number, in_collision: number}[]  accepted: fraction of the steps; in_collision: colliding neighbors per step
 --- > rows = clench.study.planner_speed {hand = hand, object = flask, energies = {"contact"}, steps = 50}
 --- > rows[1].energy, rows[1].steps, rows[1].steps_per_second > 0  --> contact, 50, true
 --- > clench.study.planner_speed {hand = hand, object = flask, step = 5}  --> error: unknown key 'step'

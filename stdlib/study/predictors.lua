@@ -6,7 +6,7 @@ local optional_table = require "clench.optional_table"
 local higher_is_better = require "clench.study.higher_is_better"
 local roc = require "clench.study.motion.roc"
 
--- of their own: the others are grasp:quality's
+-- computed here; the others are measures of grasp:quality
 local own = {contacts = true, load_margin = true}
 local usual = {"epsilon", "volume", "load_margin", "contacts", "min_singular_value", "gravity_effort"}
 
@@ -20,7 +20,7 @@ local function add_options(drawing, options, subject)
   return drawing
 end
 
---- the area under the curve of each measure, as bars
+--- The area under the curve of each measure, as bars.
 function Predictors:chart(options)
   local values, labels = {}, {}
   for i, row in ipairs(self.rows) do values[i], labels[i] = row.auc or false, row.measure end
@@ -28,7 +28,7 @@ function Predictors:chart(options)
                                    title = "Which measures predict survival?"}, options, "chart"))
 end
 
---- the curves: survivors among those above a bound of the measure, over the others among them
+--- The curves: fraction of the survivors over that of the lost grasps above a bound of the measure.
 function Predictors:plot(options)
   local series = {}
   for i, row in ipairs(self.rows) do
@@ -77,18 +77,18 @@ local function read_measures(read, grasp_names)
   return names
 end
 
---- How well measures of quality predict whether a grasp survives the six-direction force test: for each the area under the ROC
---- curve, the probability that of a survivor and a lost grasp the survivor has the better value. 0.5 is no better than chance. The interval holds it at 95 %
---- (Hanley and McNeil 1982). The grasps, in any number of threads, are put into copies of the world.
----@param grasps grasp[]|grasps  grasps to measure and to shake
----@param options table  the hand, the object, what is measured and how they are shaken
+--- How well do measures of quality predict that a grasp survives the six-direction force test? Computes for each the area under the ROC curve: the probability
+--- that the survivor of a pair, one survivor and one lost grasp, has the better value. 0.5 is chance level. The interval covers the area with 95 % confidence
+--- (Hanley and McNeil 1982). The grasps are applied to copies of the world, in any number of threads.
+---@param grasps grasp[]|grasps  grasps to measure and shake
+---@param options table  hand, object, measures and settings of shaking
 ---@option hand robot  hand of all grasps
 ---@option object body  object of all grasps
----@option measures? string[]  names, as of grasp:quality; "load_margin", the load that the hand holds in the worst of six directions, in weights of
----  the object, as in the planners' verification; and "contacts"
+---@option measures? string[]  names, as in grasp:quality; "load_margin", the load that the hand holds in the worst of six directions, in weights of
+---  the object, as in the verification of planners; and "contacts"
 ---@option shake? table  options of study.shake
 ---@option threads? integer [1 to 1024]  number of threads, all cores by default
----@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}, without auc, low and high where all or none survived: there is nothing to compare; grasps: {survived, held, values}, or {error}, of each; chart: bars; plot: the curves
+---@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}, without auc, low and high if all or none survived; grasps: for each grasp {survived, held, values}, or {error}; chart: bars; plot: curves
 --- > p = clench.study.predictors({grasp, grasp}, {hand = hand, object = flask, measures = {"epsilon"}, shake = {seconds = 0.1, settle = 0.1}})
 --- > p.count, p.survived, p.rows[1].measure  --> 2, 2, epsilon
 return function(grasps, options)

@@ -1,19 +1,19 @@
---- A grasp put back to how it was measured, in a copy of its world: the world may have changed since.
+--- Restores a grasp in a copy of its world to the state in which it was measured; the world may have changed since.
 local raise = require "clench.raise"
 local on_behalf_of = require "clench.on_behalf_of"
 local put_back = {}
 
---- Does a grasp stand in a world? Those of planners and files do not.
+--- Does a grasp belong to a world? Grasps of planners and files do not.
 function put_back.stands(grasp) return (pcall(function() return grasp.hand end)) end
 
---- Refuses a grasp that stands in no world.
+--- Rejects a grasp that belongs to no world.
 ---@param subject string  "study.compare: grasps[1]"
 function put_back.check_stands(subject, grasp)
   if put_back.stands(grasp) then return end
-  raise(subject .. ": the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does")
+  raise(subject .. ": the grasp belongs to no world, like those of planners and files; grasp:apply(world) gives one that does")
 end
 
-local same = 1e-6  -- of meters and radians: as the engine compares a grasp with its world
+local same = 1e-6  -- meters and radians: the tolerance at which the engine compares a grasp with its world
 
 local function stale(subject, what)
   raise(("%s: %s since the grasp was measured; measure it anew"):format(subject, what), "stale")
@@ -26,7 +26,7 @@ local function check_friction(subject, grasp)
   end
 end
 
--- an arm holds its hand where it is
+-- a hand on an arm cannot be moved to the grasp
 local function check_held(subject, grasp, hand, object)
   local off = grasp.pose:inverse() * object.pose:inverse() * hand.pose
   if off.position:norm() > same or off:angle() > same then stale(subject, "hand and object have moved apart") end
@@ -42,7 +42,7 @@ local function copy(subject, grasp)
   return {world = world, hand = hand, object = object, pose = object.pose, start = world:snapshot()}
 end
 
---- A copy of the world in which the hand grasps the object as it did, relative to where that is now, with its DOFs, joints and center of mass.
+--- A copy of the world in which the hand grasps the object as measured, at the object's present pose, with the grasp's DOFs, joints and center of mass.
 ---@param subject string  "study.robustness"
 ---@param grasp grasp
 ---@return {world: world, hand: robot, object: body, pose: pose, start: snapshot}  pose: of the object

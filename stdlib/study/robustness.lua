@@ -7,7 +7,7 @@ local stats = require "clench.stats"
 local suspect = require "clench.suspect"
 local put_back = require "clench.study.put_back"
 
--- each of these is one stream of random numbers a sample, so that an error switched off changes no other
+-- each error has one stream of random numbers per sample, so that disabling one does not change the others
 local streams = {place = 0, friction = 1, normal = 2, count = 3}
 local function stream(seed, sample, what) return clench.random(seed, streams.count * (sample - 1) + streams[what]) end
 
@@ -15,7 +15,7 @@ local function erred_pose(random, pose, position, angle)
   local shift = {position * random:normal(), position * random:normal(), position * random:normal()}
   local axis, half = random:direction(), angle * random:normal() / 2
   local turn = math.sin(half) * axis
-  -- turned about the object's own origin, shifted in the world
+  -- rotated about the object's origin, shifted in the world
   return clench.pose {xyz = shift} * clench.pose {xyz = pose.position}
     * clench.pose {quat = {math.cos(half), turn.x, turn.y, turn.z}} * clench.pose {quat = pose.quat}
 end
@@ -29,7 +29,7 @@ end
 
 local function close_again(hand) hand:autograsp() end
 
--- Opens the hand from DOF values by a twentieth of its way, each DOF at its own pace, until it is free.   returns nil when it never is
+-- Opens the hand from DOF values in 20 steps, each DOF in proportion to its closing speed, until it is free of collision.   returns  nil if it never is
 local function back_off(hand, from)
   local paces, limits, most = {}, hand.dof_limits, 0
   for i, info in ipairs(hand.dof_info) do
@@ -55,22 +55,21 @@ local function check_grasp(grasp)
   if clench.type(grasp) ~= "grasp" then raise("study.robustness: expected a grasp, got " .. described(grasp)) end
 end
 
---- The quality of a grasp under errors of pose, friction and normals. Each sample draws errors of the
---- normal distribution; where the object is out of place, the hand, put back to how it grasped the object, is opened as far as it takes to be free of it, a
---- twentieth of its way and more, and closed on it again, all in a copy of the world. Friction is off by one factor for all contacts, normals each by their own.
---- The center of mass and rho are those with which the grasp was measured.
---- The same seed gives the same numbers, and sample i the same in longer runs.
+--- The quality of a grasp under errors of pose, friction and normals. Each sample draws normally distributed errors. If the pose of the object is disturbed,
+--- the hand is put back to the grasp, opened in steps of a twentieth of its range until it is free of the object, and closed again, all in a copy of the world.
+--- Friction errs by one factor for all contacts, each normal separately. Center of mass and rho are those with which the grasp was measured. The results depend
+--- only on the seed; sample i is the same in longer runs.
 ---@param grasp grasp  grasp to disturb
----@param options? table  the disturbances, as standard deviations
+---@param options? table  standard deviations of the errors
 ---@option samples? integer [1 to 1000000] = 100  number of samples
 ---@option seed? integer = 1  seed of the random numbers
----@option position? number [m, >= 0] = 0  of the position of the object along each axis
----@option angle? number [rad, >= 0] = 0  of the turn of the object about any axis
----@option friction? number [>= 0] = 0  of the factor on mu
----@option normal? number [rad, >= 0] = 0  of the tilt of normals
+---@option position? number [m, >= 0] = 0  error of the object's position along each axis
+---@option angle? number [rad, >= 0] = 0  error of the object's orientation about a random axis
+---@option friction? number [>= 0] = 0  error of the factor on mu
+---@option normal? number [rad, >= 0] = 0  tilt of normals
 ---@option close? function  close(hand, object) instead of autograsp
----@option edges? integer|string  of the friction pyramids, as of clench.wrench_space; those of the grasp by default
----@return {count: integer, samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with the interval that holds it at 95 %; blocked: how often the opened hand or something else was in the way of the object, which counts as no grasp; p05 and p95: 5 and 95 % of the samples
+---@option edges? integer|string  edges of the friction pyramids, as in clench.wrench_space; those of the grasp by default
+---@return {count: integer, samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with its 95 % confidence interval; blocked: number of samples in which the object collided with the opened hand or another body, which count as epsilon 0; p05 and p95: 5th and 95th percentiles
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
 --- > #r.samples, r.p05 <= r.median, r.interval.low <= r.probability  --> 20, true, true
 --- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'
@@ -81,7 +80,7 @@ return function(grasp, options)
   local seed = read:get "seed"
   local position, angle = read:get "position", read:get "angle"
   local friction, normal = read:get "friction", read:get "normal"
-  local edges = read:get "edges" or grasp.edges  -- as clench.wrench_space takes them
+  local edges = read:get "edges" or grasp.edges  -- as in clench.wrench_space
   local close = read:get("close", close_again)
   read:done()
 
@@ -92,7 +91,7 @@ return function(grasp, options)
   suspect.degrees(read.subject, "normal", normal)
   local alike = grasp.options
   alike.edges = edges
-  -- another grasp has other contacts
+  -- a new grasp has other contacts
   if type(alike.normal_force) == "table" then alike.normal_force = stats.mean(alike.normal_force) end
 
   local function regrasped(sample)

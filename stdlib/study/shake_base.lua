@@ -6,14 +6,14 @@ local verdict = require "clench.study.motion.verdict"
 
 local axes = {{"x", clench.vec3(1, 0, 0)}, {"y", clench.vec3(0, 1, 0)}, {"z", clench.vec3(0, 0, 1)}}
 
---- The hand is shaken. In a copy of the world that holds nothing but the hand, what carries it and the object, the hand presses and
---- all comes to rest, as in study.shake; then gravity acts, and the base that carries all moves to and fro like a sine along each axis of
---- the world in turn, from the second period on with the whole acceleration.
----@param options table  the grasp, the motion and the grip
+--- Shakes the hand. In a copy of the world with only the hand, the robots that carry it and the object, the hand presses and everything comes to rest, as in
+--- study.shake; then gravity acts, and the base that carries the hand oscillates sinusoidally along each axis of the world in turn, with the full amplitude
+--- from the second period on.
+---@param options table  hand, object and settings of motion and grip
 ---@like clench.study.shake  hand, object, world
----@option acceleration? number [m/s^2, > 0]  the largest, 9.81 by default
----@option amplitude? number [m, > 0]  of the motion, in place of the acceleration
----@option frequency? number [Hz, > 0] = 5  of the motion
+---@option acceleration? number [m/s^2, > 0]  maximum acceleration, 9.81 by default
+---@option amplitude? number [m, > 0]  amplitude of the motion, instead of the acceleration
+---@option frequency? number [Hz, > 0] = 5  frequency of the motion
 ---@option seconds? number [s, > 0, <= 1000000] = 2  time along each axis
 ---@like clench.study.lift  mass, gravity
 ---@like clench.study.shake  max_distance, max_angle, grip, grip_seconds, settle, friction_share

@@ -1,5 +1,6 @@
 --- Dialogs of commands, made from their parameters.
 local keys = require "clench.view.keys"
+local leave = require "clench.view.leave"
 local dialog = {}
 
 local planner_group = "^planner%."
@@ -78,8 +79,18 @@ local function run(view, command, state)
   if command.name:find(planner_group) then state.job = result else view.dialogs[command.name] = nil end
 end
 
+local leaving = {["world.new"] = "new", ["world.open"] = "open"}  -- commands that leave the world
+
 --- Opens the dialog of a command; one without parameters that must be given, and without "…" in its label, runs at once.
 function dialog.open(view, command)
+  local purpose = leaving[command.name]
+  if purpose and not view.leaving then
+    return leave.ask(view, purpose, function() dialog.fill(view, command) end)
+  end
+  dialog.fill(view, command)
+end
+
+function dialog.fill(view, command)
   local asks = (command.label or ""):find "…"
   for _, parameter in ipairs(command.parameters or {}) do
     if not parameter.optional and parameter.default == nil then asks = true end

@@ -1,13 +1,16 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
+local autosave = require "clench.view.autosave"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
+local selection = require "clench.view.selection"
 local layout = {}
 
-local panel_width, bottom_height, bar_height = 230, 170, 36  -- [pixels]
+local panel_width, bottom_height, bar_height = 264, 190, 36  -- [pixels]
 local user_panels = {}  -- that scripts have added, by name and in order
 
-local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "console", "history", "gallery", "plots"}
+local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "display", "console", "history", "gallery", "plots"}
 
 --- The panels of a view: its own, and those of the user.
 function layout.panels()
@@ -54,6 +57,26 @@ local function draw_tabs(view, ui, name, list, rect)
   end)
 end
 
+-- panels in one window, one shown at a time: buttons in as many rows as they need
+local function draw_strip(view, ui, place, list, rect)
+  local front = list[1]
+  for _, panel in ipairs(list) do
+    if panel.name == view.front[place] then front = panel end
+  end
+  rect.title = false
+  ui:window(place, rect, function(ui)
+    local left = 0
+    for i, panel in ipairs(list) do
+      local wide = 7.4 * #panel.name + 22
+      if i > 1 and left + wide < rect.width then ui:same_line(4) else left = 0 end
+      left = left + wide
+      if ui:button(panel.name, {selected = panel == front}) then view.front[place] = panel.name end
+    end
+    ui:separator()
+    draw_panel(view, ui, front)
+  end)
+end
+
 -- panels below each other in a column, then those that share a window
 local function draw_column(view, ui, place, x, y, width, height)
   local rows, tabs = {}, {}
@@ -66,7 +89,7 @@ local function draw_column(view, ui, place, x, y, width, height)
   for i, panel in ipairs(rows) do
     ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
   end
-  if #tabs > 0 then draw_tabs(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = each}) end
+  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = each}) end
 end
 
 local function draw_bottom(view, ui, x, y, width, height)
@@ -95,7 +118,7 @@ local function choose(view, ui, label, list, current, command, argument)
   for i, thing in ipairs(list) do
     if thing == current then index = i end
   end
-  ui:width(130)
+  ui:width(95)
   local chosen, changed = ui:combo(label, index, names)
   if changed then view:run(command, {[argument] = names[chosen]}) end
   ui:same_line()
@@ -115,6 +138,7 @@ local function draw_bar(view, ui, y, width)
     if world then
       choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
       choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
+      selection.draw_bar(view, ui)
     end
   end)
 end
@@ -146,19 +170,8 @@ local function draw_question(view, ui)
     end)
     if not open then view.ask = nil end
   end
-  if view.asks_to_leave then
-    ui:window("Unsaved changes", {width = 0, modal = true}, function(ui)
-      ui:text "The world has changed since it was saved."
-      if ui:button "Save" then
-        view.asks_to_leave = nil
-        dialog.open(view, view.session.commands["world.save"])
-      end
-      ui:same_line()
-      if ui:button "Don't Save" then view.asks_to_leave, view.leaves = nil, true end
-      ui:same_line()
-      if ui:button "Stay" then view.asks_to_leave = nil end
-    end)
-  end
+  leave.draw(view, ui)
+  autosave.draw(view, ui)
 end
 
 local function draw_help(view, ui)
@@ -171,7 +184,7 @@ local function draw_help(view, ui)
   end) then view.shows_manual = nil end
   if view.shows_keys and not ui:window("Keys", {x = 300, y = 100, width = 420, height = 460, movable = true, resizable = true, can_close = true}, function(ui)
     ui:table("keys", {"Key", "Command"}, {}, function(ui)
-      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4", "Tools"}} do
+      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"Ctrl+Q", "Exit"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4 5", "Tools"}, {"F", "Seek the point under the mouse"}, {"F1 F2 F3 F4", "Bookmarks of the camera; with Shift: store"}} do
         ui:next_column() ui:text(own[1]) ui:next_column() ui:text(own[2])
       end
       for _, name in ipairs(view.session.order) do

@@ -1,6 +1,9 @@
 --- The menu bar: menus of the session's commands, in the order of the original's, and those of the view itself.
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local navigation = require "clench.view.navigation"
+local preferences = require "clench.view.preferences"
+local units = require "clench.view.units"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
@@ -12,10 +15,17 @@ end
 
 local own = {
   File = function(view, ui)
+    ui:disabled(#view.recent == 0, function(ui)
+      ui:menu("Open Recent", function(ui)
+        for i, path in ipairs(view.recent) do
+          if ui:menu_item(("%s##recent%d"):format(path, i)) then preferences.open_recent(view, path) end
+        end
+      end)
+    end)
     ui:separator()
     if ui:menu_item("Save Image…") then view.ask = {title = "Save Image", text = "picture.png", done = function(path) view:screenshot {path = path, panels = false} end} end
     if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
-    if ui:menu_item("Exit") then view.wants_exit = true end
+    if ui:menu_item("Exit", {shortcut = "Ctrl+Q"}) then view.wants_exit = true end
   end,
   Element = function(view, ui)
     for i, tool in ipairs(view.tools) do
@@ -29,12 +39,14 @@ local function view_menu(view, ui)
   if ui:menu_item("Home", {shortcut = "Home"}) then view:home() end
   if ui:menu_item("View All") then view:home(true) end
   if ui:menu_item("Orthographic", {selected = view.camera.orthographic ~= nil}) then view:toggle_orthographic() end
+  navigation.draw_menu(view, ui)
   ui:separator()
   for _, panel in ipairs(view.panels) do
     if ui:menu_item(panel.name, {selected = not view.hidden[panel.name]}) then view.hidden[panel.name] = not view.hidden[panel.name] or nil end
   end
   if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
   ui:separator()
+  units.menu(view, ui)
   if ui:menu_item("Dark Theme", {selected = view.dark}) then view:set_theme(not view.dark) end
 end
 

@@ -1,12 +1,17 @@
 --- Tools of the picture: what a click and a drag on the picture do. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag what
---- is selected until it touches something. The middle and right buttons and the wheel always move the camera.
+--- is selected until it touches something, "Measure" measures distances and angles. The middle and right buttons and the wheel always move the camera.
 local camera = require "clench.view.camera"
+local drags = require "clench.view.drags"
+local handles = require "clench.view.handles"
+local joint_handles = require "clench.view.joint_handles"
+local manipulator = require "clench.view.manipulator"
+local measure = require "clench.view.measure"
+local navigation = require "clench.view.navigation"
+local outline = require "clench.view.outline"
+local selection = require "clench.view.selection"
 local tools = {}
 
-tools.names = {"Camera", "Select", "Translate", "Rotate"}
-
-local orbit_speed = math.pi / 400  -- [rad per pixel]
-local rotate_speed = math.pi / 300  -- [rad per pixel]
+tools.names = {"Camera", "Select", "Translate", "Rotate", "Measure"}
 
 --- What lies under a pixel: body, point and normal; nil where nothing is.
 function tools.pick(view, x, y)
@@ -21,61 +26,63 @@ local function movable(body) return body.robot or body end
 
 local function select_at(view, x, y, adds)
   local hit = tools.pick(view, x, y)
-  local list = adds and {table.unpack(view.session.selection)} or {}
-  if hit then
-    local what = hit.body
-    if view.session.selection[1] == what and what.robot then what = what.robot end
-    list[#list + 1] = what
-  end
-  local addresses = {}
-  for i, thing in ipairs(list) do addresses[i] = view:address(thing) end
-  view:run("world.select", {addresses = addresses})
+  selection.click(view, hit and (adds and hit.body or selection.meant(view, hit.body)), adds)
 end
 
--- the pose of a drag's target after the mouse has moved
-local function dragged_pose(view, drag, x, y)
-  local size = view.ui.size
-  local right, up, back = camera.axes(view.camera)
-  if view.current_tool == "Rotate" then
-    local turn = clench.pose {axis = up, angle = (x - drag.x) * rotate_speed} * clench.pose {axis = right, angle = (y - drag.y) * rotate_speed}
-    local center = drag.center
-    return clench.pose {xyz = center} * turn * clench.pose {xyz = center * -1} * drag.pose
-  end
-  local origin, direction = camera.ray(view.camera, size, x, y)
-  local along = direction:dot(back)
-  if math.abs(along) < 1e-9 then return drag.pose end
-  local point = origin + direction * ((drag.point - origin):dot(back) / along)
-  return clench.pose {xyz = point - drag.point} * drag.pose
+--- Handles over the picture for the current tool and selection: name, pixel x and y.
+---@return table[] handles
+function tools.handles(view)
+  if not view.session.world then return {} end
+  local list = joint_handles.handles(view)
+  return #list > 0 and list or manipulator.handles(view)
 end
+
+local function shift_down(ui) return ui:key_down(340) or ui:key_down(344) end
+local function ctrl_down(ui) return ui:key_down(341) or ui:key_down(345) end
 
 local function begin_drag(view, x, y)
+  local handle = handles.at(tools.handles(view), x, y)
+  if handle and handle.kind == "joint" then return joint_handles.begin(view, handle, x, y) end
+  if handle then return drags.begin(view, handle.target, handle, nil, x, y) end
   local hit = tools.pick(view, x, y)
   if not hit then return nil end
   local target = movable(hit.body)
-  if clench.type(target) == "robot" and target.parent then return nil end
-  local selected = view.session.selection[1]
-  if selected ~= target and selected ~= hit.body then view:run("world.select", {addresses = {view:address(target)}}) end
-  local pose = target.pose
-  local body = clench.type(target) == "robot" and target.base or target
-  view.session:begin_gesture(view.current_tool .. " " .. target.name)
-  return {target = target, point = hit.point, pose = pose, center = body.pose * body.com, x = x, y = y}
-end
-
-local function use_camera(view, mouse)
-  local size = view.ui.size
-  if mouse.middle.down or mouse.left.down and view.ui:key_down(341) then
-    view.camera = camera.panned(view.camera, size, mouse.dx, mouse.dy)
-  else
-    view.camera = camera.orbited(view.camera, mouse.dx * orbit_speed, mouse.dy * orbit_speed)
-  end
+  local drag = drags.begin(view, target, nil, hit.point, x, y)
+  drag.is_free = true
+  return drag
 end
 
 local function begin_press(view, mouse)
   local tool = view.current_tool
-  if view.ui:key_down(342) or tool == "Camera" then return {kind = "camera"} end
+  if view.seeks then return {kind = "seek"} end
+  if view.ui:key_down(342) or tool == "Camera" then return {kind = mouse.left.double and "seek" or "camera"} end
+  if tool == "Measure" then return {kind = "measure"} end
   if tool == "Select" then return {kind = "select", x = mouse.x, y = mouse.y} end
   local drag = begin_drag(view, mouse.x, mouse.y)
   return drag and {kind = "drag", drag = drag} or {kind = "camera"}
+end
+
+local function is_part(thing, robot) return thing ~= nil and clench.type(thing) == "body" and thing.robot == robot end
+
+local function move_drag(view, press, mouse)
+  local drag, ui = press.drag, view.ui
+  -- what is dragged is selected, unless a part of it is
+  local selected = view.session.selection[1]
+  if not press.moved and drag.is_free and selected ~= drag.target and not is_part(selected, drag.target) then
+    view:run("world.select", {addresses = {view:address(drag.target)}})
+  end
+  press.moved = true
+  if drag.move then return drag.move(mouse.x, mouse.y, ctrl_down(ui), shift_down(ui)) end
+  drags.move(view, drag, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
+end
+
+local function end_press(view, press, mouse)
+  if press.kind == "drag" then view.session:end_gesture() end
+  if press.kind == "seek" then navigation.seek_pixel(view, mouse.x, mouse.y) end
+  if press.kind == "measure" then measure.click(view, mouse.x, mouse.y) end
+  -- a click with the Translate or Rotate tool selects: a link shows the handles of its joints
+  local is_click = press.kind == "drag" and press.drag.is_free and not press.moved
+  if press.kind == "select" or is_click then select_at(view, mouse.x, mouse.y, shift_down(view.ui)) end
 end
 
 --- Applies the mouse of this frame to the picture.
@@ -94,15 +101,13 @@ function tools.update(view)
   if not press then return end
   local moved = mouse.dx ~= 0 or mouse.dy ~= 0
   if press.kind == "camera" and moved then
-    use_camera(view, mouse)
+    navigation.drag(view, mouse, ctrl_down(ui), shift_down(ui))
   elseif press.kind == "drag" and moved then
-    press.drag.target:move_to(dragged_pose(view, press.drag, mouse.x, mouse.y))
-    view.session:emit("changed", {gesture = true})
+    move_drag(view, press, mouse)
   end
   if mouse.left.released or mouse.right.released or mouse.middle.released then
     view.press = nil
-    if press.kind == "drag" then view.session:end_gesture() end
-    if press.kind == "select" then select_at(view, mouse.x, mouse.y, ui:key_down(340)) end
+    end_press(view, press, mouse)
   end
 end
 
@@ -114,29 +119,24 @@ local function draw_highlight(view, ui)
   if x then ui:circle(x, y, 12, {color = {0.84, 0.37, 0, 1}, width = 3}) end
 end
 
---- Outlines what is selected, by the boxes of its bodies, and marks the highlighted contact.
+local function draw_handles(view, ui)
+  local list = tools.handles(view)
+  if #list == 0 then return end
+  local mouse = ui.mouse
+  local hovered = view.press and view.press.drag and view.press.drag.handle
+  if not view.press and not ui.wants_mouse then
+    local handle = handles.at(list, mouse.x, mouse.y)
+    hovered = handle and handle.name
+  end
+  handles.draw(ui, list, hovered)
+end
+
+--- Outlines what is selected, and draws the manipulator and the highlighted contact.
 function tools.draw(view, ui)
   draw_highlight(view, ui)
-  local size = ui.size
-  for _, thing in ipairs(view.session.selection) do
-    for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do
-      local bounds = body.bounds_in_world
-      if bounds then
-        local low, high = bounds.low, bounds.high
-        local corners = {}
-        for i = 0, 7 do
-          local p = clench.vec3(i & 1 == 0 and low.x or high.x, i & 2 == 0 and low.y or high.y, i & 4 == 0 and low.z or high.z)
-          corners[i] = {camera.project(view.camera, size, p)}
-        end
-        for i = 0, 7 do
-          for _, bit in ipairs {1, 2, 4} do
-            local a, b = corners[i], corners[i ~ bit]
-            if i & bit == 0 and a[1] and b[1] then ui:line({a[1], a[2], b[1], b[2]}, {color = {0.9, 0.6, 0, 0.9}, width = 1.5}) end
-          end
-        end
-      end
-    end
-  end
+  draw_handles(view, ui)
+  outline.draw(view, ui)
+  measure.draw(view, ui)
 end
 
 return tools

@@ -1,15 +1,24 @@
 --- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
+local autosave = require "clench.view.autosave"
 local camera = require "clench.view.camera"
 local class = require "clench.class"
 local described = require "clench.described"
 local dialog = require "clench.view.dialog"
+local drop = require "clench.view.drop"
+local echo = require "clench.view.echo"
+local error_text = require "clench.error_text"
+local follow = require "clench.view.follow"
 local input = require "clench.view.input"
 local keys = require "clench.view.keys"
 local layout = require "clench.view.layout"
+local loop_task = require "clench.loop_task"
 local menus = require "clench.view.menus"
+local navigation = require "clench.view.navigation"
 local palette = require "clench.view.palette"
+local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
 local tools = require "clench.view.tools"
+local user_files = require "clench.view.user_files"
 
 local Viewer = class "view"
 
@@ -32,10 +41,7 @@ function Viewer:print(text, kind)
 end
 
 --- Shows the result of a command.
-function Viewer:report(command, result)
-  if result == nil or command.name:find "^planner%." then return end
-  self:print(("%s: %s"):format(command.label or command.name, tostring(result)))
-end
+function Viewer:report(command, result, args) echo.result(self, command, result, args) end
 
 --- Runs a command of the session; an error is shown in the console and in the status bar.
 ---@param name string  of the command
@@ -43,10 +49,15 @@ end
 function Viewer:run(name, args)
   local ok, result = pcall(self.session.run, self.session, name, args)
   if ok then
-    self:report(self.session.commands[name], result)
+    self:report(self.session.commands[name], result, args)
     return result
   end
-  self.status = tostring(result)
+  self:fail(result)
+end
+
+--- Shows an error in the console and in the status bar.
+function Viewer:fail(problem)
+  self.status = error_text(problem)
   self:print(self.status, "error")
 end
 
@@ -57,12 +68,16 @@ function Viewer:address(thing)
   return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
 end
 
---- Points the camera at the grasp, or at everything.
+--- Points the camera at the grasp, or where the user has set the home, or at everything.
 ---@param all? boolean  true: at everything
 function Viewer:home(all)
   if not self.session.world then return end
-  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
   self.needs_frame = true
+  if self.home_camera and not all then
+    self.camera = self.home_camera
+    return
+  end
+  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
 end
 
 --- Switches between perspective and orthographic projection.
@@ -88,8 +103,10 @@ function Viewer:save_script(path)
 end
 
 local function own_key(self, shortcut)
+  if shortcut == "ctrl+q" then self.wants_exit = true return true end
   if shortcut == "ctrl+p" then self:open_palette() return true end
   if shortcut == "f9" then self.panels_visible = not self.panels_visible return true end
+  if navigation.key(self, shortcut) then return true end
   if shortcut == "home" then self:home() return true end
   if shortcut == "escape" then
     if self.palette then self.palette = nil elseif self.press then self.press = nil self.session:cancel_gesture() end
@@ -122,18 +139,32 @@ local function draw_world(self, ui)
   local world = self.session.world
   if not world then return end
   if self.shown_world ~= world then
-    self.shown_world = world
+    self.shown_world, self.home_camera, self.measured = world, nil, {}
     self:home()
   end
   local c = self.camera
-  ui:show(world, {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic})
+  local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
+  for name, value in pairs(self.display) do options[name] = value end
+  if self.shown_forces and self.shown_forces.stamp == self.stamp then options.forces = self.shown_forces.forces end
+  ui:show(world, options)
+end
+
+-- a window follows the clock, by which double clicks are told from single ones
+local function time_since_last(self)
+  if not self.timer then return frame_time end
+  local before, now = self.drawn_at, clench.loop.time()
+  self.drawn_at = now
+  return before and math.max(now - before, 1e-3) or frame_time
 end
 
 --- Draws one frame.
 function Viewer:frame()
   if self.is_closed then raise "view:frame: the view was closed" end
-  clench.loop.run(0)
-  self.ui:frame(frame_time, function(ui)
+  -- a frame of a window, and of a script's coroutine, is drawn while the loop runs
+  if not self.in_loop and not loop_task.thread then clench.loop.run(0) end
+  self.needs_frame = false
+  self.frames = self.frames + 1
+  self.ui:frame(time_since_last(self), function(ui)
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
@@ -143,7 +174,7 @@ function Viewer:frame()
     handle_keys(self)
     tools.update(self)
   end)
-  self.needs_frame = false
+  drop(self)
 end
 
 --- Saves a picture of the view.
@@ -176,6 +207,10 @@ function Viewer:project(point) return camera.project(self.camera, self.ui.size, 
 --- What lies under a pixel: body, point, normal, distance; nil where nothing is.
 function Viewer:pick(x, y) return tools.pick(self, x, y) end
 
+--- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which a drag takes hold of it, and `value` and `limits` of the DOF of a joint.
+---@return table[] handles
+function Viewer:handles() return tools.handles(self) end
+
 --- Turns the camera about its target.
 ---@param yaw number  [degrees]
 ---@param pitch number  [degrees]
@@ -184,7 +219,7 @@ function Viewer:orbit(yaw, pitch)
   self:frame()
 end
 
---- Chooses a tool: "Camera", "Select", "Translate" or "Rotate".
+--- Chooses a tool: "Camera", "Select", "Translate", "Rotate" or "Measure".
 function Viewer:tool(name)
   for _, known in ipairs(tools.names) do
     if known == name then
@@ -208,34 +243,21 @@ function Viewer:click(x, y) input.click(self, x, y) end
 function Viewer:click_label(label) input.click_label(self, label) end
 function Viewer:drag(x, y, to_x, to_y, options) input.drag(self, x, y, to_x, to_y, options) end
 
+--- Keeps unsaved work at once, as it is when a program ends early.
+function Viewer:flush()
+  for _, kept in ipairs(self.kept) do
+    if kept.flush then kept.flush() end
+  end
+end
+
 --- Closes the view.
 function Viewer:close()
   if self.is_closed then return end
   self.is_closed = true
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
   if self.timer then self.timer:remove() end
+  for _, kept in ipairs(self.kept) do kept.finish() end
   self.ui:close()
-end
-
--- draws frames when something has changed, until the window is closed
-local function follow(self)
-  local function step()
-    if self.is_closed then return end
-    local waits = self.ui:poll()
-    if waits or self.needs_frame or self.session.gesture then self:frame() end
-    if self.ui.close_requested or self.wants_exit then
-      self.ui:keep_open()
-      self.wants_exit = false
-      if self.session:is_modified() and not self.asks_to_leave then
-        self.asks_to_leave = true
-        self:changed()
-      elseif not self.asks_to_leave then
-        self:close()
-      end
-    end
-    if self.leaves then self:close() end
-  end
-  self.timer = clench.loop.every(1 / 60, step)
 end
 
 --- Shows the window until the user closes it. Jobs, devices and coroutines of clench.loop run meanwhile.
@@ -247,16 +269,22 @@ end
 return function(options)
   local session = options.session
   local view = setmetatable({
-    session = session, stamp = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m"},
-    panels_visible = true, current_tool = "Camera", tools = tools.names, dark = options.dark or false, status = "Ready", subscriptions = {},
+    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
+    panels_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
-  view.ui = clench.ui {size = options.size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
+  local size = options.size or options.window and preferences.size()
+  view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
   view.panels = layout.panels()
   view:home()
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event) echo.changed(view, event) end)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.level) end)
-  if options.window then follow(view) end
+  if options.window then
+    local settings, state = user_files.settings(), user_files.state()
+    view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}
+    follow(view)
+  end
   return view
 end

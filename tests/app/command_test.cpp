@@ -205,7 +205,7 @@ TEST_CASE("describe prints an entry with ranges and defaults, as text and as JSO
   CHECK(has(unknown.out, "there is no entry 'clench.rda'; did you mean 'clench.rad'?"));
 }
 
-TEST_CASE("doc writes pages, and --check finds one that is not what the bindings say") {
+TEST_CASE("doc writes pages, and --check finds one that is out of date") {
   const Folder folder;
   const std::string pages = folder / "api";
   CHECK(run("doc " + pages + " --check").code == 1);
@@ -214,7 +214,7 @@ TEST_CASE("doc writes pages, and --check finds one that is not what the bindings
   folder.file("api/pose.md", "# something else");
   const auto check = run("doc " + pages + " --check");
   CHECK(check.code == 1);
-  CHECK(has(check.out, "pose.md is not what the bindings say; run clench doc"));
+  CHECK(has(check.out, "pose.md is out of date; run clench doc"));
   // the stub is Lua
   CHECK(run("run " + pages + "/clench.lua").code == 0);
   const std::string file = folder.file("file", "x");
@@ -228,7 +228,7 @@ TEST_CASE("output that cannot be written is an error") {
        {"check --json models/objects/flask.iv", "--help", "-e 'print(1)'"}) {
     const auto outcome = run(std::string(arguments) + " 4>&1 > /dev/full 2>&4; exit $?");
     CHECK(outcome.code == 1);
-    CHECK(has(outcome.out, "clench: the output could not be written whole"));
+    CHECK(has(outcome.out, "clench: the output could not be written completely"));
   }
 }
 

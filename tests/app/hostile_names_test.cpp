@@ -9,7 +9,7 @@ static const std::string hostile =
     "\x1b[31m\r\nerror: forged \xC2\x9B"
     "31m \xE2\x80\xAE gpj \xE2\x81\xA6";
 
-/// Does a text hold none of them, but for ends of lines and blanks of its own?
+/// Is a text free of them, except for the line ends and blanks of the output itself?
 static bool is_shown(const std::string& text) {
   bool shown = true;
   for (size_t i = 0; i < text.size(); ++i)

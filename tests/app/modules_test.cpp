@@ -1,4 +1,4 @@
-// Whose modules a command runs: its own, and those of the script.
+// Modules that a command runs: those of Clench and those of the script.
 #include "command.h"
 
 using clench::test::Folder;
@@ -92,7 +92,7 @@ TEST_CASE("a script's own modules lie beside it, then where LUA_PATH says, and n
   CHECK(has(other.out, "no file 'other/mine.lua'"));
   CHECK(other.out.find("'./") == std::string::npos);
   CHECK(has(run("run other/s.lua", "", here + "LUA_PATH='lib/?.lua;;'").out, "of the library"));
-  // what is typed, piped or given as code stands where we stand
+  // code that is typed, piped or given by -e uses the current folder
   CHECK(has(run("-e 'print(require [[mine]])'", "", here).out, "where one stands"));
   CHECK(has(run("run -", "print(require 'mine')", here).out, "where one stands"));
   CHECK(has(run("repl", "=require 'mine'", here).out, "where one stands"));

@@ -13,7 +13,7 @@ TEST_CASE(
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
   CHECK(has(end_by("KILL", command + " --threads 1 --count 12", out), "code 137"));
-  // of a line that is cut the rest is read, with a warning
+  // the rest of a truncated line is read, with a warning
   const std::string text = text_of(out);
   folder.file("a.jsonl", text.substr(0, text.size() - 100));
   CHECK(has(epsilons(out) + run("-e 'clench.grasps(\"" + out + "\")'").out,
@@ -72,7 +72,7 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
   };
   refused(command,
           "-o: " + out +
-              " is the list of this search: --resume continues it, --overwrite starts it anew\n");
+              " is the list of this search: --resume continues it, --overwrite restarts it\n");
   refused(command + " --seed 2",
           " is the list of another search: expected --seed '2', got '1'; --overwrite replaces it");
   refused(command + " --seed 2 --resume",
@@ -85,8 +85,8 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
   refused("plan models/hands/dlr/dlr.cfg models/objects/flask.iv --no-verify --resume -o " + out,
           "expected HAND 'models/hands/dlr/dlr.cfg', got 'models/hands/barrett/barrett.cfg'");
   refused(command + " --resume --overwrite", "expected --overwrite or --resume, got both", 2);
-  refused(barrett + "--resume", "--resume is about the list of -o FILE, and there is no -o", 2);
-  refused(barrett + "--overwrite", "--overwrite is about the list of -o FILE", 2);
+  refused(barrett + "--resume", "--resume requires -o FILE", 2);
+  refused(barrett + "--overwrite", "--overwrite requires -o FILE", 2);
   refused(barrett + "--resume -o " + (folder / "a.csv"),
           "--resume: expected a list of JSON lines, -o FILE.jsonl, got '" + (folder / "a.csv"), 2);
   // the same search, said otherwise
@@ -102,8 +102,8 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
   other("b.jsonl", "mine\n", " exists already; --overwrite replaces it");
   other("b.csv", "mine\n", " exists already; --overwrite replaces it");
   other("c.jsonl", "{\"format\":\"clench grasps\",\"version\":1}\n{\"hand\":1}\n",
-        " exists already and does not state of which search it is; --overwrite replaces it");
-  refused(barrett + "--resume -o " + (folder / "b.jsonl"), "b.jsonl is no list of grasps");
+        " exists already and does not identify its search; --overwrite replaces it");
+  refused(barrett + "--resume -o " + (folder / "b.jsonl"), "b.jsonl is not a list of grasps");
   const std::string replaced = folder / "b.jsonl";
   CHECK(run(command.substr(0, command.find("-o")) + "--overwrite -o " + replaced).code == 0);
   CHECK(text_of(replaced) == list);
@@ -130,8 +130,8 @@ TEST_CASE("a search that fails or finds nothing leaves files unchanged") {
   const auto none = run("plan models/hands/parallel_jaw/parallel_jaw.cfg " + object +
                         " --unit m --seconds 0.2 --overwrite" + outputs);
   CHECK(none.code == 1);
-  CHECK(has(none.out, "a.jsonl is as it was, as no grasps were found\n"));
-  CHECK(has(none.out, "a.png is as it was, as no grasps were found\n"));
+  CHECK(has(none.out, "a.jsonl is unchanged, as no grasps were found\n"));
+  CHECK(has(none.out, "a.png is unchanged, as no grasps were found\n"));
   check_old();
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("a closed output pipe does not keep plan from writing its files") {
   const std::string text =
       output_of("{ " + std::string(CLENCH_COMMAND) + " " + barrett + "--no-verify --count 1 -o " +
                 out + "; echo code $? >&2; } | true\n");
-  CHECK(has(text, "clench: the output could not be written whole: nobody reads it any more\n"));
+  CHECK(has(text, "clench: the output could not be written completely: its reader is closed\n"));
   CHECK(has(text, "code 1\n"));
   CHECK(std::stod(epsilons(out)) > 0);
 }

@@ -7,7 +7,7 @@ using namespace clench::test;
 
 namespace {
 
-// width and height in the head of a PNG file; {0, 0} if it is none
+// width and height in the head of a PNG file; {0, 0} for other files
 std::pair<int, int> size_of_png(const std::string& path) {
   const std::string bytes = text_of(path);
   if (bytes.size() < 24 || !bytes.starts_with("\x89PNG")) return {0, 0};
@@ -82,7 +82,7 @@ TEST_CASE("wrong options of render are reported in one sentence") {
   said(world + "--quality fine", "--quality: fine not in {");
   said(world + "--camera 1,2", "--camera: expected X,Y,Z in meters, with a point to look at");
   said(world + "--pick 1",
-       "--pick is about a list of grasps, and worlds/dlr_flask.wld is a file of kind 'world'");
+       "--pick applies to lists of grasps, but worlds/dlr_flask.wld is a file of kind 'world'");
   said("no.wld -o " + out, "no such file: no.wld", 1);
   said("models/hands/dlr/dlr.egr -o " + out,
        "expected a world, a robot, a body or a list of grasps");

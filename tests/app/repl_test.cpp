@@ -50,11 +50,12 @@ TEST_CASE("help explains functions, values and names") {
           .out;
   for (const char* part :
        {"clench.rad(degrees)\n  Degrees to radians.", "pose: A rigid transform", ".position",
-        "pose:inverse()", "clench.json.encode", "help(x) explains a value", "nothing is known of 5",
-        "clench.shapes.box(options)\n", "clench.study.robustness(grasp, options)",
-        "string.rep is a function of Lua's own", "clench.stats.quantile ",
-        "'gif' is no name; it is spoken of by\n  clench.files.save_gif\n",
-        "nothing is known of nonsense"})
+        "pose:inverse()", "clench.json.encode", "help(x) explains a value",
+        "there is no help for 5", "clench.shapes.box(options)\n",
+        "clench.study.robustness(grasp, options)", "string.rep is a function of Lua",
+        "clench.stats.quantile ",
+        "'gif' is not a name; it is mentioned by\n  clench.files.save_gif\n",
+        "there is no help for nonsense"})
     CHECK_MESSAGE(out.find(part) != std::string::npos, part);
 }
 
@@ -148,7 +149,7 @@ TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line
       "clench.loop.spawn(function() clench.loop.wait(job) print(job:result() * 11) end)");
   terminal.wait_for("121");
   terminal.wait_for("> ");
-  // Ctrl-C ends what runs in the loop, and the session goes on
+  // Ctrl-C ends the code that runs in the loop, and the session continues
   terminal.enter("clench.loop.spawn(function() print('bu' .. 'sy') while true do end end)");
   terminal.wait_for("busy");
   terminal.type("\x03");
@@ -194,7 +195,7 @@ TEST_CASE("Tab completes files, bodies, measures and options") {
   terminal.enter("#'" + (home / "so") + "\twh\tlo\t'");
   terminal.wait_for(fmt::format("{}\r\n", (home / "some/where/long_name.lua").size()));
   terminal.wait_for("> ");
-  // of the catalog, from any folder
+  // files of the catalog, from any folder
   terminal.enter("#'worlds/dlr_\t'");
   terminal.wait_for(fmt::format("{}\r\n", std::string("worlds/dlr_flask.wld").size()));
 }

@@ -1,4 +1,4 @@
-// What checked files can do to a check, and which files are read when reading is confined.
+// Effects of checked files on a check, and files that are read when reading is confined.
 #include "command.h"
 
 using clench::test::Folder;
@@ -6,7 +6,7 @@ using clench::test::has;
 using clench::test::run;
 namespace fs = std::filesystem;
 
-// worlds in Lua that ask for the end of the program, in every way
+// worlds in Lua that end the program, by all functions that can
 static constexpr const char* endings[] = {
     "os.exit(0)",
     "os.exit(true, true)",

@@ -43,7 +43,7 @@ TEST_CASE("words of other simulators lead to ours, where that is known") {
   CHECK(did_you_mean("step", {"time_step", "run"}) == "; did you mean 'run'?");
   CHECK(did_you_mean("step", {"steps", "duration"}) == "; did you mean 'steps'?");
   CHECK(did_you_mean("position", {"name", "dofs"}).empty());
-  // of several the first that is known
+  // among several, the first known name
   CHECK(did_you_mean("position", {"point", "pose"}) == "; did you mean 'pose'?");
   CHECK(did_you_mean("position", {"point", "normal"}) == "; did you mean 'point'?");
   CHECK(did_you_mean("xyz", {"position", "quat"}) == "; did you mean 'position'?");

@@ -161,7 +161,7 @@ TEST_CASE("lines without a mark are stepped over, and the others keep their numb
     std::string text;
     for (int i = static_cast<int>(random.uniform(0, 40)); i > 0; --i)
       text += "ab# \n"[static_cast<int>(random.uniform(0, 5))];
-    // the slow way: every line
+    // brute-force reference: every line
     std::vector<std::pair<int, bool>> expected, got;
     LineReader all("f", text);
     while (!all.done()) {

@@ -2,7 +2,7 @@
 -- and loading. Prints one line each: name, seconds, seconds of what had to be done besides, parted by tabs.
 --   clench -q run tests/bench/state.lua WORLD HAND OBJECT    files, from the project's root: the DLR hand and flask, the
 --                                                            human hand of 20 DOFs, and what it meets
--- It runs on this build and on the one that it is held against, so it asks for nothing that only one of them has.
+-- It runs on this build and on the build that it is compared with, so it uses only entries that both have.
 local clench = require "clench"
 local world_file, hand_file, object_file = table.unpack(arg)
 

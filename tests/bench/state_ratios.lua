@@ -5,7 +5,7 @@ local before, now = arg[1], arg[2]
 local asked = {}
 for i = 3, #arg do asked[arg[i]] = true end
 
--- how many times as fast it must be
+-- required ratios of speed
 local figures = {
   {"snapshot and restore", 10}, {"clone", 6}, {"kinematics", 2}, {"colliding verdict", 2}, {"legal verdict", 2},
   {"autograsp", 2}, {"load", 1.5},

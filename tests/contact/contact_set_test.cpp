@@ -53,7 +53,7 @@ Mesh subdivided(Mesh mesh, int times) {
   return mesh;
 }
 
-// every triangle with corners of its own
+// every triangle with separate corners
 Mesh soup(const Mesh& mesh) {
   Mesh out;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -115,7 +115,7 @@ bool has_point(const Touches& touches, const Vector3d& p, double tolerance) {
                      [&](const Touch& t) { return (t.p_a - p).norm() <= tolerance; });
 }
 
-// what holds for every contact set
+// properties of every contact set
 void check_sound(const Touches& touches, const Shape& a, const Shape& b, const Pose& X_AB,
                  double threshold = 1e-4) {
   for (const Touch& t : touches) {

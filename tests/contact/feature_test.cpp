@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// how far p, in the mesh's frame, is from a feature of it
+// distance of p, in the mesh's frame, from a feature of the mesh
 double distance_to(const Mesh& mesh, const Feature& f, const Vector3d& p) {
   if (f.kind == Feature::vertex) return (p - mesh.vertices[f.first]).norm();
   if (f.kind == Feature::edge) {
@@ -53,7 +53,7 @@ TEST_CASE(
     Pose X_AB = test::random_pose(random, 0.1);
     const Distance d = distance(*a, *b, X_AB);
     if (d.distance == 0) continue;
-    // to within the threshold along the shortest way
+    // to within the threshold along the shortest path
     X_AB.position -= (d.p_b - d.p_a) * (1 - 5e-5 / d.distance);
     const auto touches = contact_set(*a, *b, X_AB, {.threshold = 1e-4});
     const auto swapped = contact_set(*b, *a, X_AB.inverse(), {.threshold = 1e-4});

@@ -15,7 +15,7 @@ static double cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
   return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
 }
 
-// the slow way: a point is a corner when some direction finds it farthest
+// brute-force reference: a point is a corner if it is the farthest in some direction
 static std::set<int> slow_hull(const Points& points) {
   std::set<int> corners;
   const int n = static_cast<int>(points.size());

@@ -78,7 +78,7 @@ SoftPatch patch_at(const Mesh& floor, const Mesh& pad, double turn, const Vector
   return soft_patch(*soft_sites(Shape::make(floor), Shape::make(pad), X_AB, {}, soft, {touch})[0]);
 }
 
-/// of the contacts as they are found, all patches
+/// all patches, of the contacts in the order in which they are found
 std::vector<SoftPatch> patches_of(const Mesh& floor, const Mesh& pad, double turn) {
   const auto a = Shape::make(floor), b = Shape::make(pad);
   const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, pad_gap}};
@@ -103,7 +103,7 @@ Vector2d axes_of(const SoftPatch& patch, double force) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// how far an ellipse reaches along a direction of the frame of the floor
+/// extent of an ellipse along a direction of the frame of the floor
 double reach_of(const SoftPatch& patch, double force, const Vector3d& direction) {
   const auto axes = contact_ellipse(patch, force).semi_axes;
   return std::hypot(axes[0] * patch.directions.col(0).dot(direction),

@@ -116,7 +116,7 @@ TEST_CASE("cans that stand on each other touch along the outline of what both ca
   }
   CHECK(std::abs(high.y() - across) < 1e-6);
   CHECK(std::abs(low.y() + across) < 1e-6);
-  // of an outline of more than eight points eight stay
+  // an outline of more than eight points is reduced to eight
   CHECK(low.x() < -0.007);
   CHECK(high.x() > 0.027);
   // crossed on their sides: one point; side by side: the ends of the line that they share

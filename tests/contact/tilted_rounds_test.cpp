@@ -1,4 +1,4 @@
-// Contacts of flat parts of round solids that tilt away from what they lie on.
+// Contacts of flat parts of round solids that tilt away from their support.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ static double distance_to_segment(const Vector3d& p, const Vector3d& from, const
   return (p - from - s * way).norm();
 }
 
-// How far a point of one set is at most from all lines between points of the other set.
+// Largest distance of a point of one set from all lines between points of the other set.
 static double apart_from(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
   double out = 0;
   for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)})

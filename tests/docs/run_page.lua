@@ -38,7 +38,7 @@ end
 
 local function without_times(text) return (text:gsub("%d+%.?%d* s%f[%W]", "N s")) end
 
--- what the commands of a block print, with this program as `clench`
+-- output of the commands of a block, with this program as `clench`
 local function output_of(commands)
   local folder = new_path()
   os.remove(folder)

@@ -1,4 +1,4 @@
-// Bodies that slide, roll, fall, bounce and tip, beside what books say.
+// Bodies that slide, roll, fall, bounce and tip, compared with textbook formulas.
 #include <cmath>
 #include <numbers>
 

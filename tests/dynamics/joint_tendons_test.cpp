@@ -1,4 +1,4 @@
-// Joint tendons and resistance to free motion, beside closed formulas.
+// Joint tendons and resistance to free motion, compared with closed formulas.
 #include <cmath>
 #include <functional>
 
@@ -76,7 +76,7 @@ TEST_CASE(
   dry.start(0.5, 0.5);
   run(dry.world, 0.2);
   CHECK(dry.v(0) == doctest::Approx(0.5 - 0.2 * 0.3 / dry.inertia).epsilon(1e-6));
-  // what does not change the length is free
+  // motion that does not change the length is free
   dry.start(0.5, -0.5);
   run(dry.world, 0.2);
   CHECK(dry.v(0) == doctest::Approx(0.5).epsilon(1e-9));

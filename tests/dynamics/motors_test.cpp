@@ -1,4 +1,4 @@
-// Motors, limits, springs, friction and couplings of joints, beside closed formulas.
+// Motors, limits, springs, friction and couplings of joints, compared with closed formulas.
 #include <cmath>
 
 #include "clench/base/error.h"

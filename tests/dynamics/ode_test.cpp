@@ -132,7 +132,7 @@ TEST_CASE("ODE: a load at a body and the velocity of an obstacle act as with our
   both.run(0.3);
   CHECK(both.ode.twist(body).linear.x() == doctest::Approx(0.1).epsilon(1e-6));
   CHECK(both.apart(body) < 1e-4);
-  // a belt moves what lies on it too, the other way
+  // a belt also moves the bodies on it, in the other direction
   for (World* w : {&both.ours, &both.ode}) {
     DynamicSettings settings = w->dynamic_settings();
     settings.surface_velocities[table] = {-0.3, 0, 0};
@@ -157,7 +157,7 @@ TEST_CASE(
     const double book = 9.81 * (std::sin(angle) - 0.95 * limit * std::cos(angle));
     CHECK((both.ours.twist(block).linear - ours).norm() / 0.3 ==
           doctest::Approx(book).epsilon(1e-9));
-    // ODE's contacts give way a little
+    // ODE's contacts are slightly compliant
     CHECK((both.ode.twist(block).linear - ode).norm() / 0.3 == doctest::Approx(book).epsilon(1e-5));
   }
   World world;
@@ -191,7 +191,7 @@ TEST_CASE("ODE: hanging links swing as with our solver") {
     const auto id = add_loose(world, chain(1, {Vector3d::UnitY()}));
     world.set_dofs(id, Eigen::VectorXd::Constant(1, 1.2));
     Both both(world);
-    // joints of ODE give way by 1e-9 of an impulse
+    // joints of ODE yield by 1e-9 of an impulse
     check_dofs(both, id, 1, 1e-7);
   }
   SUBCASE("three hinges: forces of their own turning") {

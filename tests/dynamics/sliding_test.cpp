@@ -36,7 +36,7 @@ struct Pair {
   }
 };
 
-// how far a point of one is from the nearest of the other
+// distance of a point of one from the nearest point of the other
 double apart(const ManifoldPoint& point, const Manifold& other, bool of_a) {
   double out = 1;
   for (const ManifoldPoint& p : other.points)

@@ -1,4 +1,4 @@
-// Mass matrices, forces and motions of trees, beside sums over bodies and closed formulas.
+// Mass matrices, forces and motions of trees, compared with sums over bodies and closed formulas.
 #include <cmath>
 
 #include "clench/base/random.h"
@@ -93,7 +93,7 @@ TEST_CASE("bias: Lagrange's equation by finite differences of the energies") {
     // second differences of numbers of some ten at 1e-5
     CHECK((bias - expected).cwiseAbs().maxCoeff() < 1e-6);
 
-    // and the way back: what it takes to accelerate so
+    // and the inverse: forces that cause these accelerations
     Eigen::VectorXd change(3);
     for (double& x : change) x = random.uniform(-3, 3);
     const auto& efforts =

@@ -14,7 +14,7 @@ math.randomseed(seed)
 local random = math.random
 local function one_of(list) return list[random(#list)] end
 
--- --- what there is to begin with ---
+-- --- initial objects ---
 
 api.names_of_things, api.members, api.materials, api.measures, api.files = {}, {}, {"wood", "rubber", "plastic"}, {}, {}
 api.endings = {".wld", ".xml", ".lua", ".obj", ".stl", ".ply", ".cfg", ".urdf", ".egr", ".vgr", ".png", ".iv", ""}
@@ -91,7 +91,7 @@ local coverage = {}
 for _, name in ipairs(api.names) do coverage[name] = {0, 0} end
 
 local function run(text, step, target)
-  -- what is odd may well be infinite
+  -- results of odd arguments may be infinite
   local sensible = maker.hostile == 0 and step.entry ~= "something odd"
   log:write(("call(%s, %q, %s, %s)\n"):format((("%q"):format(text):gsub("\\\n", "\\n")), step.entry, target, sensible))
   log:flush()

@@ -23,7 +23,7 @@ local function finding(what, text)
   print(("FINDING %d %s"):format(call.number, signature))
 end
 
--- what the engine logs is judged; a script's own messages are the script's
+-- messages that the engine logs are checked; a script's own messages are not
 local function listen(name)
   clench.log.level "info"
   clench.log.sink(function(_, text, about)

@@ -1,4 +1,4 @@
--- What a run that broke has in common with others of the same cause: the sanitizer's summary, else the exit code.
+-- Signature of a failed run, equal for runs with the same cause: the sanitizer's summary, else the exit code.
 --   lua5.4 tests/fuzz/crash.lua OUTPUT CODE       also returned as a function(text, code)
 local function signature(text, code)
   local summary = text:match "([^\n]*: runtime error: [^\n]*)" or text:match "SUMMARY: ([^\n]*)"

@@ -34,7 +34,7 @@ local function add_keys(kind, keys)
   end
 end
 
--- what stands in quotes in a doc: the words that the entry takes
+-- quoted words in a doc: the words that the entry accepts
 local function words_of(text)
   local words = {}
   for word in text:gmatch '"([^"\n]+)"' do words[#words + 1] = word end

@@ -1,14 +1,14 @@
--- What is wrong with a message or a value that came back.
+-- Finds faults of a message or of a returned value.
 local judge = {}
 
 -- words of a library, of the compiler or of Lua itself, in a place where a sentence for the user belongs
 local forbidden = {"std::", "bad_alloc", "vector::", "basic_string", "unprotected", "stack traceback", "terminate",
                    "not enough memory", "Assertion"}
 
--- characters of a sentence: those of the engine end after 1000, and a place stands before them
+-- longest sentence [characters]: those of the engine end after 1000, and a place precedes them
 local longest = 1200
 
---- Why a text is none for people; nil when it is one.
+--- Reason for which a text is not a readable message; nil if it is one.
 function judge.text(text)
   for _, word in ipairs(forbidden) do
     if text:find(word, 1, true) then return text end
@@ -57,10 +57,10 @@ local function has_odd(value, infinite, depth, seen)
   return false
 end
 
---- What hands out a number that is not finite; nil when all are.
+--- The entry that returned a number that is not finite; nil if all are finite.
 function judge.value(value, name) return has_odd(value, endless[name], 4, {}) and name or nil end
 
---- What two findings of one cause have in common.
+--- Signature of a finding, equal for findings with the same cause.
 function judge.signature(what, text)
   local short = text:gsub("^fuzz:%d+: ", ""):gsub("'.-'", "'...'"):gsub("<.->", "<...>"):gsub("%-?%d[%w.+-]*", "N"):gsub("[\r\n].*", ""):sub(1, 160)
   return what .. ": " .. short

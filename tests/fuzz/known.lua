@@ -1,4 +1,4 @@
--- What the docs' types leave open: how long lists are, which numbers a name means, which files an entry reads.
+-- Facts that the types in the docs leave open: lengths of lists, numbers that a name means, files that an entry reads.
 local random = math.random
 local function one_of(list) return list[random(#list)] end
 local known = {}
@@ -36,7 +36,7 @@ local files = {
 }
 known.files = files
 
---- of the files that an entry writes; `save` of a world has many
+--- extensions of the files that an entry writes; `save` of a world has many
 known.endings = {
   ["hand:save_virtual_contacts"] = {".vgr", ".xml"}, ["eigengrasps:save"] = {".egr", ".xml"}, ["picture:save"] = {".png"},
   ["plot:save"] = {".png", ".svg"}, ["clench.csv.write"] = {".csv"}, ["clench.latex.write"] = {".tex"}, ["clench.files.save_text"] = {".txt"},
@@ -44,7 +44,7 @@ known.endings = {
   ["clench.convert"] = {".obj", ".stl", ".ply", ".off", ".iv", ".xml"},
 }
 
--- what a body is made of
+-- options of a body
 local body_keys = "name?: string, material?: string, mass?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, "
   .. "soft_layer?: number, poisson_ratio?: number, color?: number[], transparency?: number"
 local contact_keys = "point: vec3, normal: vec3, mu: number, torsion_radius?: number"
@@ -141,7 +141,7 @@ known.sources = {
   link = function(self) local robot = self:object "robot" return robot and robot .. ".links[2]" or "nil" end,
 }
 
---- whole lists of arguments of entries whose parts must fit each other
+--- complete lists of arguments of entries whose parts must fit each other
 known.arguments = {
   ["clench.eigengrasps"] = source_of {"{postures = {{0, 0}, {1, 2}, {2, 5}}, count = 1}", "{vectors = {{1, 0}, {0, 3}}}",
                                       "{vectors = {{1, 0}, {0, 3}}, origin = {1, 1}, eigenvalues = {1, 2}, limits = {{-1, 1}, {-1, 1}}, norm = {1, 2}}",
@@ -171,7 +171,7 @@ known.arguments = {
     "{series = {{edges = {0, 1, 2}, counts = {1, 2}}}, x_range = {-1, 3}}"},
 }
 
---- how an object of a class is made from others, when there is none
+--- makes an object of a class from others, if there is none yet
 known.providers = {
   contact = "world:contacts()[1]", patch = "contact:fit_patch()", virtual_contact = "robot.virtual_contacts[1]",
   eigengrasps = "robot.eigengrasps", mesh = "body.mesh", snapshot = "world:snapshot()",
@@ -184,7 +184,7 @@ local function grasp(self)
   local robot = self:object "robot"
   return robot and ("clench.grasp(%s, %s.world.objects[1], {edges = %s})"):format(robot, robot, one_of {"8", "4", "'exact'"})
 end
---- what may be used only until something moves
+--- objects that may be used only until something moves
 known.stale = {grasp = grasp, measures = grasp, forces = grasp}
 
 --- they take long; none is left out, but each is rarer by so much

@@ -1,7 +1,7 @@
 -- One part of a list of arguments, given as Lua source, exchanged for something hostile.
 local random = math.random
 
--- where numbers, strings, tables and names of values stand; not the names of keys
+-- positions of numbers, strings, tables and names of values; not of names of keys
 local function parts(text)
   local list, at = {}, 1
   while at <= #text do

@@ -1,4 +1,4 @@
--- What the examples of the API's pages see: the globals of a script, and the parts of a stage that they ask for by name.
+-- Globals of the examples of the API's pages: the globals of a script, and the parts of a stage that the examples use by name.
 
 -- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each example that asks
 local closed
@@ -17,6 +17,7 @@ local parts = {
     env.flask.elastic_modulus = 1.5e6
     return env.world:contacts(env.hand, env.flask)[4].patch
   end,
+  ui = function() return clench.ui {size = {320, 240}} end,
 }
 
 --- A fresh environment of examples; other names are those of `globals`.

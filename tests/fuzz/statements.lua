@@ -48,7 +48,7 @@ local function sensible_arguments(self, step)
   if whole and random(4) > 1 then return whole(maker) end
   local list = {}
   for _, param in ipairs(step.params) do
-    -- a picture is small only when it is told to be
+    -- a picture is small only if its size is given
     if param.optional and random(4) == 1 and not step.name:find "render" then break end
     list[#list + 1] = maker:make(param.type, param.name)
   end

@@ -26,7 +26,7 @@ local hostile_anything = {
   "function() end", "function() error {} end", "coroutine.create(print)", "io.stdout", "clench.json.null",
 }
 
---- what the chunks see besides `v`
+--- globals of the chunks in addition to `v`
 function values.environment()
   local cyclic, deep = {}, {}
   cyclic[1], cyclic.cyclic, cyclic.xyz = cyclic, cyclic, cyclic
@@ -41,7 +41,7 @@ function values.environment()
     lying = setmetatable({}, {__len = function() return 1 << 40 end, __index = function() return 1 end}),
   }
 
-  -- what examples use besides; their files lie in the current folder
+  -- further globals of examples; their files lie in the current folder
   local named = 0
   local function temporary()
     named = named % 9 + 1

@@ -23,7 +23,7 @@ double min_of_all_pairs(const Shape& a, const Shape& b, const Pose& X_AB) {
   return least;
 }
 
-// witnesses lie on the triangles named, as far apart as is said
+// witnesses lie on the named triangles, at the reported distance
 void check_witness(const Shape& a, const Shape& b, const Pose& X, const Distance& d) {
   const double tolerance = 1e-14 * (1 + X.position.norm());
   REQUIRE(a.has_triangle(d.triangle_a));
@@ -63,7 +63,7 @@ TEST_CASE("distance is the least of all pairs far away, near and touching, 0 whe
     for (const double gap : {1.0, 1e-2, 1e-4, 1e-6, 1e-9}) {
       const Pose Y = closed_in(start, X, gap);
       const Distance d = distance(*a, *b, Y);
-      // the connection of nearest points is the shortest way: exactly the gap is left
+      // the segment between the nearest points is the shortest path: exactly the gap is left
       CHECK(std::abs(d.distance - gap) < 2e-15);
       CHECK_FALSE(colliding(*a, *b, Y));
       check_witness(*a, *b, Y, d);

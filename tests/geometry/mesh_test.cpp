@@ -12,7 +12,7 @@ using namespace clench::test;
 
 namespace {
 
-// every triangle with vertices of its own, as files without indices have it
+// every triangle with separate vertices, as in files without indices
 Mesh exploded(const Mesh& mesh) {
   Mesh out;
   for (const Triangle& t : mesh.triangles) {
@@ -113,7 +113,7 @@ TEST_CASE("every vertex goes to the first one kept within the tolerance") {
     mesh.vertices.push_back({1e9, 0, 0});
     for (int i = 0; i < 40; ++i)
       mesh.vertices.push_back(mesh.vertices[3 * i] + random_point(random, 0.5 * tolerance));
-    // the slow way
+    // brute-force reference
     std::vector<Eigen::Vector3d> kept;
     for (const auto& p : mesh.vertices) {
       bool near = false;

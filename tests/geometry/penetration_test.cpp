@@ -81,7 +81,7 @@ const PenetrationOptions by_default;
 
 double tolerance(double depth) { return by_default.absolute + by_default.relative * depth; }
 
-/// What holds of any answer: its point is in both, and as deep as it says.
+/// Properties of every result: its point lies in both, at the reported depth.
 /// buried  some faces of a are: the nearest is no bound
 void check_point(const Penetration& found, const Mesh& a, const Mesh& b, bool buried = false) {
   CHECK(found.bound >= found.depth);

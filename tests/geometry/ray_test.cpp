@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Where the line meets the plane, if that lies in the triangle: the slow and obvious way.
-// Near edges (within 1e-9 of the size) either answer is right: nothing is returned.
+// Intersection of the line and the plane, if it lies in the triangle: brute-force reference.
+// Near edges (within 1e-9 of the size) both results are accepted: no point is returned.
 struct Expected {
   double distance = std::numeric_limits<double>::infinity();
   bool sure = true;

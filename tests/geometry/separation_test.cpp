@@ -27,7 +27,7 @@ double highest(const BoundingPolytope& bounding_polytope, const Vector3d& n) {
   return most;
 }
 
-// how far the bounding_polytope reaches beyond the mesh, at most, in parts of the radius
+// largest distance of the bounding_polytope from the mesh, as a fraction of the radius
 double excess_of(const Mesh& mesh, Random& random) {
   const auto shape = Shape::make(mesh);
   const Vector3d center = Vector3d::Map(shape->tree().center());

@@ -23,7 +23,7 @@ double extent(const Corners& a, const Corners& b) {
   return size;
 }
 
-// how far x is from lying in the hull of the corners: exact formulas would give 0
+// distance of x from the hull of the corners: exact formulas would give 0
 double outside(const Vector3d& x, const Corners& t) {
   const auto area = [](const Vector3d& u, const Vector3d& v) { return u.cross(v).norm(); };
   const double whole = area(t[1] - t[0], t[2] - t[0]);

@@ -63,7 +63,7 @@ Arranged arrange(const std::string& hand, bool on_arm, Random& random) {
   return a;
 }
 
-// how each contact's point and link move per unit of a robot's DOF, in the contact's frame
+// motion of each contact's point and link per unit of a robot's DOF, in the contact's frame
 VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
   const double h = 1e-6;
   World plus = a.world, minus = a.world;

@@ -101,7 +101,7 @@ TEST_CASE("no measure changes when the world is moved") {
     Held here = held(points);
     Held there = held(points, {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}});
     for (const Measure& measure : measures()) {
-      // gravity is the world's: the weight pulls another way
+      // gravity is the world's: the weight pulls in another direction
       if (measure.name == "gravity_effort" || measure.name.ends_with("robustness")) continue;
       const double a = value(here, measure.name), b = value(there, measure.name);
       // infinite ones are equal alone

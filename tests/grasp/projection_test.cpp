@@ -34,7 +34,8 @@ double mesh_volume(const Mesh& mesh) {
   return sum;
 }
 
-// the slow way: all facets of the hull in six dimensions, cut, and the corners of what they bound
+// brute-force reference: all facets of the hull in six dimensions, cut, and the corners of the
+// region that they bound
 double slow_slice_volume(const WrenchSpace& space,
                          const std::vector<std::pair<int, double>>& fixed) {
   const Hull hull = space.hull();

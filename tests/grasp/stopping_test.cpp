@@ -1,4 +1,4 @@
-// Long calls that are told to stop end, and leave nothing half done behind.
+// Long calls that are requested to stop end, and leave no partial results behind.
 #include <doctest/doctest.h>
 
 #include "clench/base/error.h"

@@ -32,7 +32,7 @@ std::vector<PointContact> random_contacts(Random& random, int count, bool soft) 
   return out;
 }
 
-// the slow way: the hull of all sums of points
+// brute-force reference: the hull of all sums of points
 double enumerated_volume(const std::vector<Eigen::MatrixXd>& summands) {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(summands[0].rows(), 1);
   for (const Eigen::MatrixXd& summand : summands) {
@@ -129,6 +129,6 @@ TEST_CASE("symmetric grasps, whose faces are parallel, have the volume of all su
   const auto soft = pyramids(opposed, 8);
   const double volume = volume_of(soft);
   CHECK(volume_of(elsewhere(soft, random)) == doctest::Approx(volume).epsilon(1e-10));
-  // of the same wrenches through qhull
+  // the same wrenches by qhull
   CHECK(volume == doctest::Approx(enumerated_volume(soft)).epsilon(1e-9));
 }

@@ -39,7 +39,8 @@ Wrenches all_of(const WrenchSpace& space) {
   return out;
 }
 
-// The slow way: every hyperplane through six of the points that has all others on one side.
+// Brute-force reference: every hyperplane through six of the points that has all others on one
+// side.
 // returns the least offset; 0 when the origin is not strictly inside
 double slow_epsilon(const Wrenches& points) {
   const int n = static_cast<int>(points.cols());
@@ -68,7 +69,7 @@ double slow_epsilon(const Wrenches& points) {
   return std::isfinite(least) && least > 1e-9 ? least : 0;
 }
 
-// what holds for every wrench space
+// properties of every wrench space
 void check_sound_cheaply(const WrenchSpace& space) {
   const Wrenches all = all_of(space);
   const double size = all.size() > 0 ? all.colwise().norm().maxCoeff() : 0;

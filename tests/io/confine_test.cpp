@@ -49,7 +49,7 @@ struct Fences {
   ReadOptions options;
 };
 
-/// What reading a file throws; empty when it throws nothing.
+/// The error that reading a file throws; empty if it throws none.
 template <class Read>
 std::string refusal(Read read) {
   try {
@@ -154,7 +154,7 @@ TEST_CASE(
         CHECK(says_outside(sentence));
       fs::remove(file);
     }
-    // what lies inside is found as ever: no sentence speaks of the outside
+    // files inside are found as usual: no message mentions the outside
     std::string text = referrer.text;
     text.replace(text.find('%'), 1, "../" + part);
     const fs::path file = fences.folder.write(std::string("inside/sub/") + referrer.file, text);

@@ -41,7 +41,7 @@ EigengraspSet random_eigengrasps(uint64_t seed) {
   return set;
 }
 
-// to the bit
+// bit-exactly
 void check_equal(const EigengraspSet& a, const EigengraspSet& b, bool with_limits) {
   CHECK(a.dofs == b.dofs);
   REQUIRE(a.grasps.size() == b.grasps.size());

@@ -48,7 +48,7 @@ std::vector<std::string> told(const fs::path& file, const fs::path& folder) {
   return list;
 }
 
-/// Where words, names and values begin and end.
+/// Beginnings and ends of words, names and values.
 std::vector<std::pair<size_t, size_t>> words_of(const std::string& text) {
   constexpr const char* between = " \t\r\n<>=\"'/,:;[]{}()";
   std::vector<std::pair<size_t, size_t>> out;

@@ -1,4 +1,4 @@
-// What is saved of grasps reads back, or nothing is saved.
+// Saved grasps read back; grasps that would not read back are not saved.
 #include <doctest/doctest.h>
 
 #include <algorithm>

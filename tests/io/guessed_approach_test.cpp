@@ -123,7 +123,7 @@ TEST_CASE(
   CHECK(guessed.at("ja2") == -0.5);
   CHECK(guessed.at("jb1") == 1);
   CHECK(guessed.at("jb2") == 0.5);
-  // what a script says counts before
+  // options of a script take precedence
   ReadOptions options;
   options.closing = {{"ja1", 0}, {"jb2", -1}};
   const auto chosen = velocities(options);

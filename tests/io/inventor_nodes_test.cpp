@@ -1,4 +1,4 @@
-// What single nodes of Inventor and VRML do to triangles.
+// Effects of single nodes of Inventor and VRML on triangles.
 #include "clench/base/error.h"
 #include "clench/io/read.h"
 #include "temporary.h"

@@ -19,7 +19,7 @@ namespace {
 bool refused_mesh(const MeshFile& file, const ReadOptions& options = {}) {
   try {
     const Geometry geometry = read_mesh({file.name, file.content, options});
-    // what is read is fit for a Shape and its tree
+    // meshes that are read are valid for a Shape and its tree
     CHECK_NOTHROW(Shape::make(geometry.mesh, file.name)->tree());
     return false;
   } catch (const Error& error) {

@@ -73,7 +73,7 @@ TEST_CASE("of a scene trees of joints are robots, free bodies objects, what is f
   CHECK(told.world.robots[0].robot.name == "arm");
   CHECK(told.world.robots[0].X_WB.position.z() == 1);
   CHECK(told.world.robots[0].robot.files.body == "arm");
-  // a tree that begins with a joint stands on a frame
+  // a tree that begins with a joint gets a base frame
   CHECK(told.world.robots[1].robot.base.name == "door_world");
   CHECK(told.world.robots[1].robot.dofs.size() == 1);
   CHECK(told.body("mug").role == Role::object);

@@ -118,7 +118,7 @@ TEST_CASE("an image on a mesh lies where the coordinates of its file say, tinted
   for (size_t i = 0; i < skin.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k)
       CHECK((skin.triangles[i].uv[k] - expected[made.mesh().triangles[i][k]]).norm() < 1e-6f);
-  // the color that stands for the image is its mean: half red, half blue
+  // the color that represents the image is its mean: half red, half blue
   CHECK((made.looks().color - Eigen::Vector3f(0.5f, 0, 0.125f)).norm() < 0.03f);
 }
 

@@ -15,7 +15,7 @@ using clench::test::Warnings;
 
 static constexpr double one_degree = std::numbers::pi / 180;
 
-/// A robot of one chain, its joint lines and what stands before and behind them given.
+/// A robot of one chain, with given joint lines and given text before and after them.
 struct Cfg {
   std::string class_line = "Hand\n";
   std::string dofs = "1\nr 1.5 5e9 1e9 1e7 20\n";

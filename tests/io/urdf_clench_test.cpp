@@ -1,4 +1,4 @@
-// The element <clench> of a URDF: what is wrong in it is told by file and line.
+// The element <clench> of a URDF: faults in it are reported by file and line.
 #include "clench/base/error.h"
 #include "temporary.h"
 #include "told_robot.h"

@@ -28,7 +28,7 @@ ReadOptions with_package() {
 
 const fs::path gripper_file = "tests/data/urdf/gripper.urdf";
 
-/// A URDF of two links and what stands between.
+/// A URDF of two links and the given text between them.
 std::string two_links(const std::string& first, const std::string& joint = "type='fixed'",
                       const std::string& inside = "") {
   return "<robot name='r'><link name='a'>" + first + "</link><link name='b'/><joint name='j' " +
@@ -378,7 +378,7 @@ TEST_CASE("limits of followers that contradict each other are dropped, which is 
 
 TEST_CASE("a follower of a joint that stands still does not keep the robot from being read") {
   TemporaryFolder folder;
-  // 0.3 * 0.7 + 0.1, taken back, is not 0.7 to the bit
+  // 0.3 * 0.7 + 0.1, inverted, is not bit-exactly 0.7
   const ToldRobot told(
       folder.write("a.urdf", R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
 <joint name="k" type="revolute"><parent link="a"/><child link="b"/><limit lower="0.7" upper="0.7"/></joint>

@@ -39,7 +39,7 @@ test("a body without area, and objects of a size that no hand grasps, are suspic
   t.equal(doubts(clench.shapes.box {1e-4, 1e-4, 1e-4}),
           {"suspicious world:add_object: mesh: it is 0.0001 m large: is its unit right?"})
   t.equal(doubts(clench.shapes.box {2.9, 0.002, 0.002}), {})
-  -- what only stands in the way may be a room
+  -- an obstacle may be as large as a room
   t.equal(doubts(clench.shapes.box {100, 20, 30}, "add_obstacle"), {})
 end)
 

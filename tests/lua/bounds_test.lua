@@ -1,4 +1,4 @@
--- whatever a script asks for ends soon, with an answer or a sentence
+-- every request of a script ends soon, with a result or an error sentence
 local test, clench = require "test", require "clench"
 
 -- a hand that holds a flask

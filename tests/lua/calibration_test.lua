@@ -121,6 +121,6 @@ test("tracked bodies go where their sensors say, in all three modes", function(t
     same(seen(reading(body, transmitter)), stand * camera:inverse() * body)
   end
   t.fails(function() map {base = clench.pose {}} end, "base and pose belong to the modes relative and camera")
-  t.fails(function() map {mode = "absolut"} end, "mode must be 'absolute' or 'relative' or 'camera'")
+  t.fails(function() map {mode = "absolut"} end, "mode must be 'absolute', 'relative' or 'camera'")
   t.fails(function() map {}(5) end, "expected a pose as reading, got 5")
 end)

@@ -46,7 +46,7 @@ local entries = {
     local world = clench.world()
     world:log {quantities = {x = fn}}
     run(world)
-  end, wrong = "world:log: x: expected a function that gives a number"},
+  end, wrong = "world:log: x: expected a function that returns a number"},
   {"recording:each", function(fn)
     local world = clench.world()
     local recording = world:record {rate = 100}

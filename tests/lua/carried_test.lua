@@ -1,4 +1,4 @@
--- What is pressed to something goes along with it, or slides straight; forces, energies and runs beside impacts and snapshots.
+-- Bodies pressed to a moving body move with it, or slide straight; forces, energies and runs with impacts and snapshots.
 local test, clench = require "test", require "clench"
 
 local function table_top(world, options)

@@ -122,7 +122,7 @@ test("64 clients that come and go anywhere do not disturb each other", function(
   if os.getenv "CLENCH_HOSTILE_LINES" then print(("%d short requests, the slowest %.0f ms"):format(answered, 1e3 * worst)) end
 end)
 
--- how many descriptors this process has open
+-- number of descriptors that this process has open
 local function descriptors()
   local file <close> = assert(io.open "/proc/self/stat")
   local list <close> = io.popen(("ls /proc/%d/fd | wc -l"):format(file:read "n"))

@@ -526,7 +526,7 @@ test("logs and recordings of a world that a script steps are those of a run", fu
   t.equal(log.rows, log_of_run.rows)
   t.equal(film.times, film_of_run.times)
   t.equal(#film.times, 6)
-  -- what is called there cannot step the world, and is named
+  -- a function that is called there cannot step the world, and is named
   world:log {quantities = {mine = function() world:run(1) end}}
   t.fails(function() world:move_bodies(0.001) end, "the world runs already", "function 'mine' of world:log")
   local fresh = clench.world()

@@ -117,7 +117,7 @@ for _, name in ipairs(names) do
     t.fails(function() devices[name] {port = "/dev/no_such_line", ids = ids} end, "No such file or directory")
     t.fails(function() devices[name] {port = "/dev/null", ids = ids, prot = "x"} end, "unknown key")
     t.fails(function() simulated[name] {flip = 1} end, "unknown key 'flip'")
-    t.fails(function() simulated[name] {flip_bytes = 2} end, "flip_bytes must be a part from 0 to 1, got 2")
+    t.fails(function() simulated[name] {flip_bytes = 2} end, "flip_bytes must be a number of at most 1, got 2")
   end)
 
   if kind.refuse then

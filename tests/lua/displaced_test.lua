@@ -53,7 +53,7 @@ local function displaced_poses(X_WO, random)
       poses[#poses + 1] = clench.pose {xyz = xyz} * X_WO
     end
   end
-  -- and two that nobody has asked for
+  -- and two that were not requested
   for _ = 1, 2 do poses[#poses + 1] = clench.pose {xyz = random:direction() * 0.001} * X_WO end
   return poses
 end

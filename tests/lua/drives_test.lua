@@ -69,7 +69,7 @@ test("a shaken grip presses with its motors' efforts, and the verdict reports th
   local hand, block = closed(t, [[<motor joint="%s" ctrlrange="-3 3"/>]])
   local verdict = clench.study.shake {hand = hand, object = block, mass = 0.2, force = 0.1, grip_force = 100, seconds = 0.1, settle = 0.1}
   t.close(verdict.grip_force, 6, 1e-3)
-  t.ok(tostring(verdict):find("gripped with 6 N of normal forces, 100 N asked for", 1, true))
+  t.ok(tostring(verdict):find("gripped with 6 N of normal forces, 100 N requested", 1, true))
 end)
 
 test("a grip slips when the load exceeds the friction force of the motors' efforts", function(t)
@@ -129,7 +129,7 @@ test("a search that cannot verify names the joints without a motor", function(t)
     local hand, block = closed(t, hopeless[name])
     local run = clench.plan.sample {hand = hand, object = block, candidates = 10, refine = 0}
     t.equal(#run.grasps, 0)
-    t.ok(tostring(run.report):find("why: no grasp of grip can be verified, for it exerts no force: " .. words, 1, true), tostring(run.report))
+    t.ok(tostring(run.report):find("why: no grasp of grip can be verified, as it exerts no force: " .. words, 1, true), tostring(run.report))
   end
 end)
 

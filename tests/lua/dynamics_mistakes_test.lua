@@ -1,4 +1,4 @@
--- What simulation makes of worlds that nobody means: a sentence, or steps that say in the report what they did.
+-- Simulation of worlds with mistakes: an error sentence, or steps that the report describes.
 local clench = require "clench"
 local test = require "test"
 
@@ -25,7 +25,7 @@ local function all_finite(t, world)
   end
 end
 
--- each is told once in a script: first of all tests
+-- each warning is logged once per script: so this test is the first
 test("overlaps, and demands that contradict each other, are told after a run, once", function(t)
   local world = room()
   add(world, 0, 0.045)
@@ -95,7 +95,7 @@ test("huge forces and speeds are refused in a sentence or done", function(t)
   t.fails(function() body:apply_torque({0, 0, 1e300}) end, "torque: expected a number from -1e+15 to 1e+15")
   local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
   for _, push in ipairs {"apply_force", "apply_torque"} do
-    t.fails(function() hand[push](hand, {0, 0, 1}) end, "the base stands or moves as it is told, whatever pushes it, unless `floating` is true")
+    t.fails(function() hand[push](hand, {0, 0, 1}) end, "the base is fixed or moves with its set velocity, independent of forces, unless `floating` is true")
   end
   hand.floating = true
   hand:apply_force {0, 0, 0.1}

@@ -2,7 +2,7 @@
 local test, doc, show = require "test", require "clench.host.doc", require "clench.show"
 local packed_docs = require "clench.signature.packed_docs"
 
--- what examples write is removed with the temporary files of tests
+-- files that examples write are removed with the temporary files of tests
 os.tmpname = test.path
 
 local stage = dofile "tests/fuzz/stage.lua"

@@ -8,7 +8,7 @@ local crash = dofile "tests/fuzz/crash.lua"
 local statements = dofile "tests/fuzz/statements.lua"
 local spoil = dofile "tests/fuzz/spoil.lua"
 
--- what api.lua lists before it begins, with one object of each class
+-- the list that api.lua prints before it begins, with one object of each class
 local function prepared_api()
   local api = dofile "tests/fuzz/entries.lua" ()
   api.members = {}

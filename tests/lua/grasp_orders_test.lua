@@ -24,7 +24,7 @@ local function multigripper(dofs, names)
     names and ', "dof_names": ' .. names or ""))
 end
 
--- what is warned of while a function runs
+-- warnings logged while a function runs
 local function warned(run)
   local said = {}
   clench.log.sink(function(level, text) if level == "warning" then said[#said + 1] = text end end)

@@ -1,4 +1,4 @@
--- What scripts do with eigengrasps and virtual contacts of a hand.
+-- Eigengrasps and virtual contacts of a hand in scripts.
 local test, clench = require "test", require "clench"
 
 local function human() return clench.world():add_robot "models/hands/human/human20.cfg" end
@@ -10,7 +10,7 @@ test("a set written as text and as XML is read back the same", function(t)
     hand.eigengrasps:save(path)
     local set = clench.files.eigengrasps(path)
     t.ok(#set == #hand.eigengrasps)
-    -- the file keeps the vectors as they were given, to the bit, and both make them unit alike
+    -- the file keeps the given vectors bit-exactly, and both sets normalize them alike
     for i, vector in ipairs(set.vectors) do t.close(vector, hand.eigengrasps.vectors[i], 0) end
     hand.eigengrasps = set
     t.close(hand.eigengrasps.origin, human().eigengrasps.origin, 0)

@@ -1,4 +1,4 @@
--- What a run leaves: logs, states on a stack, films.
+-- Records of a run: logs, states on a stack, films.
 local test, clench = require "test", require "clench"
 local find_three = require "clench.page.three"
 
@@ -67,7 +67,7 @@ test("what cannot be logged is said in a sentence", function(t)
     t.fails(function() world:run(0.02) end, text, "in a quantity of world:log")
     log:remove()
   end
-  fails(function() return "x" end, "world:log: own: expected a function that gives a number, true or false, a vector or a list of numbers, got 'x'")
+  fails(function() return "x" end, "world:log: own: expected a function that returns a number, true or false, a vector or a list of numbers, got 'x'")
   fails(function() return {1, "x"} end, "world:log: own[2]: expected a number, got 'x'")
   local n = 0
   fails(function() n = n + 1 return n == 1 and {1, 2} or {1} end, "world:log: own: expected 2 numbers as before, got 1")
@@ -112,7 +112,7 @@ test("a run is repeated to the bit, from a snapshot and from the stack", functio
   t.equal(box.pose.position.z, 3.0)
   world:pop()
   t.equal(world:hash(), here)
-  t.fails(function() world:pop() end, "world:pop: the stack is empty: nothing was pushed, or all was popped")
+  t.fails(function() world:pop() end, "world:pop: the stack is empty")
   t.fails(function() world:clone():pop() end, "the stack is empty")
 end)
 
@@ -121,7 +121,7 @@ local function file_bytes(path)
   return file:read "a"
 end
 
--- of the frames of an animated GIF, in hundredths of a second
+-- delays of the frames of an animated GIF, in hundredths of a second
 local function gif_delays(path)
   local bytes, delays = file_bytes(path), {}
   assert(bytes:sub(1, 6) == "GIF89a")
@@ -135,7 +135,7 @@ test("pictures become an animated GIF", function(t)
   clench.files.save_gif("build/test.gif", pictures, {rate = 30})
   t.equal(gif_delays "build/test.gif", "3 4")
   t.fails(function() clench.files.save_gif("build/test.gif", {pictures[1], clench.chart {series = {{name = "a", values = {1}}}, width = 300}.picture}) end,
-          "picture 2: expected 200 x 150 pixels as the first, got 300 x")
+          "picture 2: expected 200 x 150 pixels as in the first, got 300 x")
   t.fails(function() clench.files.save_gif("build/test.gif", {3}) end, "pictures[1]: expected a picture, got 3")
 end)
 
@@ -159,11 +159,11 @@ test("a recording has the states of its times, and leaves the world alone", func
   t.equal(#film.times, 7)
   t.fails(function() film:save "a.webm" end, "recording:save: expected a name that ends in .html, .gif, .mp4 or .png, got 'a.webm'")
   t.fails(function() film:save("build/a.gif", {speed = 0}) end, "recording:save: speed must be")
-  t.fails(function() film:save("build/a.gif", {ffmpeg = "x"}) end, "ffmpeg writes .mp4 alone")
+  t.fails(function() film:save("build/a.gif", {ffmpeg = "x"}) end, "ffmpeg applies only to .mp4")
   t.fails(function() film:save("build/a.mp4", {ffmpeg = "no-such-program"}) end,
-          "recording:save: .mp4 needs the program 'no-such-program', which is not installed; .gif and .html need nothing")
+          "recording:save: .mp4 needs the program 'no-such-program', which is not installed; .gif and .html need no program")
   t.fails(function() film:save("build/a.html", {three = {}}) end, "recording:save: a page with a 3-D view needs three.js")
-  t.fails(function() world:record {}:save "a.gif" end, "it holds nothing yet")
+  t.fails(function() world:record {}:save "a.gif" end, "it is empty")
 end)
 
 test("films are pictures, a GIF, and whatever ffmpeg makes of them", function(t)

@@ -1,4 +1,4 @@
--- What a newcomer gets wrong and the engine could take as it stands: one warning, or one sentence that says what was meant.
+-- Mistakes of newcomers that the engine could accept silently: one warning, or one sentence that suggests the intended call.
 local clench = require "clench"
 local test = require "test"
 
@@ -70,8 +70,8 @@ test("an assignment to a name of a library is an error that says how the name is
   fails("version", clench, "clench.version cannot be set: it is read only")
   fails("log", clench, "clench.log cannot be set: it is read only")
   fails("plan", clench, "clench.plan cannot be set: it is read only")
-  fails("levle", clench.log, "clench.log has no 'levle' to set; did you mean 'level'?; a script keeps its values in variables of its own")
-  fails("mine", clench, "clench has no 'mine' to set; a script keeps its values in variables of its own")
+  fails("levle", clench.log, "clench.log has no 'levle' to set; did you mean 'level'?; a script keeps its values in its own variables")
+  fails("mine", clench, "clench has no 'mine' to set; a script keeps its values in its own variables")
   fails(1, clench.json, "clench.json: expected a name to set, got a number")
   fails("box", clench.shapes, "clench.shapes.box cannot be set: it is a function; call it")
   fails("boxx", clench.shapes, "clench.shapes has no 'boxx' to set; did you mean 'box'?")
@@ -131,7 +131,7 @@ test("an assignment to a part of a copied table is an error that says what to wr
   t.fails(function() hand.dofs[2] = hand.dofs[2] + 0.1 end, "hand.dofs is a copy")
   t.fails(function() load "local hand = ...; hand.dofs[1] = 1" (hand) end, "hand.dofs is a copy")
   t.equal(hand.dofs, before)
-  -- what only looks like it
+  -- values that only look like a mistake
   local own, list = {dofs = {}}, hand.dofs
   own.dofs[2], list[2] = hand.dofs[1], 0.3
   own.dofs[2] = hand.dofs[2]

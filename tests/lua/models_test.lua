@@ -83,7 +83,7 @@ for _, name in ipairs {"gallery", "ur5_jaw_shelf", "puma_barrett_glass"} do
   test("nothing collides in " .. name .. " and nothing is mounted askew", function(t)
     local warnings = {}
     clench.log.sink(function(level, text)
-      -- a link of the Puma was measured, and its inertia is none that a body can have
+      -- a link of the Puma was measured, and no rigid body can have its inertia
       if level == "warning" and not text:find "raised to it$" then warnings[#warnings + 1] = text end
     end)
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})

@@ -19,7 +19,7 @@ test("a grasp survives pushes along six directions, and the world stays as it wa
     local row = v.directions[i]
     t.ok(row.direction == name and row.held and row.time == nil and row.moved < 0.05 and row.turned < math.rad(15))
   end
-  t.ok(tostring(v):find("held in 6 of 6 directions: 1 N along each axis for 0.5 s, 0.1 kg, gripped with 9.93 N of normal forces, 10 N asked for", 1, true))
+  t.ok(tostring(v):find("held in 6 of 6 directions: 1 N along each axis for 0.5 s, 0.1 kg, gripped with 9.93 N of normal forces, 10 N requested", 1, true))
   t.close(v.grip_force, 10, 0.1)
   -- the same bits again
   local again = clench.study.shake {world = world, hand = hand, object = flask, seconds = 0.5, settle = 0.5}
@@ -285,7 +285,7 @@ test("an object that is welded cannot be lost", function(t)
   local hand, flask = closed_on_flask()
   flask:weld(hand.links[3])
   for _, study in ipairs {"shake", "lift", "shake_base", "fall_off"} do
-    t.fails(function() clench.study[study] {hand = hand, object = flask} end, "motion_study_test.lua", ("study.%s: object: 'flask' is welded to '%s': unweld it first, for what is welded cannot be lost"):format(study, hand.links[3].name))
+    t.fails(function() clench.study[study] {hand = hand, object = flask} end, "motion_study_test.lua", ("study.%s: object: 'flask' is welded to '%s': unweld it first, as a welded object cannot be lost"):format(study, hand.links[3].name))
   end
 end)
 
@@ -315,7 +315,7 @@ test("what is wrong with a study is said in a sentence", function(t)
   end
   refused({object = flask}, "study.shake: hand must be a robot, got nothing")
   refused({hand = hand, object = hand}, "study.shake: object must be a body, got a robot")
-  refused({hand = hand, object = hand.base}, "study.shake: object: '", "is no object but of kind 'base'")
+  refused({hand = hand, object = hand.base}, "study.shake: object: '", "is of kind 'base', expected an object")
   refused({hand = hand, object = flask, force = 0}, "study.shake: force must be")
   refused({hand = hand, object = flask, gravity = 3}, "study.shake: gravity must be a vector {x, y, z}, got 3")
   refused({hand = hand, object = flask, grip = "tight"}, "study.shake: grip must be 'forces' or 'close', got 'tight'")
@@ -358,7 +358,7 @@ test("a study leaves joints free that no motor drives, and keeps gains that a sc
   local hand = world:add_robot(path)
   local block = world:add_object(clench.shapes.box {0.06, 0.02, 0.04}, {mass = 0.1, pose = {xyz = {0, 0, 0.08}}})
   hand:set_dofs {0.01499, 0.01499}
-  -- the free finger gives way
+  -- the free finger yields
   t.equal(clench.study.shake({hand = hand, object = block, seconds = 0.2, settle = 0.2}).survived, false)
   hand.gains = {{kp = 7, kd = 0.7}, {kp = 8, kd = 0.8}}
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"

@@ -105,11 +105,11 @@ test("a mesh that makes the page large is told", function(t)
   end
   local sheet = world:add_object({vertices = points, triangles = triangles}, {name = "sheet", mass = 1})
   local html, notes = page(hand, sheet, {}, {title = "", subtitle = "", report = ""})
-  t.equal(notes[1], "the mesh of sheet has 217800 triangles: the page is large and may turn slowly")
+  t.equal(notes[1], "the mesh of sheet has 217800 triangles: the page is large, and its view may be slow")
   t.ok(html:find('"wide":true', 1, true))
 end)
 
--- what a browser makes of a page, as text; nil where there is none
+-- the page as a browser shows it, as text; nil if there is no browser
 local function in_browser(html)
   local found = io.popen "command -v chromium"
   local chromium = found:read "l"
@@ -124,7 +124,7 @@ local function in_browser(html)
   return text
 end
 
--- what a reader does: the load's column is clicked, the second grasp is chosen, and the mouse drags the view
+-- actions of a reader: the load's column is clicked, the second grasp is chosen, and the mouse drags the view
 local reader = [==[<script>
   const tell = document.documentElement.dataset, rows = () => [...document.querySelectorAll("tbody tr")].map(r => r.dataset.grasp).join();
   document.querySelectorAll("th[data-column]")[2].click();

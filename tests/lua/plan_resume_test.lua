@@ -1,4 +1,4 @@
--- A search that ends early and is continued from its journal finds what one without a break finds, to the bit.
+-- A search that ends early and is continued from its journal finds bit-identical results to an uninterrupted one.
 local test, clench = require "test", require "clench"
 local journal = require "clench.plan.journal"
 local recorded = require "clench.plan.recorded"

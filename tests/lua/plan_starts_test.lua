@@ -1,4 +1,4 @@
--- Where planners begin: what counts as a finger, how far a hand opens, and hands that give way to the side.
+-- Starts of planners: which parts are fingers, how far a hand opens, and hands that yield sideways.
 local test, clench = require "test", require "clench"
 local opposition, starts, closing = require "clench.plan.opposition", require "clench.plan.starts", require "clench.plan.closing"
 local touch = require "clench.plan.touch"

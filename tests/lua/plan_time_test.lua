@@ -13,7 +13,7 @@ test("a search whose time ends before its first candidate says so", function(t)
   t.equal(#run.grasps, 0)
   t.equal(run.report.candidates, 0)
   t.ok(not run.report.stopped)
-  t.ok(run.report.causes[1]:find("the search ended before its first candidate: for this hand and object its start takes longer than the 1e-09 s that were given", 1, true))
+  t.ok(run.report.causes[1]:find("the search ended before its first candidate: its start takes longer than the limit of 1e-09 s with this hand and object", 1, true))
   t.equal(#run.report.causes, 1)
 end)
 

@@ -1,4 +1,4 @@
--- Ports: serial lines, sockets, pseudo-terminals; their ends are results, and nobody waits for a slow one.
+-- Ports: serial lines, sockets, pseudo-terminals; their ends are results, and a slow one blocks no other.
 local test, clench = require "test", require "clench"
 local loop, port = clench.loop, clench.port
 

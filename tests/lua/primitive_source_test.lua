@@ -1,4 +1,4 @@
--- Where the primitive planner takes its primitives from when a script gives none.
+-- Sources of the primitives of the primitive planner if a script gives none.
 local clench = require "clench"
 local test = require "test"
 local primitive_source = require "clench.plan.primitive_source"
@@ -72,7 +72,7 @@ test("an unreadable file of primitives is an error, and so is an object without 
   write(folder .. "/primitives/a.iv", "nonsense")
   t.fails(function() find(path) end, "plan.primitive: a.iv:1: expected a header")
   local frame = test.path(".xml", "<root><mass>100</mass></root>")
-  t.fails(function() find(frame) end, "plan.primitive: object: '", "has no surface; the option primitives says what it is like")
+  t.fails(function() find(frame) end, "plan.primitive: object: '", "has no surface; give its shape by the option primitives")
 end)
 
 test("the report names the source of the primitives", function(t)

@@ -1,4 +1,4 @@
--- What `clench check` says of files.
+-- Reports of `clench check` on files.
 local test, report = require "test", require "clench.report"
 
 test("a body is told with its numbers", function(t)
@@ -124,7 +124,7 @@ test("eigengrasps and virtual contacts are told with their counts", function(t)
   t.equal(contacts.parsed, {count = #hand.virtual_contacts, robot = hand.name})
 end)
 
--- what is said of a file with that text
+-- report on a file with that text
 local function report_of(ending, text)
   return report.of(test.path(ending, text))
 end
@@ -182,7 +182,7 @@ test("sets for grasping that no file gives are told of", function(t)
   t.equal(hand.has_own_virtual_contacts, false)
   hand.virtual_contacts = {}
   t.equal(hand.has_own_virtual_contacts, true)
-  -- what files give is no guess
+  -- values that files give are not inferred
   t.ok(not told(report.of "models/hands/barrett/barrett.cfg", "inferred"):find "are given", "barrett")
 end)
 

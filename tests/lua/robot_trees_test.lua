@@ -145,7 +145,7 @@ test("a joint without limits goes on and on, and still does after its robot was 
       robot:set_dofs {30}
       world:restore(state)
       t.close(robot.dofs[1], 20, 1e-6)
-      -- closing goes on from there, as far as dof_limits say
+      -- closing continues from there, up to dof_limits
       local far = robot.dof_limits[1][2]
       t.close(far, 20 + (row[1] == "prismatic" and 1 or 2 * math.pi), 1e-6)
       robot:autograsp()
@@ -220,7 +220,7 @@ test("grasps, their measures and searches do not see how often a wrist without l
   t.ok(a.probability > 0.5)
   t.equal(b.probability, a.probability)
   t.close(b.mean, a.mean, 1e-6)
-  -- what is fixed stays where it is
+  -- fixed bodies do not move
   for _, options in ipairs {{posture = "fixed"}, {posture = "dofs", fixed = {"wrist"}}} do
     options.hand, options.object, options.position = turned, often.object, "approach"
     options.energy = function() return 1 end

@@ -240,7 +240,7 @@ test("files outside of the folder of confine are not read again to save a world"
   world:add_object "models/objects/flask.iv"
   local told = table.concat(t.warnings(function() world:save(folder .. "/confined.xml", {confine = "worlds", format = "graspit"}) end), "\n")
   t.ok(told:find("'flask' is saved with its triangles, for '", 1, true) and told:find("lies outside of worlds", 1, true), told)
-  t.ok(told:find("confined.xml lies outside of worlds, to which reading is confined: what it does not hold is not told", 1, true), told)
+  t.ok(told:find("confined.xml lies outside of worlds, to which reading is confined: contents that it cannot represent are not reported", 1, true), told)
   t.equal(clench.load(folder .. "/confined.xml").objects[1].mass, world.objects[1].mass)
   t.equal(t.warnings(function() world:save(folder .. "/confined.lua", {confine = "models"}) end), {})
   t.equal(clench.load(folder .. "/confined.lua"):hash(), world:hash())
@@ -261,12 +261,12 @@ test("what a world that has run does not take along is told", function(t)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.lua") end), {})
   t.equal(clench.load(folder .. "/dynamic.lua").robots[1].floating, true)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.wld") end)[1],
-    "world:save: settings of dynamics beside the time step are not saved: engine, friction cone, gains, max_effort, floating bases, breakaway, " ..
+    "world:save: settings of dynamics other than the time step are not saved: engine, friction cone, gains, max_effort, floating bases, breakaway, " ..
     "gravity compensation, belts, welds")
   world.robots[1].gravity_compensation = false
   world:run(0.01)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.lua") end),
-    {"world:save: settings of dynamics beside the time step and floating bases are not saved: engine, friction cone, gains, max_effort, breakaway, " ..
+    {"world:save: settings of dynamics other than the time step and floating bases are not saved: engine, friction cone, gains, max_effort, breakaway, " ..
      "gravity compensation, belts, welds",
      "world:save: the time, velocities and targets of motors of a world that has run are not saved"})
 end)

@@ -183,7 +183,7 @@ test("one robot of a scene is added by the body that it begins with", function(t
   t.equal(clench.convert(scene, folder .. "/arm.urdf", {body = "arm"}), "robot")
   t.equal(#clench.world():add_robot(folder .. "/arm.urdf").dofs, 1)
   t.fails(function() clench.load("worlds/dlr_flask.wld", {body = "arm"}) end, "dlr_flask.wld: body: expected a scene of MJCF, got another file")
-  -- without it all are one robot, which is told
+  -- without it all are one robot, with a warning
   local told = table.concat(t.warnings(function() t.equal(#clench.world():add_robot(scene).dofs, 2) end), "\n")
   t.ok(told:find("scene.xml: these bodies are read as one robot: arm, door; the option 'body' reads one of them, and clench.load a world with all of them", 1, true), told)
 end)

@@ -29,7 +29,7 @@ test("every command is described: label, parameters with a text, and a shortcut 
       t.equal(shortcuts[command.shortcut], nil, name)
       shortcuts[command.shortcut] = name
     end
-    -- what changes the world is logged, by lines of its own or by its result
+    -- commands that change the world are logged, by their own lines or by their result
     t.ok(command.reads or command.script or name == "grasp.apply", name)
   end
   t.equal(shortcuts["ctrl+g"], "grasp.autograsp")
@@ -42,7 +42,7 @@ test("every command is described: label, parameters with a text, and a shortcut 
   t.equal(names["Grasp/EigenGrasp Planner…"], "planner.anneal")
   t.equal(names["File/Save As…"], "world.save_as")
   local function nothing() end
-  t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "ctrl+g"} end, "mine.a: shortcut: 'ctrl+g' is that of grasp.autograsp")
+  t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "ctrl+g"} end, "mine.a: shortcut: 'ctrl+g' belongs to grasp.autograsp")
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "Ctrl+J"} end, "mine.a: shortcut: expected a key in lower case")
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "shift+ctrl+j"} end, "in this order, got 'shift+ctrl+j'")
   session:command {name = "mine.a", run = nothing, shortcut = "ctrl++"}
@@ -98,7 +98,7 @@ test("commands act on the selection", function(t)
   t.equal(replayed(session):hash(), session.world:hash())
   session:undo()
   t.equal(#session.selection, 2)
-  t.fails(function() session:run("grasp.select_object", {object = "plate"}) end, "expected an object, got 'plate', of the kind obstacle")
+  t.fails(function() session:run("grasp.select_object", {object = "plate"}) end, "expected an object, got 'plate', of kind obstacle")
   t.fails(function() session:run("grasp.select_hand", {hand = "mug"}) end, "expected a robot, got the body 'mug'")
 end)
 
@@ -151,7 +151,7 @@ test("a gesture is one step of undo, logged as its result", function(t)
   -- a result that the log cannot hold is taken back
   session:begin_gesture "Gravity"
   session.world.gravity = {0, 0, 0}
-  t.fails(function() session:end_gesture() end, "must say what it does")
+  t.fails(function() session:end_gesture() end, "needs a field script")
   t.equal(session.world:hash(), before)
   session:end_gesture()
   session:begin_gesture "Undone"
@@ -200,7 +200,7 @@ test("dynamics play beside the clock, are one step of undo, and are logged as th
   t.equal(replayed(session):hash(), last)
   t.equal(session:undo(), "Play")
   t.equal(session.world:hash(), first)
-  t.fails(function() session:run "dynamics.pause" end, "the simulation does not play")
+  t.fails(function() session:run "dynamics.pause" end, "the simulation is not playing")
   -- a key toggles it, and an error ends it
   session:run "dynamics.play"
   session:run "dynamics.play"
@@ -234,7 +234,7 @@ test("planners are jobs of the session: progress, grasps and results; stopped, p
   session:run "grasp.apply"
   t.ok(session.world:hash() ~= first)
   t.equal(replayed(session):hash(), session.world:hash())
-  t.fails(function() session:run("grasp.apply", {rank = 9}) end, "rank: expected 1 to 2, the grasps of job 'plan.sample', got 9")
+  t.fails(function() session:run("grasp.apply", {rank = 9}) end, "rank: expected 1 to 2, the number of grasps of job 'plan.sample', got 9")
   t.fails(function() session:run("grasp.apply", {grasp = 3}) end, "grasp: expected a grasp")
   session:undo()
   t.equal(session.world:hash(), first)

@@ -60,7 +60,7 @@ test("the history is a script of plain calls that makes the same world", functio
   t.ok(script:find('clench.load("worlds/barrett_mug.wld", {root = "."})', 1, true), script)
   t.ok(script:find('world:robot("barrett"):autograsp()', 1, true), script)
   t.equal(replayed(session):hash(), session.world:hash())
-  -- what is undone is not in it
+  -- undone commands are not in it
   session:undo()
   session:undo()
   t.ok(not session:script():find "run")
@@ -118,9 +118,9 @@ test("a command that fails leaves the session as it was", function(t)
   t.equal(session.world:hash(), hash)
   -- a change that the log could not hold is refused, and so is another body
   session:command {name = "mine.gravity", run = function(s) s.world.gravity = {0, 0, -1} end}
-  t.fails(function() session:run "mine.gravity" end, "must say what it does, by its field script")
+  t.fails(function() session:run "mine.gravity" end, "needs a field script, which returns its lines of Lua")
   session:command {name = "mine.more", run = function(s) s.world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {9, 0, 0}}}) end}
-  t.fails(function() session:run "mine.more" end, "must say what it does")
+  t.fails(function() session:run "mine.more" end, "needs a field script")
   t.equal(session.world:hash(), hash)
   t.fails(function() session:command {name = "a.b", run = print, lable = "x"} end, "unknown key 'lable'")
   t.fails(function() session:run("body.mass", {body = "mug", mas = 1}) end, "unknown argument 'mas'", "did you mean 'mass'?")
@@ -133,7 +133,7 @@ test("a command that fails leaves the session as it was", function(t)
   session:command {name = "mine.closed", run = print, enabled = function() return false end}
   t.fails(function() session:run "mine.closed" end, "mine.closed: the command cannot run now")
   session:command {name = "mine.self", run = function(s) s:run "mine.self" end}
-  t.fails(function() session:run "mine.self" end, "mine.self: commands that run commands are more than 20 deep; does one run itself?")
+  t.fails(function() session:run "mine.self" end, "mine.self: commands that run commands are nested more than 20 deep; does one run itself?")
   t.equal(session.world:hash(), hash)
   session:run("body.mass", {body = "mug", mass = 0.3})  -- the depth is counted anew
   session:undo()

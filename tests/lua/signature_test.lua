@@ -73,7 +73,7 @@ test("a faulty description is refused with its fault", function(t)
   t.fails(function() signature.parse "@param o table\n@option a.b? number" end, "there is no option a before it")
   t.fails(function() signature.parse "@param o table\n@option a? number\n@option a? number" end, "the option a is described twice")
   t.fails(function() signature.parse "@param x number [m, N]" end, "x has two units, 'm' and 'N'")
-  t.fails(function() signature.parse "@param x number = tall" end, "the default of x is no value: tall")
+  t.fails(function() signature.parse "@param x number = tall" end, "the default of x is not a value: tall")
   t.fails(function() signature.parse "@effect writes" end, "reads, edits, files or long, got 'writes'")
 end)
 
@@ -87,7 +87,7 @@ test("functions, methods and fields are described by themselves or by name", fun
   t.equal(clench.describe "hand.pose".settable, true)
   t.equal(clench.describe "hand.bodies".settable, false)
   t.fails(function() clench.describe "clench.rda" end, "there is no entry 'clench.rda'; did you mean 'clench.rad'?")
-  t.fails(function() clench.describe(print) end, "no entry of clench is this function")
+  t.fails(function() clench.describe(print) end, "this function is not an entry of clench")
   t.fails(function() clench.describe(5) end, "expected a function or the name of an entry, got 5")
 end)
 

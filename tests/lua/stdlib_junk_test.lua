@@ -17,7 +17,7 @@ local junk = {
   {{1, 2, 3}, 5}, {{1, 2, 3}, {}}, {{1, 2, 3}, {x = 1}}, {{1, 2, 3}, "x"}, {hand, object}, {world, 5}, {5, 5, 5, 5, 5, 5},
 }
 
--- what is wrong with an error; nil when it is a sentence of ours
+-- fault of an error; nil if it is a sentence of ours
 local function fault(problem)
   local text = tostring(problem)
   if type(problem) == "table" and problem.kind == "internal" then return text end
@@ -26,7 +26,13 @@ local function fault(problem)
   end
 end
 
-local function call(fn, arguments) return pcall(fn, table.unpack(arguments, 1, arguments.n or #arguments)) end
+-- what a call has opened, such as a simulated device, is closed: it would keep the loop running
+local function call(fn, arguments)
+  local ok, result = pcall(fn, table.unpack(arguments, 1, arguments.n or #arguments))
+  local kind = ok and debug.getmetatable(result)
+  if type(result) == "table" and kind and rawget(kind, "close") then pcall(result.close, result) end
+  return ok, result
+end
 
 -- adds what is wrong to a list, once for each function
 local function try(list, name, fn, arguments)

@@ -1,4 +1,4 @@
--- What a step does however short it is, whatever else happens in the world, and after settings have changed between steps.
+-- Steps of any length, with other events in the world, and after settings have changed between steps.
 local test, clench = require "test", require "clench"
 
 local function floor(world, options)
@@ -21,7 +21,7 @@ test("a ball that rolls fast meets nothing", function(t)
     ball.velocity = {linear = {speed, 0, 0}, angular = {0, speed / 0.05, 0}}
     world:run(1)
     t.equal({world.report.steps, world.report.impacts}, {1000, 0})
-    -- the radius of the ball that the mesh stands for is not quite 0.05 m: it slips for a moment
+    -- the radius of the ball that the mesh represents is not exactly 0.05 m: it slips for a moment
     t.close(ball.velocity.linear.x, speed, 2e-4 * speed)
   end
 end)

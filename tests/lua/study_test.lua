@@ -159,14 +159,14 @@ test("an arm brings its hand to where the grasp has it, or stays with all else w
   t.equal(arm.dofs, posture)
 end)
 
-test("a grasp that stands in no world is studied as far as that goes, and else the remedy is told", function(t)
+test("a grasp that belongs to no world is studied as far as possible, otherwise the error names the remedy", function(t)
   local grasp = closed_on_flask()
   local list = clench.grasps()
   list:add(grasp)
   local path = test.path()
   list:save(path .. ".jsonl")
   local loose = clench.grasps(path .. ".jsonl")[1]
-  local sentence = "the grasp stands in no world, as those of planners and files; grasp:apply(world) gives one that does"
+  local sentence = "the grasp belongs to no world, like those of planners and files; grasp:apply(world) gives one that does"
   t.fails(function() clench.study.robustness(loose, {samples = 2, position = 0.001}) end, "study_test.lua", "study.robustness: " .. sentence)
   t.fails(function() clench.study.compare {grasp, loose} end, "study.compare: grasps[2]: " .. sentence)
   local errors = {samples = 4, friction = 0.2, normal = 0.1}
@@ -294,6 +294,6 @@ test("of grasps that are compared only those that stand in no world are applied"
   local read = clench.grasps(path)
   t.equal(clench.study.compare({grasp}, {world = clench.world()}).values.epsilon[1], grasp:quality "epsilon")
   t.close(clench.study.compare(read, {world = grasp.hand.world}).values.epsilon[1], grasp:quality "epsilon", 1e-9)
-  t.fails(function() clench.study.compare(read) end, "study.compare: grasps[1]: the grasp stands in no world")
+  t.fails(function() clench.study.compare(read) end, "study.compare: grasps[1]: the grasp belongs to no world")
   t.fails(function() clench.study.compare({grasp, nil, grasp}, {world = grasp.hand.world}) end, "a list without holes or names")
 end)

@@ -158,7 +158,7 @@ test("a shelf above the hand is in the way of the lift", function(t)
   grasp:apply(hand.world)
   local top = hand.base.bounds_in_world.high.z
   for _, part in ipairs(hand.bodies) do top = math.max(top, part.bounds_in_world.high.z) end
-  t.equal(why_with {clench.shapes.box {1, 1, 0.02}, {xyz = {0, 0, top + 0.05}}}, "in the way of the lift")
+  t.equal(why_with {clench.shapes.box {1, 1, 0.02}, {xyz = {0, 0, top + 0.05}}}, "in collision when lifted")
 end)
 
 test("a table is in the way of a hand that comes to a flat thing from the side, and only there", function(t)

@@ -16,7 +16,7 @@ local function with_file(ending, text, use)
   return use(test.path(ending, text))
 end
 
--- what a file writes of a number: "nan" and "inf" are none there
+-- text of a number in a file: "nan" and "inf" are not numbers there
 local function written(x) return ("%.17g"):format(x) end
 
 local function body_file(header, x)

@@ -26,7 +26,7 @@ test("two that are welded on the way keep momentum and turn about their common c
   world:run(1)
   t.close((b.pose.position - a.pose.position):norm(), apart, 1e-13)
   close(t, world:momentum().linear, before.linear, 1e-12)
-  -- the center goes straight on
+  -- the center continues straight
   local center = (a.pose.position + 3 * b.pose.position) / 4
   close(t, center, clench.vec3(0.075, 0.5, 0), 1e-3)
   a:unweld()
@@ -103,7 +103,7 @@ test("welds are in snapshots, clones and fingerprints, and end with what they he
   world:run(0.5)
   clone:run(0.5)
   t.equal(world:hash(), clone:hash())
-  -- 0.2 m from the axis, which goes through the middle one
+  -- 0.2 m from the axis, which passes through the middle one
   t.close((c.pose.position - a.pose.position):norm(), 0.2, 1e-13)
   world:restore(free)
   t.equal(a.welded_to, nil)

@@ -109,7 +109,7 @@ test("rings of alike round cones end in time, and their brackets hold", function
     t.ok(bounds.upper >= inner * (1 - 1e-9))
     local epsilon = space:epsilon()
     t.ok(epsilon >= bounds.lower * (1 - 1e-9) and epsilon <= bounds.upper * (1 + 1e-9))
-    -- whatever was asked before
+    -- independently of earlier queries
     t.equal(ring(case[1], case[2], "exact"):epsilon(), epsilon)
   end
 end)
@@ -117,7 +117,7 @@ end)
 test("the weakest direction is a load on the object, which the contacts answer with its opposite", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand, flask = world.robots[1], world.objects[1]
-  -- the object's axes, wherever it stands
+  -- the object's axes, for any pose of the object
   flask.pose = clench.pose {xyz = {0.1, 0.2, 0.3}, rpy = {0.4, 0.5, 0.6}} * flask.pose
   hand.pose = clench.pose {xyz = {0.1, 0.2, 0.3}, rpy = {0.4, 0.5, 0.6}} * hand.pose
   hand:autograsp()

@@ -16,7 +16,7 @@ MatrixXd any_matrix(Random& random, int rows, int columns) {
   return m;
 }
 
-// how far z is from a solution
+// distance of z from a solution
 double fault(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
   const VectorXd w = M * z + q;
   return z.cwiseMin(w).cwiseAbs().maxCoeff();

@@ -285,7 +285,7 @@ TEST_CASE(
       CHECK(std::abs(r.objective - clp.objectiveValue()) <
             1e-7 * std::max(1.0, std::abs(clp.objectiveValue())));
     } else if (clp.isProvenPrimalInfeasible()) {
-      // infeasible and unbounded at once may be told either way
+      // a problem that is both infeasible and unbounded may be reported as either
       if (r.status != ConeStatus::unbounded) check_infeasible(p, r);
       ++found[1];
     } else {

@@ -48,7 +48,7 @@ TEST_CASE("bodies collide as their bits say, and pair by pair as a script says")
   CHECK_FALSE(world.may_collide(id[1], id[2]));
   world.set_collision(false, id[0], id[2]);
   CHECK(before.hash() != boxes(5).hash());
-  // what is removed is in no pair
+  // a removed body is in no pair
   world.remove(id[2]);
   CHECK(world.pairs_off() == Pairs{{id[0], id[1]}});
 }

@@ -94,7 +94,7 @@ TEST_CASE("a servo pulls less the nearer it is to the end of its control range")
   CHECK(drive.at_rest(0.03).high == doctest::Approx(1));
   CHECK(drive.at_rest(0.03).low == doctest::Approx(-3));
   CHECK(drive.at_rest(0.05).high == doctest::Approx(-1));
-  // what a motion adds is not bounded by the control
+  // the control range does not bound the part that a motion adds
   CHECK(drive.limits() == EffortRange{-none, none});
   servo.force_range = {{-2, 1.5}};
   CHECK(drive_with({on_slide(servo)}).at_rest(0) == EffortRange{0, 1.5});

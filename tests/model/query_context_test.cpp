@@ -1,4 +1,4 @@
-// What a context remembers changes no bit of an answer.
+// Cached data of a context do not change any bit of a result.
 #include "clench/model/query_context.h"
 
 #include <thread>
@@ -13,7 +13,7 @@ using namespace clench::test;
 
 namespace {
 
-/// All that is asked of a world, to the bit.
+/// Results of all queries of a world, bit-exactly.
 struct Answers {
   std::vector<BodyPair> colliding;
   bool any = false;

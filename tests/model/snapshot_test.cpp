@@ -1,4 +1,4 @@
-// Clones and snapshots share what nobody changes: what one does, no other sees.
+// Clones and snapshots share unchanged data: changes of one are not visible in others.
 #include <map>
 #include <thread>
 

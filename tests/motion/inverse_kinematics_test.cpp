@@ -239,9 +239,10 @@ TEST_CASE("a body that no DOF moves and options out of range are refused") {
     inverse_kinematics(s.world, s.robot, body, pose, options);
   };
   CHECK_THROWS_WITH_AS(solve(s.world.robot(s.robot).base, {}, {}),
-                       "inverse kinematics of 'arm': no DOF that may move moves 'arm_base'", Error);
+                       "inverse kinematics of 'arm': none of the selected DOFs moves 'arm_base'",
+                       Error);
   CHECK_THROWS_WITH_AS(solve(s.link(0), {}, {.dofs = {1}}),
-                       "inverse kinematics of 'arm': no DOF that may move moves 'arm_link0'",
+                       "inverse kinematics of 'arm': none of the selected DOFs moves 'arm_link0'",
                        Error);
   CHECK_THROWS_WITH_AS(solve(s.link(0), {}, {.dofs = {3}}),
                        "inverse kinematics of 'arm': expected DOFs from 1 to 3, got 4", Error);

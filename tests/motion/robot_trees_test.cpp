@@ -229,7 +229,7 @@ struct RandomModel {
   std::vector<Eigen::Matrix4d> poses(const std::map<std::string, double>& q) const {
     std::vector<Eigen::Matrix4d> out;
     for (const Body& body : bodies) {
-      // the base stands where the world puts it
+      // the base has the pose that the world gives it
       Eigen::Matrix4d X = body.parent < 0 ? Eigen::Matrix4d::Identity()
                                           : Eigen::Matrix4d(out[body.parent] * body.X);
       for (const Step& step : body.steps) {

@@ -52,7 +52,7 @@ struct SpringBench {
   }
 };
 
-// what the springs of a finger hold, its tendon at q
+// energy stored in the springs of a finger, with its tendon at q
 double energy(const Robot& robot, int chain, double q, double first, double second) {
   const Joint &inner = joint_of(robot, chain, 0), &outer = joint_of(robot, chain, 1);
   const double a = inner.ratio * q - first, b = outer.ratio * q - second;

@@ -184,7 +184,7 @@ TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
   refused({}, "chart: expected at least one series, got none");
   refused({.series = {{"a", {}}}}, "chart: series 'a': expected at least one value, got none");
   refused({.series = {{"a", {1, 2}}, {"b", {1}}}},
-          "chart: series 'b': expected 2 values, as the first has, got 1");
+          "chart: series 'b': expected 2 values as in the first, got 1");
   refused({.labels = {"x"}, .series = {{"a", {1, 2}}}},
           "chart: expected 2 labels, one per value, got 1");
   refused({.labels = {"x", "y"}, .series = {{"a", {1}}}},
@@ -214,7 +214,7 @@ TEST_CASE("numbers of any size make a chart") {
 
 TEST_CASE("a chart has no more values and letters than anybody can see") {
   CHECK_THROWS_WITH_AS(draw_chart({.series = {{"x", std::vector<double>(10000, 1)}}}),
-                       "chart: expected at most 8192 values a series, got 10000", Error);
+                       "chart: expected at most 8192 values per series, got 10000", Error);
   CHECK_THROWS_WITH_AS(
       draw_chart({.series = std::vector<ChartSeries>(200, {"x", std::vector<double>(8000, 1)})}),
       "chart: expected at most 1000000 values in all, got 200 series of 8000", Error);

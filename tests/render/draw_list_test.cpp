@@ -181,13 +181,13 @@ TEST_CASE("what a scene may not hold is refused by name") {
                        }),
                        "picture: mesh 1: triangle colors must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.meshes[0].X_WM.rotation.coeffs().fill(1e200); }),
-                       "picture: mesh 1: lies beyond all numbers", Error);
+                       "picture: mesh 1: position exceeds the range of numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) {
                          s.meshes.push_back(s.meshes[0]);
                          s.meshes[0].X_WM.position.fill(huge);
                          s.meshes[1].X_WM.position.fill(-huge);
                        }),
-                       "picture: the scene is larger than numbers can be", Error);
+                       "picture: the size of the scene exceeds the range of numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].apex.x() = nan; }),
                        "picture: cone 1: apex and color must be finite numbers", Error);
   CHECK_THROWS_WITH_AS(with([&](Scene& s) { s.cones[0].axis *= 2; }),

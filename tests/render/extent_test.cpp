@@ -68,14 +68,15 @@ TEST_CASE("the extent that is found again is that of every vertex, to the bit") 
   }
 }
 
-TEST_CASE("a mesh beyond all numbers is named, again and again") {
+TEST_CASE("a mesh beyond the range of numbers is named, at every call") {
   Scene scene;
   scene.meshes.push_back({.shape = Shape::make(box(1, 1, 1)), .X_WM = {}});
   scene.meshes.push_back({.shape = Shape::make(box(2, 1, 1)), .X_WM = {}});
   scene.meshes[1].X_WM.rotation.x() = 1e160;
   ExtentFinder finder;
   for (int i = 0; i < 2; ++i)
-    CHECK_THROWS_WITH_AS(finder.find(scene), "picture: mesh 2: lies beyond all numbers", Error);
+    CHECK_THROWS_WITH_AS(finder.find(scene),
+                         "picture: mesh 2: position exceeds the range of numbers", Error);
   scene.meshes[1].X_WM.rotation.x() = 0;
   CHECK(finder.find(scene).scale == plain_extent(scene).scale);
 }

@@ -196,13 +196,14 @@ TEST_CASE("frames that cannot be drawn or read are refused") {
   REQUIRE_PICTURES();
   Renderer renderer;
   const Scene scene = glass_beside_box();
-  CHECK_THROWS_WITH_AS(renderer.read(), "picture: there is no frame to read: draw_to draws one",
+  CHECK_THROWS_WITH_AS(renderer.read(), "picture: there is no frame to read: call draw_to first",
                        Error);
   CHECK_THROWS_WITH_AS(renderer.draw_to({}, scene, frame_eye, {}),
-                       "picture: frames are drafts with one sample a pixel", Error);
+                       "picture: frames must be drafts with one sample per pixel", Error);
   CHECK_THROWS_WITH_AS(renderer.draw_to({7}, scene, frame_eye, draft_of()),
                        "picture: a framebuffer needs a renderer that draws in the caller's context",
                        Error);
-  CHECK_THROWS_WITH_AS(renderer.draw_to({{}, 1, 2}, scene, frame_eye, draft_of()),
-                       "picture: a frame of the renderer's own begins at 0, 0, got 1, 2", Error);
+  CHECK_THROWS_WITH_AS(
+      renderer.draw_to({{}, 1, 2}, scene, frame_eye, draft_of()),
+      "picture: a frame of the renderer's own framebuffer begins at 0, 0, got 1, 2", Error);
 }

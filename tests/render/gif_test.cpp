@@ -73,9 +73,9 @@ TEST_CASE("pictures that make no animated GIF are told") {
                              Picture{9, 7, std::vector<uint8_t>(9 * 7 * 3)}};
   CHECK_THROWS_WITH_AS(gif_bytes({}, {}),
                        "an animated GIF: expected at least one picture, got none", Error);
-  CHECK_THROWS_WITH_AS(gif_bytes(frames, std::array{1, 1}),
-                       "an animated GIF: picture 2: expected 9 x 6 pixels as the first, got 9 x 7",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      gif_bytes(frames, std::array{1, 1}),
+      "an animated GIF: picture 2: expected 9 x 6 pixels as in the first, got 9 x 7", Error);
   CHECK_THROWS_WITH_AS(gif_bytes(std::span(frames).first(1), {}),
                        "an animated GIF: expected 1 delays, got 0", Error);
 }

@@ -22,7 +22,7 @@ Shown body_number(int i) {
   return {.kind = Shown::Kind::body, .body = {static_cast<uint32_t>(i), 1}};
 }
 
-// three bodies, one cone and one arrow, told apart by hue
+// three bodies, one cone and one arrow, distinguished by hue
 Scene five_things(Random& random) {
   Scene scene;
   const Eigen::Vector3f hues[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

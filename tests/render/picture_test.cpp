@@ -58,10 +58,10 @@ TEST_CASE("a picture whose pixels do not fit its size is refused") {
   Picture picture = pattern(2, 2);
   picture.pixels.pop_back();
   CHECK_THROWS_WITH_AS(save_png(picture, "a.png"),
-                       "cannot write 'a.png': a picture of 2 x 2 pixels wants 12 bytes, got 11",
+                       "cannot write 'a.png': a picture of 2 x 2 pixels needs 12 bytes, got 11",
                        Error);
   CHECK_THROWS_WITH_AS(save_png({}, "a.png"),
-                       "cannot write 'a.png': a picture of 0 x 0 pixels wants 0 bytes, got 0",
+                       "cannot write 'a.png': a picture of 0 x 0 pixels needs 0 bytes, got 0",
                        Error);
 }
 

@@ -162,7 +162,7 @@ TEST_CASE(
   CHECK(holds(numbers(1e-30, 1e30), {"1", "1e10"}));
   // large and small ones alike
   CHECK(holds(numbers(1e-4, 1e4), {"1e-4", "1", "1e4"}));
-  // of less than a decade all digits
+  // ranges of less than a decade show all digits
   CHECK(holds(numbers(0.2, 0.7), {"0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}));
 }
 
@@ -176,7 +176,8 @@ TEST_CASE("a logarithmic axis refuses what it cannot show") {
   plot.y.range.reset();
   plot.series = {{.kind = PlotKind::bars, .x = {0, 1}, .y = {2}}};
   CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
-                       "plot: y_scale: bars stand on 0, which a logarithmic axis has not", Error);
+                       "plot: y_scale: bars begin at 0, which a logarithmic axis does not include",
+                       Error);
   plot.y.logarithmic = false, plot.x.logarithmic = true;
   CHECK_THROWS_WITH_AS(draw_plot(plot, letters()),
                        "plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got 0",

@@ -193,7 +193,7 @@ TEST_CASE("a box throws a shadow on the floor, and a thinner one a thinner shado
   Eye eye;
   eye.eye = {0, -6, 3};
   scene.eye = eye;
-  // the lamp stands to the upper left: the floor right of the box lies in its shadow
+  // the lamp is to the upper left: the floor right of the box lies in its shadow
   const auto at = [&](const Picture& picture) {
     const Eigen::Vector4d clip =
         view_projection(eye, 96.0 / 72, 0.1, 100) * Eigen::Vector4d(0.75, 0, -0.5, 1);

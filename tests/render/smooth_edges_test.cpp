@@ -16,7 +16,7 @@ Picture slant(double slope) {
   return out;
 }
 
-// what each pixel would be with many samples
+// reference value of a pixel, by many samples
 double covered(double slope, int x, int y) {
   double sum = 0;
   for (int i = 0; i < 16; ++i)

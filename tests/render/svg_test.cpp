@@ -172,7 +172,7 @@ TEST_CASE("what does not fit to categories is refused in a sentence") {
   };
   refused({.name = "n", .y = {1}}, "plot: series 'n': expected 2 values, one per category, got 1");
   refused({.x = {1, 2}, .y = {1, 2}},
-          "plot: series 1: expected no x, for categories stand along that axis");
-  refused({.y = {1, 2}}, "plot: x_range: categories have none", {.range = {{0, 1}}});
-  refused({.y = {1, 2}}, "plot: x_scale: categories have none", {.logarithmic = true});
+          "plot: series 1: expected no x, because categories are along that axis");
+  refused({.y = {1, 2}}, "plot: x_range: not allowed with categories", {.range = {{0, 1}}});
+  refused({.y = {1, 2}}, "plot: x_scale: not allowed with categories", {.logarithmic = true});
 }

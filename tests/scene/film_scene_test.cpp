@@ -20,7 +20,7 @@ BodySpec film_body(const char* name, const Mesh& mesh) {
   return spec;
 }
 
-// a tin on a palm that rises, and a post that stands apart
+// a tin on a palm that rises, and a separate post
 World lifted_tin() {
   World world;
   world.add_body(film_body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});

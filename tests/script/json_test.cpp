@@ -82,7 +82,7 @@ TEST_CASE("what JSON cannot hold is refused by its place") {
   CHECK(lua.run("local t = {} for i = 1, 1000 do t = {t} end return clench.json.encode(t)")
             .find("at most 100 levels") != std::string::npos);
   CHECK(lua.run("return clench.json.encode(setmetatable({}, {__json = function(t) return t end}))")
-            .find("stand for values") != std::string::npos);
+            .find("finite chain of __json values") != std::string::npos);
   CHECK(lua.run("return clench.json.encode(setmetatable({}, {__json = function(t) error('mine', 0) "
                 "end}))") == "mine");
 }

@@ -10,10 +10,10 @@ namespace clench {
 
 namespace {
 
-constexpr float level_label = 110;  // names as far apart stay level [pixels]
-constexpr float between = 4;        // of two names [pixels]
+constexpr float level_label = 110;  // labels stay level at this pitch or more [pixels]
+constexpr float between = 4;        // gap between two labels [pixels]
 
-// how many letters all texts have in common, from their beginning, or from their end
+// number of letters that all texts share at their beginning, or at their end
 size_t common_letters(const std::vector<std::u32string>& texts, bool from_end) {
   const auto letter = [&](const std::u32string& text, size_t i) {
     return from_end ? text[text.size() - 1 - i] : text[i];
@@ -28,7 +28,8 @@ size_t common_letters(const std::vector<std::u32string>& texts, bool from_end) {
   return count;
 }
 
-// an ellipsis in place of what all begin with, and of what all end with: the rest tells them apart
+// replaces the prefix and the suffix that all texts share by an ellipsis: the rest distinguishes
+// them
 void drop_common(std::vector<std::string>& texts) {
   if (std::ranges::adjacent_find(texts, std::not_equal_to()) == texts.end()) return;
   std::vector<std::u32string> letters;

@@ -1,4 +1,4 @@
-// Names under an axis: level where they fit, perhaps shortened, upright where not.
+// Labels under an axis: level if they fit, possibly shortened; otherwise upright.
 #pragma once
 #include <functional>
 #include <string>
@@ -10,16 +10,16 @@ namespace clench {
 
 class AxisLabels {
  public:
-  /// pitch    from one to the next [pixels]
-  /// longest  that an upright one may be [pixels]
+  /// pitch    from one label to the next [pixels]
+  /// longest  maximum length of an upright label [pixels]
   /// height   of capital letters [pixels]
   AxisLabels(std::vector<std::string> texts, float pitch, float longest, float height,
              const Font& font);
 
-  /// that they take below their upper edge [pixels]
+  /// height that the labels take below their upper edge [pixels]
   float room() const { return room_; }
-  /// Draws them around center(i); some are left out where even upright ones would overlap.
-  /// top  their upper edge
+  /// Draws the labels around center(i); some are left out if even upright ones would overlap.
+  /// top  upper edge of the labels
   void draw(Pen& pen, float top, const std::function<float(size_t)>& center,
             const Drawing::Color& color) const;
 

@@ -11,7 +11,7 @@ using Eigen::Vector2f;
 
 namespace {
 
-// the pixels of a row or column that an interval reaches, cut off at the picture's edges
+// the pixels of a row or column that an interval overlaps, clipped to the picture
 struct PixelRange {
   int first, last;
 };
@@ -19,7 +19,7 @@ PixelRange pixels_of(float low, float high, int count) {
   return {floor_between(low, 0, count), floor_between(std::ceil(high), 0, count) - 1};
 }
 
-// part of the pixel [i, i+1] that [low, high] covers
+// fraction of the pixel [i, i+1] that [low, high] covers
 float covered(int i, float low, float high) {
   const float from = static_cast<float>(i);
   return std::clamp(std::min(high, from + 1) - std::max(low, from), 0.0f, 1.0f);
@@ -40,7 +40,7 @@ Picture blank_picture(int width, int height) {
 
 void Canvas::blend(int x, int y, float part, const Color& color) {
   uint8_t* pixel = &picture_.pixels[3 * (static_cast<size_t>(y) * picture_.width + x)];
-  // over what lets through, letters count by how much each covers
+  // on a transparent picture, each layer is weighted by its coverage
   float keep = 1 - part;
   if (!picture_.alpha.empty()) {
     uint8_t& alpha = picture_.alpha[static_cast<size_t>(y) * picture_.width + x];
@@ -69,7 +69,7 @@ void Canvas::line(const Vector2f& from, const Vector2f& to, float width, const C
   const PixelRange ys = pixels_of(low.y() - reach, high.y() + reach, picture_.height);
   const Vector2f way = to - from;
   for (int y = ys.first; y <= ys.last; ++y) {
-    // the part of the line that this row comes near to, as shares of its way
+    // the part of the line that can touch this row, as fractions of its length
     const float row = static_cast<float>(y) + 0.5f;
     float begin = 0, end = 1;
     if (way.y() != 0) {

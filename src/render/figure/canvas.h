@@ -1,4 +1,4 @@
-// Lines, areas and letters on a picture, with smooth edges; drawn without graphics hardware.
+// Anti-aliased lines, areas and letters on a picture, drawn without graphics hardware.
 #pragma once
 #include <Eigen/Core>
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace clench {
 
-/// Draws on a picture and by a font that it does not own. Places are in pixels, x to the right and
-/// y down, from the upper left corner; what lies outside is cut off. Colors are as a screen shows
-/// them, each part in 0..1.
+/// Draws on a picture with a font; it owns neither. Positions are in pixels, x to the right and y
+/// down, from the upper left corner; drawing is clipped to the picture. Colors are in display
+/// (sRGB) values, each component in 0..1.
 class Canvas {
  public:
   using Color = Eigen::Vector3f;
@@ -19,11 +19,11 @@ class Canvas {
   const Font& font() const { return font_; }
 
   void rectangle(const Eigen::Vector2f& low, const Eigen::Vector2f& high, const Color& color);
-  /// with round ends; one point to itself is a disc
+  /// with round ends; a polyline of one point is a disc
   void line(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width,
             const Color& color);
   void text(const TextLine& line, const Color& color);
-  /// with a white rim, to be read on anything
+  /// with a white rim, legible on any background
   void bright_text(const TextLine& line, const Color& color);
 
  private:
@@ -32,7 +32,7 @@ class Canvas {
   const Font& font_;
 };
 
-/// White, of a size in pixels.
+/// White, of the given size in pixels.
 Picture blank_picture(int width, int height);
 
 }  // namespace clench

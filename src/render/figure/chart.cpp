@@ -19,17 +19,19 @@ using Eigen::Vector2f;
 namespace {
 
 constexpr float letter_height = 9, title_height = 13, margin = 16, axis_room = 72;
-constexpr float panel_height = 170, panel_gap = 56;  // with the gap above, which holds the name
-constexpr float min_gap = 0.6f;                      // part of a panel that the gap may take
-constexpr float value_room = 15;      // between a column and the panel's name [pixels]
-constexpr float panel_name = 24;      // its baseline above the panel [pixels]
-constexpr float min_lines = 13;       // from line to line of an axis [pixels]
-constexpr float min_column = 2;       // height of what is not 0 [pixels]
-constexpr float turned_label = 150;   // length that an upright label may have [pixels]
-constexpr float turned_part = 0.25f;  // of the chart's height that it may have
+// including the gap above, which holds the name [pixels]
+constexpr float panel_height = 170, panel_gap = 56;
+constexpr float min_gap = 0.6f;      // maximum gap, as a fraction of a panel
+constexpr float value_room = 15;     // between a column and the panel's name [pixels]
+constexpr float panel_name = 24;     // baseline of the name above the panel [pixels]
+constexpr float min_lines = 13;      // minimum distance of the lines of an axis [pixels]
+constexpr float min_column = 2;      // minimum height of a nonzero column [pixels]
+constexpr float turned_label = 150;  // maximum length of an upright label [pixels]
+// maximum length of an upright label, as a fraction of the chart's height
+constexpr float turned_part = 0.25f;
 constexpr int min_size = 64, largest_size = 8192;
-constexpr size_t max_items = largest_size, max_values = 1'000'000;  // a series, and in all
-constexpr size_t max_letters = 10'000'000;                          // of all texts [bytes]
+constexpr size_t max_items = largest_size, max_values = 1'000'000;  // per series, and in total
+constexpr size_t max_letters = 10'000'000;                          // of all texts together [bytes]
 
 const Drawing::Color ink(0.13f, 0.16f, 0.20f), quiet(0.86f, 0.87f, 0.89f);
 const Drawing::Color column_color(0.45f, 0.66f, 0.84f), best_color(0.09f, 0.40f, 0.67f);
@@ -42,10 +44,11 @@ void check_chart(const Chart& chart, const ChartOptions& options) {
     fail("chart: series '{}': expected at least one value, got none", chart.series[0].name);
   for (const ChartSeries& series : chart.series)
     if (series.values.size() != items)
-      fail("chart: series '{}': expected {} values, as the first has, got {}", series.name, items,
+      fail("chart: series '{}': expected {} values as in the first, got {}", series.name, items,
            series.values.size());
   if (items > max_items)
-    fail(ErrorKind::limit, "chart: expected at most {} values a series, got {}", max_items, items);
+    fail(ErrorKind::limit, "chart: expected at most {} values per series, got {}", max_items,
+         items);
   if (items * chart.series.size() > max_values)
     fail(ErrorKind::limit, "chart: expected at most {} values in all, got {} series of {}",
          max_values, chart.series.size(), items);
@@ -73,23 +76,23 @@ std::vector<std::string> labels_of(const Chart& chart) {
   return numbers;
 }
 
-// where the columns of all panels stand
+// horizontal positions of the columns, common to all panels
 struct ChartColumns {
-  float left, width;  // of one column, with the space beside it
+  float left, width;  // of one column, including the space next to it
   float center(size_t i) const { return left + (static_cast<float>(i) + 0.5f) * width; }
 };
 
 struct ChartPanel {
   float top, bottom, left, right;
-  float name;  // its baseline above the top
+  float name;  // baseline of the name above the top
 };
 
-// a panel's scale
+// scale of a panel
 struct ChartScale {
   ChartAxis axis;
   float top, bottom;
   float height(double value) const {
-    // halves, so that the range of the largest numbers is one
+    // halves, so that the range of the largest numbers does not overflow
     const double part = (value / 2 - axis.low / 2) / (axis.high / 2 - axis.low / 2);
     return bottom - static_cast<float>(part) * (bottom - top);
   }
@@ -99,17 +102,17 @@ bool nothing_to_show(const std::vector<double>& values) {
   return std::ranges::none_of(values, [](double v) { return std::isfinite(v) && v != 0; });
 }
 
-// the line of 0, and unless there is nothing but zeros, the others
+// draws the line at 0 and, unless all values are zero, the other lines
 void draw_axis(Pen& pen, const ChartPanel& panel, const ChartScale& scale, bool zeros) {
   const ChartAxis& axis = scale.axis;
-  // lines by their numbers from 0 on
+  // indices of the lines, counted from 0
   const int first = floor_int(axis.low / axis.step + 0.5);
   const int last = floor_int(axis.high / axis.step + 0.5);
   const float apart = (scale.bottom - scale.top) / static_cast<float>(last - first);
   const int every = floor_between(std::ceil(min_lines / apart), 1, last - first + 1);
   for (int i = first; i <= last; ++i) {
     const double value = i * axis.step;
-    // the axis of the largest numbers ends at the largest there is
+    // a line can overflow at the end of an axis of the largest numbers: it is skipped
     if ((zeros && i != 0) || i % every != 0 || !std::isfinite(value)) continue;
     const float y = scale.height(value);
     pen.rectangle({panel.left, y - 0.5f}, {panel.right, y + 0.5f}, quiet);
@@ -119,7 +122,7 @@ void draw_axis(Pen& pen, const ChartPanel& panel, const ChartScale& scale, bool 
   }
 }
 
-// infinite when there is none
+// infinite if there is none
 double best_of(const ChartSeries& series) {
   const double sign = series.higher_is_better ? 1 : -1;
   double best = -std::numeric_limits<double>::infinity();
@@ -133,7 +136,7 @@ void draw_cross(Pen& pen, float x, float zero) {
   pen.line({{x - 3, zero - 4}, {x + 3, zero - 10}}, 1.5f, cross_color);
 }
 
-// a value's end of its column; what is not 0 can be told from it
+// y of the free end of a value's column; a nonzero value gets a visible height
 float end_of(const ChartScale& scale, double value) {
   const float zero = scale.height(0), y = scale.height(value);
   if (value > 0) return std::min(y, zero - min_column);
@@ -141,7 +144,7 @@ float end_of(const ChartScale& scale, double value) {
   return zero;
 }
 
-// above the columns, unless one is too wide
+// writes the values above the columns, unless one is too wide
 void write_values(Pen& pen, const ChartScale& scale, const std::vector<double>& values,
                   const ChartColumns& columns) {
   const auto width = [&](const std::string& text) { return pen.font.width(text, letter_height); };
@@ -188,9 +191,9 @@ ChartAxis chart_axis(const std::vector<double>& values) {
   double low = 0, high = 0;
   for (const double value : values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
-  // halves first, so that the range of the largest numbers is one
+  // halves first, so that the range of the largest numbers does not overflow
   const double range = high / 2 - low / 2;
-  // beside numbers that small a step would be none
+  // with a smaller range the step would underflow
   if (range < 1e-300) return {};
   const double step = round_step(range / 2);
   constexpr double largest = std::numeric_limits<double>::max();
@@ -219,7 +222,7 @@ Drawing draw_chart(const Chart& chart, const ChartOptions& options, const Font& 
   const std::string title = font.shortened(chart.title, title_height, right - margin);
   pen.text(title, {margin, margin + title_height}, title_height, ink);
   const float room = (static_cast<float>(height) - margin - above - below) / panels;
-  // low panels leave less between them
+  // low panels have smaller gaps
   const float gap = std::min(panel_gap, min_gap * room);
   for (size_t i = 0; i < chart.series.size(); ++i) {
     const float top = margin + above + static_cast<float>(i) * room + gap;

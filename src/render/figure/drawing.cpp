@@ -13,8 +13,8 @@ namespace clench {
 
 namespace {
 
-constexpr float capital_height = 0.729f;  // of DejaVu Sans, in its font size
-constexpr float rim_width = 3;            // half of it outside a letter's outline [pixels]
+constexpr float capital_height = 0.729f;  // of DejaVu Sans, per font size
+constexpr float rim_width = 3;            // half of it lies outside a letter's outline [pixels]
 
 struct ItemPainter {
   Canvas& canvas;
@@ -40,7 +40,7 @@ std::string hex(const Drawing::Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
-// text as XML allows it; blanks replace control characters
+// escapes a text for XML; blanks replace control characters
 std::string escaped(const std::string& text) {
   std::u32string letters = letters_of(text);
   std::erase_if(letters, [](char32_t c) { return c == 0xFFFE || c == 0xFFFF; });

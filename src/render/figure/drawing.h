@@ -1,4 +1,4 @@
-// A figure as lines, areas and texts, in pixels: painted, or written as SVG.
+// A figure as a list of lines, areas and texts, in pixels, to be painted or written as SVG.
 #pragma once
 #include <string>
 #include <variant>
@@ -9,11 +9,11 @@
 
 namespace clench {
 
-/// Places are in pixels, x to the right and y down, from the upper left corner; colors are as a
-/// screen shows them, each part in 0..1. Items lie over those before them.
+/// Positions are in pixels, x to the right and y down, from the upper left corner; colors are
+/// display (sRGB) values, each component in 0..1. Items are drawn over earlier ones.
 struct Drawing {
   using Color = Eigen::Vector3f;
-  /// with round ends and joints; one point is a disc
+  /// with round ends and joints; a polyline of one point is a disc
   struct Line {
     std::vector<Eigen::Vector2f> points;
     float width;
@@ -25,11 +25,11 @@ struct Drawing {
   };
   struct Text {
     std::string text;    ///< UTF-8
-    Eigen::Vector2f at;  ///< where its baseline begins
-    float height;        ///< of capital letters
+    Eigen::Vector2f at;  ///< start of its baseline
+    float height;        ///< height of capital letters
     Color color;
-    bool upright = false;  ///< it runs upwards
-    bool rim = false;      ///< a white one, to be read on anything
+    bool upright = false;  ///< does it run upwards?
+    bool rim = false;      ///< white, so that the text is legible on any background
   };
   using Item = std::variant<Line, Area, Text>;
 
@@ -37,10 +37,10 @@ struct Drawing {
   std::vector<Item> items = {};
 };
 
-/// On white.
+/// Paints the figure on white.
 Picture paint(const Drawing& drawing, const Font& font);
 
-/// As SVG 1.1, letters as text in the font of our pictures where a viewer has it.
+/// The figure as SVG 1.1, with letters as text in the font of our pictures if the viewer has it.
 std::string svg_text(const Drawing& drawing);
 
 }  // namespace clench

@@ -32,7 +32,7 @@ void close_gif(GifFileType* file) {
   EGifCloseFile(file, &error);
 }
 
-// colors are told apart by five bits a channel
+// colors are distinguished by five bits per channel
 constexpr int bits = 5, shades = 1 << (3 * bits);
 constexpr size_t max_colors = 256;
 
@@ -47,13 +47,13 @@ int channel_of(int shade, int channel) { return shade >> (10 - 5 * channel) & 31
 
 struct Palette {
   std::vector<std::array<uint8_t, 3>> colors;
-  std::vector<uint8_t> index;  // by shade
+  std::vector<uint8_t> index;  // indexed by shade
 };
 
 struct Part {
-  std::vector<int> list;  // of shades
+  std::vector<int> list;  // shades of this part
   uint64_t count = 0;
-  int channel = 0, width = 0;  // where it is widest
+  int channel = 0, width = 0;  // the channel in which it is widest
 };
 
 Part part_of(std::vector<int> list, const std::vector<Shade>& all) {
@@ -68,7 +68,7 @@ Part part_of(std::vector<int> list, const std::vector<Shade>& all) {
   return part;
 }
 
-// of two halves with about as many pixels each
+// cuts a part into halves with about as many pixels each
 std::array<Part, 2> cut(Part part, const std::vector<Shade>& all) {
   const int c = part.channel;
   std::ranges::sort(part.list, [c](int a, int b) {
@@ -97,7 +97,7 @@ Palette find_palette(std::span<const Picture> frames) {
     if (all[shade].count > 0) used.push_back(shade);
   std::vector<Part> parts = {part_of(std::move(used), all)};
   while (parts.size() < max_colors) {
-    // the part whose pixels are farthest off
+    // the part with the largest product of pixel count and width
     const auto worst = std::ranges::max_element(
         parts, {}, [](const Part& p) { return p.count * static_cast<uint64_t>(p.width); });
     if (worst->width == 0) break;
@@ -124,12 +124,12 @@ void check_frames(std::span<const Picture> frames, std::span<const int> delays) 
   if (frames.empty()) fail("an animated GIF: expected at least one picture, got none");
   const int width = frames[0].width, height = frames[0].height;
   if (width < 1 || height < 1 || width > 65535 || height > 65535)
-    fail("an animated GIF: expected pictures of 1 to 65535 pixels a side, got {} x {}", width,
+    fail("an animated GIF: expected pictures of 1 to 65535 pixels per side, got {} x {}", width,
          height);
   for (size_t i = 0; i < frames.size(); ++i)
     if (frames[i].width != width || frames[i].height != height)
-      fail("an animated GIF: picture {}: expected {} x {} pixels as the first, got {} x {}", i + 1,
-           width, height, frames[i].width, frames[i].height);
+      fail("an animated GIF: picture {}: expected {} x {} pixels as in the first, got {} x {}",
+           i + 1, width, height, frames[i].width, frames[i].height);
   if (delays.size() != frames.size())
     fail("an animated GIF: expected {} delays, got {}", frames.size(), delays.size());
 }

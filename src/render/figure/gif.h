@@ -1,4 +1,4 @@
-// Pictures one after the other, as an animated GIF.
+// Sequences of pictures as an animated GIF.
 #pragma once
 #include <span>
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace clench {
 
-/// All frames share up to 256 colors, and begin anew after the last.
+/// All frames share up to 256 colors, and the animation repeats forever.
 /// delays   of each frame, in hundredths of a second
 /// source   Heckbert (1982), Color image quantization for frame buffer display: median cut
-/// throws   Error for no frames, sizes that differ, or more than 65535 pixels in a row
+/// throws   Error if there are no frames, if sizes differ, or if a side exceeds 65535 pixels
 std::string gif_bytes(std::span<const Picture> frames, std::span<const int> delays);
 
 }  // namespace clench

@@ -18,16 +18,18 @@ namespace clench {
 using Eigen::Vector2f;
 
 static constexpr float max_letter_height = 1000;  // [pixels]
-static constexpr float max_letter_place = 1e5f;   // what FreeType counts in 64ths [pixels]
+// maximum coordinate, as FreeType counts in 64ths [pixels]
+static constexpr float max_letter_place = 1e5f;
 
 struct Font::Face {
-  std::string bytes;  // of the file
+  std::string bytes;  // contents of the file
   FT_Library library = nullptr;
   FT_Face face = nullptr;
   float capital = 0;  // height of capital letters [font units]
 
   explicit Face(const std::string& path) : bytes(read_bytes(path)) {
-    if (FT_Init_FreeType(&library) != 0) fail(ErrorKind::file, "{}: FreeType does not start", path);
+    if (FT_Init_FreeType(&library) != 0)
+      fail(ErrorKind::file, "{}: FreeType failed to initialize", path);
     const auto* data = reinterpret_cast<const FT_Byte*>(bytes.data());
     FT_New_Memory_Face(library, data, static_cast<FT_Long>(bytes.size()), 0, &face);
     if (face && FT_IS_SCALABLE(face) && index('H') != 0 && load(index('H')))
@@ -37,22 +39,22 @@ struct Font::Face {
       fail(ErrorKind::file, "{}: expected an outline font with Latin letters", path);
     }
   }
-  // its faces go with it
+  // this frees its faces, too
   ~Face() { FT_Done_FreeType(library); }
   Face(const Face&) = delete;
   Face& operator=(const Face&) = delete;
 
-  // 0 is the box
+  // 0 is the box for missing characters
   FT_UInt index(char32_t letter) const { return FT_Get_Char_Index(face, letter); }
-  // in font units, which hinting does not touch
+  // in font units, which are independent of hinting
   bool load(FT_UInt glyph) const { return FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) == 0; }
-  // in font units, whose sums are exact
+  // in font units, so that sums are exact
   int64_t advance(char32_t letter) const {
     FT_Fixed units = 0;
     FT_Get_Advance(face, index(letter), FT_LOAD_NO_SCALE, &units);
     return units;
   }
-  // in pixels
+  // converts font units to pixels
   float length(int64_t units, float height) const {
     return static_cast<float>(units) * height / capital;
   }
@@ -84,7 +86,7 @@ std::string Font::shortened(std::string_view text, float height, float width) co
   const auto fits = [&](int64_t units) { return face_->length(units, height) <= width; };
   int64_t units = face_->advance(U'…');
   if (!fits(units)) return "";
-  // one from the front, one from the back, while they fit
+  // adds a letter at the front, then one at the back, while they fit
   size_t front = 0, back = 0;
   while (front + back < letters.size()) {
     const bool at_front = front <= back;
@@ -103,7 +105,7 @@ std::set<char32_t> Font::missing(std::string_view text) const {
   return out;
 }
 
-// one row of a letter: called by FreeType
+// one row of a letter, called by FreeType
 static void cover_spans(int y, int count, const FT_Span* spans, void* user) {
   const auto& cover = *static_cast<const Font::Cover*>(user);
   for (const FT_Span* span = spans; span != spans + count; ++span)
@@ -114,7 +116,7 @@ static void cover_spans(int y, int count, const FT_Span* spans, void* user) {
 void Font::cover(const TextLine& line, const Eigen::Vector2i& size, const Cover& cover) const {
   if (!face_ || !(line.height > 0 && line.height <= max_letter_height)) return;
   const float scale = line.height / face_->capital;
-  // font units, y up, become 64ths of a pixel, y down
+  // converts font units, y up, to 64ths of a pixel, y down
   const auto fixed = [&](float part) { return std::lround(part * scale * 64 * 65536); };
   const Vector2f& along = line.along;
   const FT_Matrix turn{fixed(along.x()), fixed(along.y()), fixed(along.y()), fixed(-along.x())};

@@ -1,4 +1,4 @@
-// Text in an outline font: how wide it is, and which part of each pixel it covers.
+// Text in an outline font: its width, and its coverage of each pixel.
 #pragma once
 #include <Eigen/Core>
 #include <functional>
@@ -14,42 +14,41 @@ namespace clench {
 struct TextLine {
   std::string_view text;  ///< UTF-8
   Eigen::Vector2f at = Eigen::Vector2f::Zero();
-  float height = 9;  ///< of capital letters, up to 1000 [pixels]
+  float height = 9;  ///< height of capital letters, up to 1000 [pixels]
   Eigen::Vector2f along = Eigen::Vector2f::UnitX();
 };
 
 /// A font, opened for the pictures of one thread. It is not hinted, so that a text has the same
-/// shape at every place and its width is that of its parts. A character that it lacks is its box.
-/// Without its file texts have no width and cover nothing.
+/// shape at every position and its width is the sum of the widths of its parts. A missing character
+/// is drawn as a box. Without the font file texts have no width and cover nothing.
 class Font {
  public:
-  /// the one that CLENCH_FONT named when Clench was configured
+  /// the font that CLENCH_FONT named when Clench was configured
   Font();
   explicit Font(const std::string& path);
   ~Font();
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  /// why there are no letters, with the name of the file; empty when there are
+  /// reason why there are no letters, with the name of the file; empty if there are
   const std::string& fault() const { return fault_; }
 
-  /// `height` of capital letters [pixels]
+  /// width of a text [pixels]; `height` of capital letters [pixels]
   float width(std::string_view text, float height) const;
-  /// the text, or its beginning and end about an ellipsis, so that it takes no more than this
-  /// width [pixels]; nothing where even that is too narrow
+  /// the text, or its beginning and end around an ellipsis, so that it is at most this wide
+  /// [pixels]; empty if even the ellipsis is too wide
   std::string shortened(std::string_view text, float height, float width) const;
   /// characters that the font lacks
   std::set<char32_t> missing(std::string_view text) const;
 
-  /// takes a part of a pixel, in 0..1
+  /// receives a pixel and the covered fraction, in 0..1
   using Cover = std::function<void(int x, int y, float part)>;
-  /// goes through the pixels of a picture of this size that the letters cover, one letter after
-  /// the other
+  /// visits the pixels of a picture of this size that the letters cover, one letter after the other
   void cover(const TextLine& line, const Eigen::Vector2i& size, const Cover& cover) const;
 
  private:
   struct Face;
-  std::unique_ptr<Face> face_;  // null without letters
+  std::unique_ptr<Face> face_;  // null if there is no font
   std::string fault_;
 };
 

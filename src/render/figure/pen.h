@@ -1,4 +1,4 @@
-// Adds items to a figure that is being drawn.
+// Convenience functions that add items to a figure.
 #pragma once
 #include <string>
 #include <utility>

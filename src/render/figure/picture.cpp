@@ -12,7 +12,7 @@ namespace clench {
 void save_png(const Picture& picture, const std::string& path) {
   if (picture.width < 1 || picture.height < 1 ||
       picture.pixels.size() != 3 * static_cast<size_t>(picture.width) * picture.height)
-    fail("cannot write '{}': a picture of {} x {} pixels wants {} bytes, got {}", path,
+    fail("cannot write '{}': a picture of {} x {} pixels needs {} bytes, got {}", path,
          picture.width, picture.height, 3LL * picture.width * picture.height,
          picture.pixels.size());
   const size_t count = static_cast<size_t>(picture.width) * picture.height;

@@ -12,15 +12,14 @@ namespace clench {
 
 struct Scene;
 
-/// RGB, 8 bits a channel, rows from the top; and, where it lets through what it is laid on, how
-/// much it covers.
+/// RGB, 8 bits per channel, rows from the top; transparent pictures also have an alpha channel.
 struct Picture {
   int width = 0, height = 0;
   std::vector<uint8_t> pixels;
-  std::vector<uint8_t> alpha = {};  ///< one a pixel, 255 covers all; empty: all covers
-  /// camera of a picture of a scene; empty: of a figure
+  std::vector<uint8_t> alpha = {};  ///< one per pixel, 255 is opaque; empty: all pixels are opaque
+  /// camera of a picture of a scene; empty for a figure
   std::optional<Eye> eye = {};
-  /// that it shows, for who picks in it; null: of a figure, or not kept
+  /// the scene that it shows, used for picking; null for a figure, or if not kept
   std::shared_ptr<const Scene> scene = {};
 
   /// compares size and pixels
@@ -30,10 +29,10 @@ struct Picture {
   }
 };
 
-/// On white, all covered.
+/// The picture on white, fully opaque.
 Picture on_white(const Picture& picture);
 
-/// throws Error naming the path when it cannot be written
+/// throws Error naming the path if it cannot be written
 void save_png(const Picture& picture, const std::string& path);
 
 }  // namespace clench

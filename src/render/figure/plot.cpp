@@ -21,10 +21,13 @@ namespace {
 
 constexpr float text_height = 10, heading_height = 13, border = 14, gap = 8;  // [pixels]
 constexpr float line_width = 2, point_width = 6, frame_width = 1, sample_length = 24;
-constexpr double tick_room_x = 90, tick_room_y = 45;  // between two lines of an axis [pixels]
-constexpr double margin_of_data = 0.04;               // beside the outermost numbers
-constexpr double group_width = 0.8;    // of a category's bars together, of the distance to the next
-constexpr float longest_label = 0.3f;  // of an upright category, of the figure's height
+// minimum distance of two lines of an axis [pixels]
+constexpr double tick_room_x = 90, tick_room_y = 45;
+// margin beyond the outermost values, as a fraction of the range
+constexpr double margin_of_data = 0.04;
+// of all bars of a category, as a fraction of the distance to the next
+constexpr double group_width = 0.8;
+constexpr float longest_label = 0.3f;  // of an upright label, as a fraction of the figure's height
 constexpr int min_plot_size = 64, max_plot_size = 8192;
 constexpr size_t max_points = 200'000;
 constexpr double largest_shown = 1e300;
@@ -37,7 +40,7 @@ const Drawing::Color series_colors[] = {{0.000f, 0.447f, 0.698f}, {0.835f, 0.369
 
 bool shown(double value) { return std::abs(value) <= largest_shown; }
 
-// may its ends be told apart, with room for lines between them?
+// can its ends be distinguished, with lines between them?
 bool wide_enough(const Range& range) {
   const double size = range[1] - range[0];
   return size > 1e-12 * std::max(std::abs(range[0]), std::abs(range[1])) && size > 1e-300;
@@ -48,18 +51,19 @@ std::string name_of(const PlotSeries& series, size_t number) {
                              : fmt::format("plot: series {}", in_quotes(series.name));
 }
 
-// one value per category, and no numbers along that axis
+// categories need one value each, and no numbers along their axis
 void check_categories(const Plot& plot) {
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
     const std::string subject = name_of(series, i + 1);
-    if (!series.x.empty()) fail("{}: expected no x, for categories stand along that axis", subject);
+    if (!series.x.empty())
+      fail("{}: expected no x, because categories are along that axis", subject);
     if (series.y.size() != plot.categories.size())
       fail("{}: expected {} values, one per category, got {}", subject, plot.categories.size(),
            series.y.size());
   }
-  if (plot.x.range) fail("plot: x_range: categories have none");
-  if (plot.x.logarithmic) fail("plot: x_scale: categories have none");
+  if (plot.x.range) fail("plot: x_range: not allowed with categories");
+  if (plot.x.logarithmic) fail("plot: x_scale: not allowed with categories");
 }
 
 void check_series(const PlotSeries& series, size_t number) {
@@ -97,7 +101,7 @@ void check_plot(const Plot& plot) {
            size);
   for (const auto& [name, axis] : {std::pair("x", &plot.x), {"y", &plot.y}}) {
     if (axis == &plot.y && axis->logarithmic && any_bars(plot))
-      fail("plot: y_scale: bars stand on 0, which a logarithmic axis has not");
+      fail("plot: y_scale: bars begin at 0, which a logarithmic axis does not include");
     for (size_t i = 0; axis == &plot.x && axis->logarithmic && i < plot.series.size(); ++i)
       if (plot.series[i].kind == PlotKind::bars && !(plot.series[i].x[0] > 0))
         fail("plot: x_scale: expected edges of bars > 0 on a logarithmic axis, got {}",
@@ -112,13 +116,13 @@ void check_plot(const Plot& plot) {
   }
 }
 
-// of a bar of a category
+// width of one bar of a category
 double bar_width(const Plot& plot) {
   return group_width /
          static_cast<double>(std::ranges::count(plot.series, PlotKind::bars, &PlotSeries::kind));
 }
 
-// categories stand at 1, 2, 3 ..., and bars of several series beside one another around them
+// places categories at 1, 2, 3 ..., and the bars of several series next to each other around them
 void place_categories(Plot& plot) {
   double before = 0;
   for (PlotSeries& series : plot.series) {
@@ -136,12 +140,12 @@ double right_edge(const Plot& plot, const PlotSeries& bars, size_t i) {
   return plot.categories.empty() ? bars.x[i + 1] : bars.x[i] + bar_width(plot);
 }
 
-// grows to hold a value
+// extends a range to include a value
 void hold(Range& range, double value) {
   range = {std::min(range[0], value), std::max(range[1], value)};
 }
 
-// of what is drawn; lower end above the upper one: nothing is
+// ranges of the drawn data; lower end above the upper one: there are none
 std::array<Range, 2> data_ranges(const Plot& plot) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Range xs = {infinity, -infinity}, ys = xs;
@@ -155,7 +159,7 @@ std::array<Range, 2> data_ranges(const Plot& plot) {
   return {xs, ys};
 }
 
-// room beside the data; bars stand on the axis, and reach its ends
+// adds a margin around the data; bars begin at the axis and may reach its ends
 Range with_margin(const Range& data, bool low_end, bool high_end) {
   if (!wide_enough(data)) {
     const double room = std::max(1.0, std::abs(data[0])) / 2;
@@ -166,8 +170,7 @@ Range with_margin(const Range& data, bool low_end, bool high_end) {
           data[1] + (high_end ? margin_of_data * size : 0)};
 }
 
-// numbers of a logarithmic axis as powers of ten, which all else counts in; what is not > 0 has
-// none
+// replaces numbers of a logarithmic axis by their common logarithms; NaN if not > 0
 void take_logarithms(const PlotAxis& axis, std::vector<double>& values) {
   if (!axis.logarithmic) return;
   for (double& value : values) value = value > 0 ? std::log10(value) : NAN;
@@ -186,7 +189,7 @@ Plot in_scale(const Plot& plot) {
   return out;
 }
 
-/// The figure, as it grows.
+/// The figure under construction.
 class Figure {
  public:
   Figure(const Plot& plot, const Font& font)
@@ -221,7 +224,8 @@ class Figure {
   std::optional<AxisLabels> labels_;  // of categories
 };
 
-// title and legend;   returns  where they end
+// draws title and legend
+// returns  their lower edge
 float Figure::draw_heading() {
   float top = border;
   const float room = static_cast<float>(plot_.width) - 2 * border;
@@ -254,7 +258,7 @@ float Figure::draw_heading() {
   return any ? top + gap : top;
 }
 
-// where the frame of the axes stands, and what they show
+// sets the frame of the axes, and the ranges that they show
 void Figure::set_scales(float top) {
   const auto [xs, ys] = data_ranges(plot_);
   if (!(xs[0] <= xs[1]) && !(plot_.x.range && plot_.y.range))
@@ -278,7 +282,7 @@ void Figure::set_scales(float top) {
   x_ = make_scale(x_range, right - left, tick_room_x, plot_.x.logarithmic);
   x_.from = left, x_.to = std::max(right, left + 1);
   if (plot_.categories.empty()) return;
-  // upright names leave less height, in which there are no more lines than before
+  // upright labels reduce the height, which cannot increase the number of lines
   labels_.emplace(plot_.categories, x_.at(2) - x_.at(1), longest_label * height, text_height,
                   font_);
   set_y(labels_->room());
@@ -323,13 +327,13 @@ void Figure::draw_bars(const PlotSeries& series, const Drawing::Color& color) {
                  high = within(y_.range, std::max(0.0, series.y[i]));
     if (!(left < right) || !(low < high)) continue;
     const Vector2f from = at({left, high}), to = at({right, low});
-    // a thin gap between neighbors, where there is room
+    // a thin gap between neighbors, if the bars are wide enough
     const float space = to.x() - from.x() > 4 ? 0.5f : 0;
     pen_.rectangle(from + Vector2f(space, 0), to - Vector2f(space, 0), color);
   }
 }
 
-// the part of a segment within the axes, by Liang and Barsky (1984); empty: none is
+// the part of a segment within the axes, by Liang and Barsky (1984); empty if it lies outside
 std::optional<std::array<Vector2d, 2>> clipped(const Vector2d& a, const Vector2d& b,
                                                const Range& xs, const Range& ys) {
   double t0 = 0, t1 = 1;
@@ -392,7 +396,7 @@ Drawing Figure::draw() {
   for (size_t i = 0; i < plot_.series.size(); ++i)
     draw_series(plot_.series[i], series_colors[i % std::size(series_colors)]);
   line({{x_.from, y_.to}, {x_.from, y_.from}, {x_.to, y_.from}}, frame_width, dark);
-  // what bars stand on, where some hang from it
+  // the line at 0, if some bars are negative and some are not
   if (any_bars(plot_) && y_.range[0] < 0 && y_.range[1] > 0)
     line({{x_.from, y_.at(0)}, {x_.to, y_.at(0)}}, frame_width, dark);
   return std::move(out_);

@@ -10,9 +10,9 @@
 
 namespace clench {
 
-static constexpr int max_lines = 8192;  // one a pixel of the largest figure
+static constexpr int max_lines = 8192;  // one per pixel of the largest figure
 
-// digits times powers of ten that lie in the range
+// products of digits and powers of ten that lie in the range
 static std::vector<double> decades(const Range& range, const std::vector<double>& digits) {
   std::vector<double> out;
   const double first = std::floor(range[0]);
@@ -27,7 +27,7 @@ static std::vector<double> decades(const Range& range, const std::vector<double>
 
 std::vector<double> PlotScale::lines() const {
   if (logarithmic && step <= 1) {
-    // of less than a decade all digits
+    // with less than a decade, all digits are used
     if (const auto all = decades(range, {1, 2, 3, 4, 5, 6, 7, 8, 9});
         all.size() >= 4 && all.size() <= 8)
       return all;
@@ -37,7 +37,7 @@ std::vector<double> PlotScale::lines() const {
   }
   std::vector<double> out;
   const double slack = 1e-9 * step, first = std::ceil((range[0] - slack) / step);
-  // by their number, for adding 1 changes nothing of a large one
+  // by index, since adding 1 to a large number does not change it
   const int count = floor_between((range[1] - range[0]) / step, 0, max_lines) + 1;
   for (int i = 0; i <= count; ++i) {
     const double value = (first + i) * step;
@@ -63,7 +63,7 @@ std::string PlotScale::text(double value) const {
 PlotScale make_scale(const Range& range, double pixels, double room, bool logarithmic) {
   const double count = std::max(1.0, pixels / room),
                step = round_step((range[1] - range[0]) / count);
-  // of powers of ten, whole ones
+  // powers of ten have integer steps
   return {range, logarithmic && range[1] - range[0] > 2 ? std::max(1.0, std::ceil(step)) : step,
           logarithmic};
 }

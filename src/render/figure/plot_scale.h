@@ -1,4 +1,4 @@
-// An axis of a plot: where its numbers stand, and its lines with their texts.
+// Axis of a plot: maps numbers to pixels, and chooses its lines and their labels.
 #pragma once
 #include <array>
 #include <string>
@@ -11,7 +11,7 @@ using Range = std::array<double, 2>;
 struct PlotScale {
   Range range;
   double step = 1;
-  bool logarithmic = false;  ///< all numbers here are powers of ten
+  bool logarithmic = false;  ///< are all numbers here exponents of ten?
   float from = 0, to = 0;    ///< pixels at the ends of the range
 
   float at(double value) const {
@@ -20,11 +20,11 @@ struct PlotScale {
   }
   /// at multiples of the step, or of 1, 2 and 5 times powers of ten
   std::vector<double> lines() const;
-  /// with as many digits as tell a line from the next
+  /// with as many digits as distinguish neighboring lines
   std::string text(double value) const;
 };
 
-/// room  for a line of the axis [pixels]
+/// room  minimum distance of two lines of the axis [pixels]
 PlotScale make_scale(const Range& range, double pixels, double room, bool logarithmic);
 
 }  // namespace clench

@@ -1,14 +1,14 @@
-// Pictures with several samples a pixel, and colors that were multiplied by alpha.
+// Reduction of pictures with several samples per pixel, and of colors premultiplied by alpha.
 #pragma once
 #include "clench/render/figure/picture.h"
 
 namespace clench {
 
-/// The mean of squares of scale x scale pixels, weighted by how much they cover; width and height
-/// are multiples of it.
+/// Root mean square of blocks of scale x scale pixels, weighted by alpha; width and height are
+/// multiples of the scale.
 Picture reduced(const Picture& large, int scale);
 
-/// Colors that were multiplied by alpha become those of what covers.
+/// Converts premultiplied colors to straight ones.
 void divide_by_alpha(Picture& picture);
 
 }  // namespace clench

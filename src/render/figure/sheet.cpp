@@ -45,7 +45,7 @@ static std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// height below a picture [pixels]
+// height of the caption below a picture [pixels]
 static int caption_space(const SheetOptions& options) {
   if (options.captions.empty()) return 0;
   size_t most = 1;
@@ -54,7 +54,7 @@ static int caption_space(const SheetOptions& options) {
   return floor_int(caption_room) + note_step * (floor_int(static_cast<double>(most)) - 1);
 }
 
-// each line in the middle of a cell, from the top
+// writes each line centered in its cell, from the top
 static void write_caption(const std::string& caption, float left, float top, float width,
                           const Font& font, Canvas& canvas) {
   float y = top + 6 + caption_height;
@@ -106,8 +106,8 @@ Picture contact_sheet(const std::vector<const Picture*>& pictures, const SheetOp
   const double height =
       top + (notes.empty() ? 0 : note_step * static_cast<double>(notes.size()) + options.gap);
   if (width > max_side || height > max_side)
-    fail(ErrorKind::limit, "sheet: expected at most {} pixels a side, got {} x {}", max_side, width,
-         height);
+    fail(ErrorKind::limit, "sheet: expected at most {} pixels per side, got {} x {}", max_side,
+         width, height);
 
   Picture sheet = blank_picture(floor_int(width), floor_int(height));
   Canvas canvas(sheet, font);

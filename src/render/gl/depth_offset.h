@@ -1,11 +1,12 @@
-// Order of surfaces that lie in one plane.
+// Depth order of coplanar surfaces.
 #pragma once
 #include <epoxy/gl.h>
 
 namespace clench::gl {
 
-/// While it lives, drawn surfaces are moved by a few steps of the depth buffer, backwards (towards
-/// > 0) or forwards (towards < 0), so that of coplanar surfaces always the same one is seen.
+/// During its lifetime, drawn surfaces are moved by a few steps of the depth buffer, backwards
+/// (towards
+/// > 0) or forwards (towards < 0), so that the same one of coplanar surfaces is always visible.
 /// Steps exceed the rounding of vertices and of their positions in a pixel.
 class DepthOffset {
  public:

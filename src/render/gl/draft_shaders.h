@@ -1,9 +1,9 @@
-// The programs of drafts, as text: one pass, one shadow, light that is found where it falls.
+// Shader source of drafts: one pass, one shadow, lighting computed per fragment.
 #pragma once
 
 namespace clench::shaders {
 
-/// corners of a mesh, in its own units, to the picture
+/// vertex shader: transforms a mesh from its own units to the picture
 inline constexpr const char* draft_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
@@ -14,12 +14,12 @@ out vec2 on_image;
 layout(location = 2) in vec4 own_paint;
 #endif
 uniform mat4 to_scene;
-uniform mat4 to_clip;        // of the mesh's units
-uniform float painted;       // 1: corners have colors of their own
+uniform mat4 to_clip;  // in the mesh's units
+uniform float painted;  // 1: each corner has its own color
 uniform vec4 one_paint;
 out vec3 at;
 out vec3 normal;
-flat out vec4 paint;         // corners of a triangle have one paint
+flat out vec4 paint;  // all corners of a triangle have the same paint
 void main() {
   at = (to_scene * vec4(p, 1)).xyz;
   normal = mat3(to_scene) * n;
@@ -33,14 +33,15 @@ void main() {
 }
 )";
 
-/// corners to the depth that the lamp sees
+/// vertex shader of the lamp's depth map
 inline constexpr const char* draft_shadow_vertex = R"(
 layout(location = 0) in vec3 p;
 uniform mat4 to_clip;
 void main() { gl_Position = to_clip * vec4(p, 1); }
 )";
 
-/// part of what develops: the shoulder and the curve of sRGB within 6 of 255, without powers
+/// part of programs that output display colors: highlight shoulder and sRGB curve, within 6 of 255,
+/// without pow()
 inline constexpr const char* draft_curve_part = R"(
 vec3 developed(vec3 c) {
   const float knee = 0.7;
@@ -50,15 +51,15 @@ vec3 developed(vec3 c) {
 }
 )";
 
-/// part of what shades: a lamp with one map of shadows, and a bright room
+/// part of programs that shade: a lamp with one shadow map, and ambient light
 inline constexpr const char* draft_light_part = R"(
 uniform sampler2DArrayShadow map;
-uniform mat3 map_axes;       // rows: across, across, towards the lamp
+uniform mat3 map_axes;  // rows: across, across, towards the lamp
 uniform vec3 to_lamp;
-uniform float texel;         // of the map, in scene units
+uniform float texel;  // of the map, in scene units
 
-// part of the lamp that reaches p, where it is asked. A loop ends early where a branch would
-// calculate both sides
+// fraction of the lamp that reaches p; 1 unless `asked`. A loop instead of a branch, which would
+// compute both sides
 float lit(vec3 p, vec3 n, bool asked) {
   float facing = dot(n, to_lamp);
   vec3 q = map_axes * (p + n * texel * (1.5 + 2.5 * sqrt(max(0, 1 - facing * facing))));
@@ -71,11 +72,11 @@ float lit(vec3 p, vec3 n, bool asked) {
 }
 )";
 
-/// bodies; with MARKS friction cones and arrows, whatever the light; with GLASS what shines
-/// through, on which no shadow falls
+/// bodies; MARKS: friction cones and arrows, independent of lighting; GLASS: transparent bodies,
+/// which receive no shadow
 inline constexpr const char* draft_fragment = R"(
 uniform vec3 eye;
-// what a varnish returns of the lamp and of the room
+// specular reflection of the lamp and of the ambient light by the varnish
 vec3 shine(vec3 n, vec3 v, float direct) {
   float over = 1 - clamp(dot(n, v), 0, 1), over2 = over * over;
   float half_way = max(0, dot(n, normalize(to_lamp + v)));
@@ -108,12 +109,12 @@ void main() {
 }
 )";
 
-/// a floor without end, that takes the shadow
+/// unbounded floor that receives the shadow
 inline constexpr const char* draft_floor_fragment = R"(
 in vec3 at;
 in vec3 normal;
 flat in vec4 paint;
-uniform float bare;          // 1: nothing is behind but the shadow
+uniform float bare;  // 1: no backdrop, only the shadow
 out vec4 result;
 void main() {
   vec3 n = vec3(0, 0, 1);
@@ -123,13 +124,13 @@ void main() {
 }
 )";
 
-/// what is behind everything
+/// backdrop
 inline constexpr const char* draft_behind_fragment = R"(
 out vec4 result;
 void main() { result = vec4(developed(backdrop()), 1); }
 )";
 
-/// what lines are found by: where, which way it faces, that it is there
+/// input of the line detection: position, normal, coverage
 inline constexpr const char* draft_seen_fragment = R"(
 in vec3 at;
 in vec3 normal;

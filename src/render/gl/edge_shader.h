@@ -1,14 +1,14 @@
-// The program that smooths edges, as text.
+// Shader source of the anti-aliasing of edges.
 #pragma once
 
 namespace clench::shaders {
 
-/// mixes pixels at edges with those across, by where along a step of the edge they lie
+/// mixes a pixel at an edge with the pixel across it, by its position along the step of the edge
 inline constexpr const char* edge_fragment = R"(
 uniform sampler2D pixels;
-uniform vec2 window;         // place in the picture of the first pixel of the window
-uniform vec2 size;           // of the picture
-uniform float bare;          // 1: alpha counts, as on white
+uniform vec2 window;  // position in the picture of the first pixel of the window
+uniform vec2 size;  // size of the picture
+uniform float bare;  // 1: alpha is used, as on white
 out vec4 result;
 
 const int reach_along = 12, min_contrast = 12;
@@ -24,7 +24,7 @@ bool within(ivec2 at) {
   return all(greaterThanEqual(at, ivec2(1))) && all(lessThan(at, ivec2(size) - 1));
 }
 
-// how much of the pixel across belongs here
+// fraction of the pixel across that is mixed in here
 float part_of(ivec2 here, int m, int n, int s, int e, int w, int range,
               out ivec2 across) {
   int ne = bright(here - down + right), nw = bright(here - down - right),

@@ -18,7 +18,7 @@ namespace {
       why);
 }
 
-// epoxy ends the process when it misses a library, so look before it does
+// epoxy ends the process if a library is missing, so that is checked first
 void check_libraries() {
   if (!epoxy_has_egl()) refuse("libEGL.so.1 was not found");
   for (const char* name : {"libOpenGL.so.0", "libGL.so.1"})
@@ -35,8 +35,7 @@ GlContext::GlContext() {
   check_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
     refuse("this EGL cannot draw without a display (EGL_MESA_platform_surfaceless)");
-  // the display belongs to the process, not to us: other threads may use it, so it is never
-  // terminated
+  // the display is shared by the process: other threads may use it, so it is never terminated
   EGLDisplay display =
       eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))

@@ -3,20 +3,20 @@
 
 namespace clench {
 
-/// Current on a thread only where it is entered, so that any thread may use it, one at a time.
-/// Needs nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
+/// Current on a thread only while entered, so that any thread may use it, one at a time. Needs
+/// nothing but the libraries: EGL_PLATFORM_SURFACELESS_MESA of EGL 1.5.
 class GlContext {
  public:
-  /// throws Error that says what to install when there is no EGL or no OpenGL 3.3
+  /// throws Error that says what to install if EGL or OpenGL 3.3 is missing
   GlContext();
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// Current on this thread as long as this lives; what was current before is so again after.
+  /// Makes the context current on this thread during its lifetime, then restores the previous one.
   class Entered {
    public:
-    /// throws Error when the driver cannot
+    /// throws Error if the driver fails
     explicit Entered(const GlContext& context);
     ~Entered();
     Entered(const Entered&) = delete;

@@ -26,7 +26,7 @@ Object compile(GLenum kind, const std::string& source) {
   if (good) return shader;
   char words[1024] = "";
   glGetShaderInfoLog(shader, sizeof words, nullptr, words);
-  fail(ErrorKind::internal, "picture: the OpenGL driver refuses a shader: {}", words);
+  fail(ErrorKind::internal, "picture: the OpenGL driver rejects a shader: {}", words);
 }
 
 void filter(GLenum target, GLint mode) {
@@ -83,7 +83,7 @@ Object make_image_texture(int width, int height, const void* pixels, Edge u, Edg
   glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, pixels);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   if (glGetError() == GL_OUT_OF_MEMORY)
-    fail("picture: a texture of {} x {} pixels does not fit", width, height);
+    fail("picture: a texture of {} x {} pixels exceeds the memory of OpenGL", width, height);
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -141,7 +141,7 @@ Object make_program(const std::string& head, const std::string& vertex,
   if (good) return program;
   char words[1024] = "";
   glGetProgramInfoLog(program, sizeof words, nullptr, words);
-  fail(ErrorKind::internal, "picture: the OpenGL driver refuses a program: {}", words);
+  fail(ErrorKind::internal, "picture: the OpenGL driver rejects a program: {}", words);
 }
 
 Object make_buffer(const void* data, size_t bytes, bool indices) {
@@ -151,7 +151,8 @@ Object make_buffer(const void* data, size_t bytes, bool indices) {
   const GLenum target = indices ? GL_ELEMENT_ARRAY_BUFFER : GL_ARRAY_BUFFER;
   glBindBuffer(target, name);
   glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-  if (glGetError() == GL_OUT_OF_MEMORY) fail("picture: {} bytes of triangles do not fit", bytes);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    fail("picture: {} bytes of triangles exceed the memory of OpenGL", bytes);
   return buffer;
 }
 

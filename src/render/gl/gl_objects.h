@@ -1,5 +1,4 @@
-// Textures, buffers and programs of OpenGL as values that clean up after themselves, without its
-// types.
+// RAII wrappers of OpenGL textures, buffers and programs, without OpenGL types in the interface.
 #pragma once
 #include <Eigen/Core>
 #include <string>
@@ -8,7 +7,7 @@
 
 namespace clench::gl {
 
-/// The name of an object, deleted with this. Lives inside the life of a GlContext.
+/// Name of an OpenGL object, deleted by the destructor. Must not outlive its GlContext.
 class Object {
  public:
   using Delete = void (*)(unsigned);
@@ -31,31 +30,30 @@ class Object {
 
 enum class Format { rgba8, rgba16f, rgba32f, depth };
 
-/// Nearest sampling, edges repeated; `data` are floats, red green blue alpha, or null.
+/// Nearest sampling, clamped to the edge; `data` holds floats, red green blue alpha, or is null.
 Object make_texture(Format format, int width, int height, const void* data = nullptr);
-/// An image of 8-bit RGB rows from the top, whose colors are read as light; smaller copies of it
-/// stand for it at a distance. `mirror` and `clamp` of each direction: how it goes on beyond its
-/// edges, else it is repeated.
+/// An image of 8-bit sRGB rows from the top, sampled as linear light, with mipmaps. `mirror` and
+/// `clamp` set how it continues beyond its edges in each direction; the default is to repeat.
 struct Edge {
   bool mirror = false, clamp = false;
 };
 Object make_image_texture(int width, int height, const void* pixels, Edge u, Edge v);
-/// of a texture, at least 1024 [pixels]
+/// maximum size of a texture, at least 1024 [pixels]
 int max_texture_side();
-/// Layers of depth that are compared when they are read: shares of neighbors that pass.
+/// Layers of depth with comparison on reading: returns the filtered fraction of texels that pass.
 Object make_shadow_maps(int size, int layers);
-/// Draws to textures of one size, in the order of a program's outputs; depth 0: none.
-/// throws  Error when the driver cannot
+/// Framebuffer of textures of one size, in the order of a program's outputs; depth 0: none.
+/// throws  Error if the driver does not support it
 Object make_framebuffer(const std::vector<unsigned>& colors, unsigned depth);
-/// Both texts follow the version and `head`.
-/// throws  Error with the driver's words
+/// Both sources are preceded by the version and `head`.
+/// throws  Error with the driver's message
 Object make_program(const std::string& head, const std::string& vertex,
                     const std::string& fragment);
-/// Corners, or indices of the current vertex array.
+/// Buffers of corners, or of indices of the current vertex array.
 Object make_buffer(const void* data, size_t bytes, bool indices = false);
 Object make_vertex_array();
 
-// uniforms of the program, which becomes the current one
+// sets uniforms of the program, which becomes the current one
 void use(unsigned program);
 void set(unsigned program, const char* name, int value);
 void set(unsigned program, const char* name, float value);
@@ -66,7 +64,7 @@ void set(unsigned program, const char* name, const Eigen::Matrix4f& value);
 void set(unsigned program, const char* name, const std::vector<float>& values);
 void set(unsigned program, const char* name, const std::vector<Eigen::Vector3f>& values);
 void set(unsigned program, const char* name, const std::vector<Eigen::Matrix3f>& values);
-/// The texture at this unit, and the sampler of that name reads it.
+/// Binds the texture to this unit, and the sampler of that name to the unit.
 void bind(unsigned program, const char* sampler, int unit, unsigned texture, bool layers = false);
 
 }  // namespace clench::gl

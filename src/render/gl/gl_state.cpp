@@ -7,9 +7,9 @@
 namespace clench::gl {
 namespace {
 
-constexpr int units = 8;  // of textures that pictures use
+constexpr int units = 8;  // texture units used by pictures
 
-// switches that drawing changes or that change what is drawn
+// switches that drawing changes or depends on
 constexpr std::array switches{
     GL_BLEND,        GL_DEPTH_TEST,        GL_POLYGON_OFFSET_FILL, GL_CULL_FACE,
     GL_SCISSOR_TEST, GL_STENCIL_TEST,      GL_FRAMEBUFFER_SRGB,    GL_COLOR_LOGIC_OP,
@@ -25,7 +25,7 @@ constexpr std::array buffers{BindingOf{GL_ARRAY_BUFFER, GL_ARRAY_BUFFER_BINDING}
                              BindingOf{GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING},
                              BindingOf{GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING},
                              BindingOf{GL_TEXTURE_BUFFER, GL_TEXTURE_BUFFER}};
-// of rows of pixels in memory
+// layout of rows of pixels in memory
 constexpr std::array packing{GL_PACK_ALIGNMENT,    GL_PACK_ROW_LENGTH,  GL_PACK_SKIP_ROWS,
                              GL_PACK_SKIP_PIXELS,  GL_PACK_SWAP_BYTES,  GL_UNPACK_ALIGNMENT,
                              GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,

@@ -1,12 +1,12 @@
-// The state of an OpenGL context that belongs to somebody else.
+// State of an OpenGL context that belongs to the caller.
 #pragma once
 #include <memory>
 
 namespace clench::gl {
 
-/// While it lives, the current context has the state that pictures are drawn with: no scissor,
-/// stencil, samplers, or buffers of pixels, whatever was set. After that, what drawing changes is as
-/// it was.
+/// During its lifetime, the current context has the state that drawing assumes: no scissor,
+/// stencil, sampler or pixel buffer, regardless of previous settings. The destructor restores all
+/// state that drawing changes.
 class SavedState {
  public:
   SavedState();

@@ -1,4 +1,4 @@
-// The programs of the graphics card, compiled once for all pictures of a context.
+// Shader programs, compiled once for all pictures of a context.
 #pragma once
 #include <map>
 
@@ -6,20 +6,20 @@
 
 namespace clench {
 
-inline constexpr int lamps_per_sample = 4;  ///< that `shade` takes
-inline constexpr int lights_at_once = 12;   ///< that `gather` takes
+inline constexpr int lamps_per_sample = 4;  ///< maximum that `shade` takes
+inline constexpr int lights_at_once = 12;   ///< maximum that `gather` takes
 
-/// Lives inside the life of a GlContext.
+/// Must not outlive its GlContext.
 struct Programs {
-  /// throws Error with the driver's words
+  /// throws Error with the driver's message
   Programs();
-  gl::Object first, shade, mark, through, outline, add, develop;  ///< what is seen
-  gl::Object shadow, gather, smooth;                              ///< light
+  gl::Object first, shade, mark, through, outline, add, develop;  ///< passes for visible surfaces
+  gl::Object shadow, gather, smooth;                              ///< passes for light
   gl::Object draft, draft_glass, draft_marks, draft_floor, draft_behind, draft_outline,
       draft_shadow, edges;
 
-  /// Of `first`, `through`, `draft` and `draft_glass`, the same with colors from an image; 0 of
-  /// others. Compiled when first asked for.
+  /// The textured variant of `first`, `through`, `draft` or `draft_glass`; 0 for other programs.
+  /// Compiled at the first call.
   unsigned on_image(unsigned program) const;
 
  private:

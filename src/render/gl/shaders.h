@@ -1,10 +1,10 @@
-// The programs of the graphics card, as text. Parts come before a program's own text, and before
-// all the count LIGHTS of lights at a time: a constant, so that loops over them unroll.
+// Shader source. Shared parts precede a program's own text, and all are preceded by LIGHTS, the
+// number of lights per pass: a constant, so that loops over them are unrolled.
 #pragma once
 
 namespace clench::shaders {
 
-/// corners to the picture, with the light that was gathered for them
+/// vertex shader: transforms corners to the picture, with the light that was gathered for them
 inline constexpr const char* surface_vertex = R"(
 layout(location = 0) in vec3 p;
 layout(location = 1) in vec3 n;
@@ -20,7 +20,7 @@ layout(location = 4) in vec4 lamp;
 uniform mat4 to_clip;
 out vec3 at;
 out vec3 normal;
-flat out vec4 paint;         // corners of a triangle have one paint
+flat out vec4 paint;  // all corners of a triangle have the same paint
 out vec4 room_light;
 out vec4 lamp_light;
 void main() {
@@ -38,21 +38,21 @@ void main() {
 }
 )";
 
-/// part of what shows surfaces, before their own text: their color as light; with SKIN that of an
-/// image
+/// part of programs that show surfaces, before their own text: their color as linear light; with
+/// SKIN that of an image
 inline constexpr const char* skin_part = R"(
 #ifdef SKIN
 uniform sampler2D skin;
 uniform vec3 tint;
 in vec2 on_image;
-// nothing is so black that its shape is lost
+// black surfaces are slightly brightened, so that their shape stays visible
 vec3 light_of(vec4 paint) { return 0.012 + 0.988 * tint * texture(skin, on_image).rgb; }
 #else
 vec3 light_of(vec4 paint) { return paint.rgb; }
 #endif
 )";
 
-/// corners to the depth that a lamp sees; rows of axes: across, across, towards the lamp
+/// vertex shader of a lamp's depth map; rows of axes: across, across, towards the lamp
 inline constexpr const char* shadow_vertex = R"(
 layout(location = 0) in vec3 p;
 uniform mat3 axes[LIGHTS];
@@ -62,32 +62,32 @@ void main() {
 }
 )";
 
-/// one triangle that covers everything, as far away as can be
+/// one triangle that covers the screen, at maximum depth
 inline constexpr const char* cover_vertex = R"(
 void main() {
   gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 1, 1);
 }
 )";
 
-/// part of other programs: what some lights do
+/// part of other programs: contribution of several lights
 inline constexpr const char* light_part = R"(
 uniform sampler2DArrayShadow maps;
 uniform mat3 axes[LIGHTS];
 uniform vec3 to_light[LIGHTS];
 uniform float radiance[LIGHTS];
-uniform float texel;         // of a map, in scene units
-uniform float power;         // of each light, times its own
+uniform float texel;  // of a map, in scene units
+uniform float power;  // of each light, multiplied by its own strength
 
-// where to start from the surface: farther off where the light grazes it
+// start of the shadow ray off the surface: farther off at grazing angles
 vec3 off(vec3 p, vec3 n, float facing) {
   return p + n * texel * (0.6 + 1.6 * sqrt(max(0, 1 - facing * facing)));
 }
-// part of light i that reaches p
+// fraction of light i that reaches p
 float seen(int i, vec3 p) {
   vec3 q = axes[i] * p;
   return texture(maps, vec4(0.5 + 0.5 * q.xy, i, min(0.5 - 0.5 * q.z, 0.99999)));
 }
-// what a lamp, all of whose points are near the first, returns from a matt white surface
+// light of a lamp, all of whose points are near the first, reflected by a matte white surface
 float lamp_on(vec3 p, vec3 n) {
   vec3 start = off(p, n, dot(n, to_light[0]));
   float sum = 0;
@@ -97,7 +97,7 @@ float lamp_on(vec3 p, vec3 n) {
 }
 )";
 
-/// for each corner, front and back: light of the room that reaches it, and how open it lies
+/// for each corner, front and back: ambient light that reaches it, and its openness
 inline constexpr const char* gather_fragment = R"(
 uniform sampler2D points;
 uniform sampler2D normals;
@@ -116,18 +116,18 @@ void main() {
 }
 )";
 
-/// depth and nothing else
+/// depth only
 inline constexpr const char* depth_fragment = R"(
 void main() {}
 )";
 
-/// what is seen first: where, which way it faces, its paint, and the light of the room
+/// first visible surface: position, normal, paint, and ambient light
 inline constexpr const char* seen_fragment = R"(
 in vec3 at;
 in vec3 normal;
 flat in vec4 paint;
 in vec4 room_light;
-uniform float floor_sign;    // -1 for the floor, else 1
+uniform float floor_sign;  // -1 for the floor, else 1
 layout(location = 0) out vec4 place;
 layout(location = 1) out vec4 facing;
 layout(location = 2) out vec4 colors;
@@ -136,19 +136,19 @@ void main() {
   vec2 light = gl_FrontFacing ? room_light.xy : room_light.zw;
   place = vec4(at, light.x);
   facing = vec4(side * normalize(normal), light.y);
-  // their roots, as bytes are too coarse for what is dark
+  // stored as square roots, because bytes are too coarse for dark values
   colors = vec4(sqrt(light_of(paint)), 0.5 + 0.5 * floor_sign);
 }
 )";
 
-/// part of what shades: matt paint under a varnish
+/// part of programs that shade: matte paint under a varnish
 inline constexpr const char* shade_part = R"(
 uniform vec3 eye;
 
 vec3 mirrored(vec3 d) {
   return mix(vec3(0.30), vec3(0.98, 1.0, 1.04), smoothstep(-0.35, 0.5, d.z));
 }
-// what the varnish returns; direct: light of the lamp, open: how much of the room is seen
+// reflection by the varnish; direct: light of the lamp, open: visible fraction of the room
 vec3 varnish(vec3 n, vec3 v, vec3 to_lamp, float direct, float open) {
   float over = 1 - clamp(dot(n, v), 0, 1), over2 = over * over;
   float fresnel = 0.04 + 0.96 * over2 * over2 * over;
@@ -160,15 +160,15 @@ vec3 varnish(vec3 n, vec3 v, vec3 to_lamp, float direct, float open) {
 }
 )";
 
-/// what was seen first, in the light of the lamps
+/// shades the first visible surfaces in the light of the lamps
 inline constexpr const char* shade_fragment = R"(
 uniform sampler2D places;
 uniform sampler2D facings;
 uniform sampler2D paints;
 uniform sampler2D depths;
-uniform float open_light;    // what comes to the floor with nothing in between
-uniform float reach;         // of the floor
-uniform float bare;          // 1: nothing is behind but a shadow on the floor
+uniform float open_light;  // ambient light on an unoccluded floor
+uniform float reach;  // of the floor
+uniform float bare;  // 1: no backdrop, only a shadow on the floor
 out vec4 result;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
@@ -178,19 +178,19 @@ void main() {
   vec3 p = place.xyz, n = facing.xyz;
   float direct = lamp_on(p, n);
   vec3 behind = backdrop(), v = normalize(eye - p);
-  // the floor is the backdrop, less the light that bodies keep from it
+  // the floor is the backdrop, reduced by the light that bodies block
   vec3 light = on_floor ? behind * (place.w + direct) / open_light
                         : paint.rgb * paint.rgb * (place.w + direct) + varnish(n, v, to_light[0], direct, facing.w);
-  // far away everything melts into the backdrop
+  // with distance everything fades to the backdrop
   float fade = nothing ? 1 : smoothstep(0.5, 1.0, length(p) / reach);
-  // a tenth of the light is missing all around, and is no shadow
+  // a loss of a tenth of the light is present everywhere, and is not shown as a shadow
   float shadow = clamp((1 - (place.w + direct) / open_light - 0.1) / 0.9, 0, 1);
   vec4 alone = on_floor || nothing ? vec4(0, 0, 0, 0.75 * shadow * (1 - fade)) : vec4(light, 1);
   result = mix(vec4(mix(light, behind, fade), 1), alone, bare);
 }
 )";
 
-/// glass; red green blue are multiplied by what they cover
+/// glass; red green blue are multiplied by the opacity
 inline constexpr const char* through_fragment = R"(
 in vec3 at;
 in vec3 normal;
@@ -204,14 +204,14 @@ void main() {
   vec3 v = normalize(eye - at);
   vec2 room = gl_FrontFacing ? room_light.xy : room_light.zw;
   float direct = gl_FrontFacing ? lamp_light.x : lamp_light.z;
-  // denser where one looks along it
+  // more opaque at grazing angles
   float over = 1 - clamp(dot(n, v), 0, 1);
   float cover = mix(paint.a, 1, 0.75 * over * over * sqrt(over));
   result = vec4(light_of(paint) * (room.x + direct) * cover + varnish(n, v, to_lamp, direct, room.y), cover);
 }
 )";
 
-/// cones: they glow, so that their color tells in any light
+/// cones: they glow, so that their color is visible in any light
 inline constexpr const char* mark_fragment = R"(
 in vec3 at;
 in vec3 normal;
@@ -224,11 +224,11 @@ void main() {
 }
 )";
 
-/// the floor's light, smoothed over its net: wider where its meshes are
+/// smooths the floor's light over its grid: over a wider range where its cells are larger
 inline constexpr const char* smooth_fragment = R"(
 uniform sampler2D light;
-uniform int first;           // corner of the floor's net
-uniform int lines;           // each way
+uniform int first;  // corner of the floor's grid
+uniform int lines;  // in each direction
 out vec4 result;
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
@@ -250,28 +250,28 @@ void main() {
 }
 )";
 
-/// part of what shades: what is behind everything, by the height in the picture
+/// part of programs that shade: the backdrop, by the height in the picture
 inline constexpr const char* backdrop_part = R"(
-uniform vec2 corner;         // of the tile in the picture, pixels
-uniform vec2 size;           // of the picture, pixels
+uniform vec2 corner;  // origin of the tile in the picture, pixels
+uniform vec2 size;  // size of the picture, pixels
 vec3 backdrop() {
   vec2 here = (gl_FragCoord.xy + corner) / size;
   return mix(vec3(0.80, 0.81, 0.82), vec3(0.52, 0.58, 0.66), smoothstep(0.1, 1.0, here.y));
 }
 )";
 
-/// lines around bodies, where the surface seen in one pixel does not go on in its neighbors, and
+/// lines around bodies, where the surface seen in one pixel does not continue in its neighbors, and
 /// along edges
 inline constexpr const char* outline_fragment = R"(
 uniform sampler2D places;
 uniform sampler2D facings;
 uniform sampler2D paints;
 uniform vec3 eye;
-uniform float spread;        // of a pixel, in scene units, at a distance of 1 where that matters
-uniform float flat_view;     // 1: it does not
-uniform float radius;        // of the line, pixels
+uniform float spread;  // size of a pixel, in scene units, at a distance of 1 in perspective views
+uniform float flat_view;  // 1: the size of a pixel is independent of distance
+uniform float radius;  // width of the line, pixels
 uniform float cover;
-uniform float smooth_line;   // 1: a line has soft sides, where pixels have one sample
+uniform float smooth_line;  // 1: a line has soft sides, used with one sample per pixel
 out vec4 result;
 bool there(ivec2 at) { return texelFetch(paints, at, 0).a > 0.5; }
 bool differ(ivec2 a, ivec2 b, float step) {
@@ -297,7 +297,7 @@ void main() {
 }
 )";
 
-/// one pass, weighted
+/// adds one pass, weighted
 inline constexpr const char* add_fragment = R"(
 uniform sampler2D light;
 uniform float weight;
@@ -305,7 +305,7 @@ out vec4 result;
 void main() { result = weight * texelFetch(light, ivec2(gl_FragCoord.xy), 0); }
 )";
 
-/// light to what a screen shows: a shoulder for highlights, then the curve of sRGB
+/// linear light to display values: a shoulder for highlights, then the sRGB curve
 inline constexpr const char* develop_fragment = R"(
 uniform sampler2D light;
 out vec4 result;
@@ -315,7 +315,7 @@ void main() {
 }
 )";
 
-/// part of what develops
+/// part of programs that output display colors
 inline constexpr const char* curve_part = R"(
 vec3 developed(vec3 c) {
   const float knee = 0.7;

@@ -1,4 +1,4 @@
-// Corners of triangles as the graphics card takes them.
+// Triangle corners in the layout of the graphics card.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -6,25 +6,25 @@
 
 namespace clench {
 
-/// Red green blue, as a surface of this color returns light, and opacity: parts of 65535.
+/// Red green blue, as linear reflectance, and opacity: 16-bit fractions of 65535.
 using Paint = std::array<uint16_t, 4>;
 
 /// One corner of triangles as the shaders read it.
 struct Corner {
   Eigen::Vector3f p;  ///< scene units
-  Eigen::Vector3f n;  ///< unit, to the side from which the triangle runs counter-clockwise
-  Paint paint;        ///< of a triangle with an image: its place there, by paint_of_place
+  Eigen::Vector3f n;  ///< unit, on the side from which the triangle runs counter-clockwise
+  Paint paint;        ///< color; for a textured triangle the image coordinates, by paint_of_place
 };
 static_assert(sizeof(Corner) == 32);
 
-/// The part of light that a surface returns whose color on a screen is this, 0..1. Nothing is so
-/// black that its shape is lost.
+/// Reflectance of a surface whose color on a screen is this, 0..1. Black is slightly brightened, so
+/// that its shape stays visible.
 Eigen::Vector3f linear_rgb(const Eigen::Vector3f& color);
 
-/// color: as on a screen
+/// color: display values
 Paint make_paint(const Eigen::Vector3f& color, float opacity);
 
-/// A place in an image, as two 32-bit numbers in the bytes of a paint, and back.
+/// Image coordinates stored as two 32-bit numbers in the bytes of a paint, and their inverse.
 Paint paint_of_place(const Eigen::Vector2f& uv);
 Eigen::Vector2f place_of_paint(const Paint& paint);
 

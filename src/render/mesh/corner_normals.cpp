@@ -8,14 +8,14 @@
 namespace clench {
 namespace {
 
-// the center of a fan: smoothing there costs the square of its size and shows nothing
+// the center of a large fan is not smoothed: that has quadratic cost and no visible effect
 constexpr int max_neighbors = 128;
 
 Eigen::Vector3d face_normal(const std::vector<Eigen::Vector3d>& vertices, const Triangle& t) {
   const Eigen::Vector3d a = vertices[t[1]] - vertices[t[0]], b = vertices[t[2]] - vertices[t[0]];
   const Eigen::Vector3d n = a.cross(b);
   const double length = n.norm();
-  // thinner than one part in 10^12 of its edges has no direction worth the name
+  // a triangle thinner than 10^-12 of its edges has no meaningful direction
   if (!(length > 1e-12 * (a.squaredNorm() + b.squaredNorm()))) return Eigen::Vector3d::Zero();
   return n / length;
 }

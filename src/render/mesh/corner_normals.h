@@ -1,5 +1,4 @@
-// Smooth where a surface is round, sharp where it has an edge: one normal for each corner of a
-// triangle.
+// Vertex normals, smooth on curved surfaces and sharp at edges: one per corner of a triangle.
 #pragma once
 #include <array>
 #include <numbers>
@@ -9,9 +8,9 @@
 
 namespace clench {
 
-/// Unit normals, zero for triangles without area. Each corner averages the triangles around its
-/// vertex that lean less than the crease angle [rad] from its own, weighted by their angles there;
-/// neighbors that run the other way round are turned over first. Vertices shared by very many
+/// Unit normals, zero for triangles without area. Each corner averages those triangles around its
+/// vertex whose normals are within the crease angle [rad] of its own, weighted by their angles
+/// there; neighbors with opposite orientation are flipped first. Vertices shared by very many
 /// triangles stay sharp.
 /// source  Thuermer & Wuethrich (1998), Computing vertex normals from polygonal facets: the weights
 std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(

@@ -12,9 +12,10 @@
 namespace clench {
 namespace {
 
-// across which light is interpolated [scene units]: of what is solid, and of what is seen through
+// maximum edges, over which light is interpolated [scene units]: of opaque and of transparent
+// surfaces
 constexpr float longest_edge = 0.07f, longest_clear_edge = 0.2f;
-// of one piece, by splitting; what comes with more keeps them
+// of one piece after splitting; pieces with more are not split
 constexpr size_t max_triangles = 200000;
 
 Extent extent_of_pieces(std::span<const Piece> pieces) {
@@ -25,7 +26,7 @@ Extent extent_of_pieces(std::span<const Piece> pieces) {
   return ball.value_or(Extent{});
 }
 
-// corners of each texture, up to these ends, made fine; the ends become those of what is returned
+// refines the corners of each texture, which end at `ends`; updates the ends to those of the result
 std::vector<Corner> refined(const Piece& piece, const std::vector<Corner>& corners,
                             std::vector<size_t>& ends) {
   if (piece.mark) return corners;
@@ -55,7 +56,7 @@ Batch append(Piece& piece, DrawList& list) {
   for (const auto& color : piece.colors) paints.push_back(make_paint(color, piece.opacity));
   const TextureOrder order(piece.triangles.size(), piece.skin);
   std::vector<Corner> corners;
-  std::vector<size_t> ends;  // of the corners of each texture
+  std::vector<size_t> ends;  // ends of the corners of each texture
   size_t next = 0;
   for (const size_t count : order.counts) {
     for (const size_t end = next + count; next < end; ++next) {
@@ -88,13 +89,13 @@ Batch append(Piece& piece, DrawList& list) {
   if (piece.skin)
     list.textures.insert(list.textures.end(), piece.skin->textures.begin(),
                          piece.skin->textures.end());
-  // corners as they are remain corners when they are split
+  // original corners remain corners when triangles are split
   corners.insert(corners.end(), fine.begin(), fine.end());
   append_shared(corners, list.corners, list.indices);
   return batch;
 }
 
-// lines close together below the scene and ever farther apart outside
+// lines close together below the scene and increasingly farther apart outside
 void append_floor(DrawList& list) {
   constexpr int lines = floor_lines;
   constexpr double bend = 3.6;
@@ -119,7 +120,7 @@ void append_floor(DrawList& list) {
 
 DrawList make_draw_list(const Scene& scene) {
   check(scene);
-  // in this order: solid, seen through, marks, background
+  // in this order: opaque, transparent, marks, background
   std::vector<Piece> pieces, clear, behind;
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     const DrawMesh& m = scene.meshes[i];
@@ -153,7 +154,7 @@ DrawList make_draw_list(const Scene& scene) {
   list.floor_corner = list.corners.size();
   if (scene.ground) {
     list.ground = (*scene.ground - list.center.z()) / list.scale;
-    // so far away that it is not in any picture
+    // too far away to be in any picture
     if (std::abs(*list.ground) > floor_reach)
       list.ground.reset();
     else
@@ -162,7 +163,7 @@ DrawList make_draw_list(const Scene& scene) {
   return list;
 }
 
-// each run of textures, by its first index: where it belongs
+// index runs of all batches, each of one texture
 static std::vector<TexturedRun> runs_of(const std::vector<Batch>& batches) {
   std::vector<TexturedRun> runs;
   for (const Batch& batch : batches) {

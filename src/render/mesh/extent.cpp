@@ -16,8 +16,8 @@ void each_vertex(const DrawMesh& mesh, Use&& use) {
     use(Eigen::Vector3d(R * p + mesh.X_WM.position));
 }
 
-// an upper bound of the distance of its vertices from the center, in units of the ball: with slack
-// for the rounding of places far from the origin
+// upper bound on the distance of its vertices from the center, in units of the ball, with slack for
+// the rounding of positions far from the origin
 double reach_of(const DrawMesh& mesh, const BallAround& ball) {
   const Eigen::Vector3d middle = mesh.X_WM * mesh.shape->center();
   const double reach = (middle - ball.center()).norm() + mesh.shape->radius(),
@@ -44,7 +44,7 @@ const Bounds& ExtentFinder::bounds_of(const Scene& scene, size_t i) {
   kept.shape.reset();
   kept.bounds = {};
   each_vertex(mesh, [&](const Eigen::Vector3d& p_W) {
-    if (!p_W.allFinite()) fail("picture: mesh {}: lies beyond all numbers", i + 1);
+    if (!p_W.allFinite()) fail("picture: mesh {}: position exceeds the range of numbers", i + 1);
     kept.bounds.add(p_W);
   });
   kept.shape = mesh.shape, kept.X_WM = mesh.X_WM;
@@ -68,7 +68,7 @@ std::optional<Extent> ExtentFinder::find(const Scene& scene, bool background,
 
   BallAround ball(all);
   for (const auto& p : marks) ball.add(p);
-  // meshes that may reach farthest come first, so that most are not walked through
+  // meshes that may reach farthest come first, so that the vertices of most need not be visited
   std::vector<std::pair<double, const DrawMesh*>> order;
   for (const DrawMesh* mesh : meshes) order.push_back({reach_of(*mesh, ball), mesh});
   std::ranges::stable_sort(order, std::ranges::greater{},

@@ -1,4 +1,4 @@
-// Where a scene is and how large: its unit of length.
+// Extent of a scene: its center, and its radius as unit of length.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -16,12 +16,12 @@ struct Extent {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;
 
-  /// An eye of the world, moved to the center and divided by the scale.
+  /// An eye given in the world, relative to the center and divided by the scale.
   Eye to_scene(const Eye& world) const;
 };
 
-/// A ball about the center of bounds, through the point of them that is farthest. Squares of lengths
-/// do not overflow.
+/// A ball around the center of bounds, through their farthest point. Squares of lengths do not
+/// overflow.
 class BallAround {
  public:
   explicit BallAround(const Bounds& bounds)
@@ -29,17 +29,17 @@ class BallAround {
         half_((0.5 * bounds.high - 0.5 * bounds.low).maxCoeff()),
         unit_(1 / half_) {}
   const Eigen::Vector3d& center() const { return center_; }
-  /// of the bounds, as which distances are measured; infinite where they have no size
+  /// factor of the measured distances, the reciprocal of half the bounds' size; infinite if it is 0
   double unit() const { return unit_; }
   void add(const Eigen::Vector3d& p) {
     if (std::isfinite(unit_)) most_ = std::max(most_, (unit_ * (p - center_)).squaredNorm());
   }
-  /// Square of the distance of the farthest point so far, in such units.
+  /// square of the distance of the farthest point so far, times unit() squared
   double farthest() const { return most_; }
-  /// throws  Error when it is larger than numbers can be
+  /// throws  Error if it exceeds the range of numbers
   Extent extent() const {
     const double scale = half_ * std::sqrt(most_);
-    if (!std::isfinite(scale)) fail("picture: the scene is larger than numbers can be");
+    if (!std::isfinite(scale)) fail("picture: the size of the scene exceeds the range of numbers");
     // a single point is seen from a distance that its coordinates can resolve
     return {center_, std::max(scale, 1e-9 * std::max(1.0, center_.cwiseAbs().maxCoeff()))};
   }
@@ -49,8 +49,8 @@ class BallAround {
   double half_, unit_, most_ = 0;
 };
 
-/// Of all points that `each` gives to a function it is given; none where there is no point.
-/// throws  Error when it is larger than numbers can be
+/// Ball of all points that `each` passes to its argument, a function; empty if there are none.
+/// throws  Error if it exceeds the range of numbers
 template <class Each>
 std::optional<Extent> ball_around(Each&& each) {
   Bounds bounds;
@@ -61,12 +61,12 @@ std::optional<Extent> ball_around(Each&& each) {
   return ball.extent();
 }
 
-/// Finds the extent of scene after scene; bounds of meshes that stay where they were are kept.
+/// Computes the extents of successive scenes, and caches the bounds of meshes that do not move.
 class ExtentFinder {
  public:
-  /// A ball about the center of the bounds of every vertex of meshes, cones and arrows, through the
-  /// farthest of them. Backgrounds do not count unless there is nothing else; world [m].
-  /// throws  Error when a mesh is moved beyond all numbers, or the ball is larger than numbers can be
+  /// Ball around the center of the bounds of all vertices of meshes, cones and arrows, through the
+  /// farthest of them. Backgrounds count only if there is nothing else; world [m].
+  /// throws  Error if a mesh position or the ball exceeds the range of numbers
   Extent find(const Scene& scene);
 
  private:
@@ -79,7 +79,7 @@ class ExtentFinder {
   std::optional<Extent> find(const Scene& scene, bool background,
                              const std::vector<Eigen::Vector3d>& marks);
 
-  std::vector<Kept> kept_;  // of the meshes of the last scene
+  std::vector<Kept> kept_;  // bounds of the meshes of the last scene
 };
 
 }  // namespace clench

@@ -15,7 +15,7 @@ bool faces_outward(const Shape& shape) {
     const auto at = [&](int k) -> Eigen::Vector3d { return vertices[t[k]] - shape.center(); };
     volumes[parts.find(t[0])] += at(0).dot(at(1).cross(at(2)));
   }
-  // a part without triangles has none
+  // a part without triangles has no volume
   for (const Triangle& t : shape.mesh().triangles)
     if (!(volumes[parts.find(t[0])] > 0)) return false;
   return true;

@@ -1,4 +1,4 @@
-// Which meshes show only one side, so that the other need not be drawn.
+// Meshes of which only the outer side is ever visible, so that the inner need not be drawn.
 #pragma once
 #include "clench/geometry/tree/shape.h"
 #include "clench/scene/scene.h"
@@ -6,12 +6,11 @@
 namespace clench {
 
 /// Is each part of the mesh closed, with its triangles counter-clockwise seen from outside? A
-/// hollow has its own part, which is not.
+/// cavity is a part of the opposite orientation, and fails the test.
 bool faces_outward(const Shape& shape);
 
-/// Can an eye see only the sides that face outward of such a mesh within a ball, in scene units?
-/// Not from within it, or with the near plane in it, which lies at less than half the way to the
-/// scene.
+/// Does an eye see only outward-facing sides of such a mesh within a ball, in scene units? Not from
+/// within the ball, or if the near plane, at less than half the distance to the scene, cuts it.
 bool hides_inside(const Eigen::Vector3d& center, double radius, const Eye& eye);
 
 }  // namespace clench

@@ -14,7 +14,7 @@ constexpr int dot_sides = 12, dot_rings = 6;
 constexpr int arrow_sides = 24;
 constexpr double head_width = 3, head_length = 7;  // in radii of the rod
 
-// widest part of a cone; one without an angle is drawn as a needle, a wide one is cut off
+// widest part of a cone; one without an angle is drawn as a needle, a wide one is truncated
 double cone_radius(const DrawCone& c) {
   return c.height * std::clamp(std::tan(c.half_angle), 0.06, 3.0);
 }
@@ -99,7 +99,8 @@ Piece mesh_piece(const DrawMesh& m, size_t number) {
   piece.p_W.reserve(m.shape->mesh().vertices.size());
   for (const auto& p : m.shape->mesh().vertices) {
     piece.p_W.push_back(m.X_WM * p);
-    if (!piece.p_W.back().allFinite()) fail("picture: mesh {}: lies beyond all numbers", number);
+    if (!piece.p_W.back().allFinite())
+      fail("picture: mesh {}: position exceeds the range of numbers", number);
   }
   return piece;
 }
@@ -145,7 +146,7 @@ Piece arrow_piece(const DrawArrow& arrow) {
   const Eigen::Vector3d side = axis.unitOrthogonal(), other = axis.cross(side);
   const double head = std::min(head_length * arrow.radius, 0.5 * length);
 
-  // rings from the tail on: the rod's ends, then the head's base; the tip is a ring of no width
+  // rings from the tail on: the rod's ends, then the head's base; the tip is a ring of radius 0
   const struct {
     double along, radius;
   } rings[] = {{0, 0},

@@ -20,7 +20,7 @@ Corner middle(const Corner& a, const Corner& b, bool on_image) {
   return out;
 }
 
-// how far an edge is over the length allowed where it lies: the same from either side
+// length of an edge relative to the allowed length at its position: equal from both sides
 float excess(const Corner& a, const Corner& b, float limit) {
   const float away = std::max(1.0f, (0.5f * (a.p + b.p)).squaredNorm());
   return (a.p - b.p).squaredNorm() / (limit * limit * away);
@@ -28,7 +28,7 @@ float excess(const Corner& a, const Corner& b, float limit) {
 
 void split(const Corner& a, const Corner& b, const Corner& c, float limit, bool on_image,
            std::vector<Corner>& out) {
-  // turn the edge that is most too long to the front
+  // rotate the triangle so that the edge that exceeds its limit most comes first
   const float ab = excess(a, b, limit), bc = excess(b, c, limit), ca = excess(c, a, limit);
   if (ab < bc || ab < ca)
     return bc >= ca ? split(b, c, a, limit, on_image, out) : split(c, a, b, limit, on_image, out);
@@ -41,14 +41,14 @@ void split(const Corner& a, const Corner& b, const Corner& c, float limit, bool 
   split(m, b, c, limit, on_image, out);
 }
 
-// about how many triangles a limit leaves
+// estimated number of triangles for a limit
 double count_after(const std::vector<Corner>& corners, double limit) {
   double count = 0;
   for (size_t i = 0; i < corners.size(); i += 3) {
     const Eigen::Vector3f ab = corners[i + 1].p - corners[i].p,
                           ac = corners[i + 2].p - corners[i].p;
     const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-    // outside the scene's ball the allowed length grows, so that area counts by its logarithm
+    // outside the scene's ball the allowed length grows, so the area counts by its logarithm
     const double area = std::min(0.5 * ab.cross(ac).norm(), 4 * (1 + std::log1p(longest)));
     count += 1 + 2 * longest / limit + 4 * area / (limit * limit);
   }
@@ -87,7 +87,7 @@ void append_shared(const std::vector<Corner>& corners, std::vector<Corner>& shar
     const int c = compare(a, b);
     return c != 0 ? c < 0 : a < b;
   });
-  // each takes the place of the first of its kind, so that neighbors stay near
+  // each takes the position of the first of its kind, so that neighbors stay near
   std::vector<uint32_t> first(corners.size()), place(corners.size());
   for (size_t i = 0; i < order.size(); ++i)
     first[order[i]] =

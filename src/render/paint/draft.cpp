@@ -18,7 +18,7 @@ class DraftPainter {
  public:
   DraftPainter(const Programs& programs, DraftKept& kept, const Scene& scene, const Eye& eye,
                const RenderOptions& options);
-  /// To the target that is kept.
+  /// draws to the cached target
   void paint(const Tile& tile);
   const Cover& cover() const { return cover_; }
 
@@ -41,7 +41,7 @@ class DraftPainter {
   DraftKept& kept_;
   const RenderOptions& options_;
   DraftScene scene_;
-  Eigen::Matrix4d projection_, clip_;  // of the picture, and of the tile
+  Eigen::Matrix4d projection_, clip_;  // origin in the picture, and in the tile
   Cover cover_;
 };
 
@@ -82,7 +82,7 @@ void DraftPainter::draw_textured(const PlacedMesh& placed, unsigned program, boo
   }
 }
 
-// for bodies
+// shader for bodies
 void DraftPainter::light(unsigned program) const {
   kept_.shadow.give(program);
   gl::set(program, "eye", shading_eye(scene_.eye));
@@ -126,7 +126,7 @@ void DraftPainter::draw_marks() const {
   lay_lines({marks}, false);
 }
 
-// far bodies first, and of each its far side; no shadow falls on them
+// far bodies first, each with its far side before its near one; they receive no shadow
 void DraftPainter::draw_glass() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -148,7 +148,7 @@ void DraftPainter::draw_glass() const {
   lay_lines(scene_.clear, false);
 }
 
-// around the group, drawn again, where what was drawn before does not hide it
+// outlines the group, drawn again, where earlier surfaces do not hide it
 void DraftPainter::lay_lines(const Group& group, bool hides) const {
   const auto& lines = kept_.target->lines;
   if (!lines || group.empty()) return;

@@ -1,4 +1,4 @@
-// A scene to pixels in one pass, with one shadow: a fraction of the time of `paint`.
+// Draws a scene in one pass, with one shadow, in a fraction of the time of `paint`.
 #pragma once
 #include <optional>
 
@@ -13,9 +13,9 @@
 
 namespace clench {
 
-/// What drafts leave for the next one. Lives inside the life of a GlContext.
+/// Data that drafts keep for the next one. Must not outlive its GlContext.
 struct DraftKept {
-  /// `most`: bytes of meshes
+  /// `most`: maximum memory of meshes [bytes]
   explicit DraftKept(size_t most) : meshes(most) {}
   size_t bytes() const;
 
@@ -26,18 +26,18 @@ struct DraftKept {
   std::optional<DraftTarget> target;
 };
 
-/// Draws one sample a pixel and smooths edges; colors are multiplied by alpha. `eye` is of the
+/// Draws one sample per pixel and smooths edges; colors are premultiplied by alpha. `eye` is in the
 /// world.
-/// throws  Stopped; Error when the driver refuses, and as `check(scene)` does
+/// throws  Stopped; Error if the driver fails, and as `check(scene)` does
 void draft_to(const Programs& programs, DraftKept& kept, const Scene& scene, const Eye& eye,
               const RenderOptions& options, const Destination& destination);
 
-/// Draws options.draft_scale^2 samples a pixel, more than one.
+/// Draws options.draft_scale^2 samples per pixel, more than one.
 /// throws  as `draft_to`
 Picture draft_reduced(const Programs& programs, DraftKept& kept, const Scene& scene, const Eye& eye,
                       const RenderOptions& options);
 
-/// The picture that the framebuffer that is bound holds, from its lower left corner.
+/// Reads the picture from the bound framebuffer, from its lower left corner.
 Picture read_frame(const RenderOptions& options);
 
 }  // namespace clench

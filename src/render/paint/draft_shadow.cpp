@@ -10,7 +10,8 @@
 namespace clench {
 namespace {
 
-constexpr double draft_reach = 1.03;  // of the map: the scene's ball and a margin
+// half width of the map: the scene's ball and a margin [scene units]
+constexpr double draft_reach = 1.03;
 
 }  // namespace
 

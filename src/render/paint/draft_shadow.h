@@ -1,4 +1,4 @@
-// The shadow of drafts: depths that their one lamp sees.
+// Shadow of drafts: a depth map seen from their single lamp.
 #pragma once
 #include <vector>
 
@@ -9,18 +9,18 @@
 
 namespace clench {
 
-/// Draws indices of a mesh, `count` of them from `first` on; by default all.
+/// Draws `count` indices of a mesh from `first` on; by default all.
 /// one_side  draws only the side that faces the eye, which hides the other one of a closed mesh
 void draw_triangles(const StoredMesh& mesh, bool one_side, int first = 0, int count = -1);
 
-/// Kept until bodies that throw shadows, the lamp or the size change. Lives inside the life of a
+/// Cached until bodies that cast shadows, the lamp or the size change. Must not outlive its
 /// GlContext.
 class DraftShadow {
  public:
-  /// The lamp stands beside the eye, so it moves with it; `size` of the map [pixels].
+  /// The lamp is next to the eye and moves with it; `size` of the map [pixels].
   /// throws  Stopped
   void cast(const Programs& programs, const DraftScene& scene, int size, const Progress& progress);
-  /// The lamp and its map, for a program that has `draft_light_part`; takes texture unit 0.
+  /// Sets the lamp and its map in a program that contains `draft_light_part`; uses texture unit 0.
   void give(unsigned program) const;
   size_t bytes() const;
 
@@ -38,7 +38,7 @@ class DraftShadow {
   std::vector<Caster> casters_;
   Eigen::Vector3d to_lamp_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Zero();
-  bool whole_ = false;  // the map holds what the key tells
+  bool whole_ = false;  // does the map match the key?
 };
 
 }  // namespace clench

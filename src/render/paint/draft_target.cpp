@@ -3,7 +3,7 @@
 namespace clench {
 namespace {
 
-// of a pixel
+// memory per pixel [bytes]
 constexpr size_t color_bytes = 4, depth_bytes = 4, line_bytes = 16 + 8 + 4 + depth_bytes;
 
 size_t pixels_of(int width, int height) { return static_cast<size_t>(width) * height; }

@@ -1,4 +1,4 @@
-// What drafts are drawn to, kept from picture to picture.
+// Render targets of drafts, kept for successive pictures.
 #pragma once
 #include <optional>
 
@@ -6,8 +6,8 @@
 
 namespace clench {
 
-/// One sample a pixel, and where lines are asked for, what they are found in. Lives inside the life
-/// of a GlContext.
+/// One sample per pixel, and if lines are requested, the textures that they are found in. Must not
+/// outlive its GlContext.
 struct DraftTarget {
   struct Lines {
     Lines(int width, int height);
@@ -25,7 +25,7 @@ struct DraftTarget {
   std::optional<Lines> lines;
 };
 
-/// A picture on the graphics card: colors multiplied by alpha. Lives inside the life of a
+/// A picture on the graphics card, with colors premultiplied by alpha. Must not outlive its
 /// GlContext.
 struct FrameTarget {
   FrameTarget(int width, int height);

@@ -1,18 +1,18 @@
-// Edges of a draft made smooth on the graphics card.
+// Anti-aliasing of the edges of a draft on the graphics card.
 #pragma once
 #include "clench/render/paint/shadows.h"
 #include "clench/render/view/render_options.h"
 
 namespace clench {
 
-/// Where a picture goes: a framebuffer, and the picture's lower left corner in it [pixels].
+/// Destination of a picture: a framebuffer, and the picture's lower left corner in it [pixels].
 struct Destination {
   unsigned framebuffer = 0;
   int x = 0, y = 0;
 };
 
-/// Mixes pixels at edges with those across, by where along a step of the edge they lie. `program`
-/// is Programs::edges; `colors` holds the picture, with colors multiplied by alpha.
+/// Mixes pixels at edges with those across, by their position along the step of the edge. `program`
+/// is Programs::edges; `colors` holds the picture, with colors premultiplied by alpha.
 /// source  Lottes (2009), FXAA
 void smooth_to(unsigned program, const Cover& cover, unsigned colors, const RenderOptions& options,
                const Destination& destination);

@@ -1,4 +1,4 @@
-// Images of textures on the graphics card.
+// Texture images on the graphics card.
 #pragma once
 #include <vector>
 
@@ -7,22 +7,22 @@
 
 namespace clench {
 
-/// Lives inside the life of a GlContext.
+/// Must not outlive its GlContext.
 class LoadedTextures {
  public:
   LoadedTextures() = default;
-  /// Images larger than the card takes are reduced; an image that several textures name and wrap
-  /// alike is loaded once.
+  /// Images that exceed the card's maximum size are reduced; an image that several textures use
+  /// with the same wrapping is loaded once.
   explicit LoadedTextures(const std::vector<Texture>& textures);
 
-  /// The texture of that number, for a program of Programs::on_image.
+  /// Binds the texture of that index for a program of Programs::on_image.
   void give(unsigned program, int number) const;
   size_t bytes() const { return bytes_; }
 
  private:
   struct Entry {
     Texture texture;
-    int object;  // number of its image
+    int object;  // index of its image
   };
   std::vector<Entry> entries_;
   std::vector<gl::Object> objects_;

@@ -17,7 +17,7 @@ std::vector<TexturedRun> share_corners(const std::vector<Eigen::Vector3d>& verti
                                        std::vector<Corner>& corners, std::vector<uint32_t>& indices,
                                        const SkinPtr& skin) {
   const auto normals = corner_normals(vertices, triangles);
-  // corners of a vertex so far, as a chain; none: -1
+  // corners of a vertex so far, as a linked list; end: -1
   std::vector<int> first(vertices.size(), -1), next;
   const size_t base = corners.size();
   std::vector<Paint> paints;

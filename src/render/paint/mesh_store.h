@@ -1,4 +1,4 @@
-// Meshes on the graphics card, kept from picture to picture wherever their bodies move.
+// Meshes on the graphics card, kept for successive pictures when their bodies move.
 #pragma once
 #include <list>
 
@@ -9,26 +9,26 @@
 
 namespace clench {
 
-/// Corners with smooth normals, about the mesh's center and divided by its radius.
+/// Corners with smooth normals, relative to the mesh's center and divided by its radius.
 struct StoredMesh : LoadedCorners {
   using LoadedCorners::LoadedCorners;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;
-  bool closed = false;   ///< a solid whose triangles all run counter-clockwise seen from outside
-  bool painted = false;  ///< triangles have colors of their own
-  std::vector<TexturedRun> textured = {};  ///< at the end of the indices
+  bool closed = false;   ///< closed, with all triangles counter-clockwise seen from outside
+  bool painted = false;  ///< do triangles have individual colors?
+  std::vector<TexturedRun> textured = {};  ///< textured triangles, at the end of the indices
   LoadedTextures textures = {};
 };
 
-/// Lives inside the life of a GlContext.
+/// Must not outlive its GlContext.
 class MeshStore {
  public:
-  /// bytes that are kept after a picture
+  /// maximum memory kept after a picture [bytes]
   explicit MeshStore(size_t most) : most_(most) {}
 
-  /// Loads it unless it is there; good until `trim`.
+  /// The mesh, loaded if necessary; valid until `trim`.
   const StoredMesh& at(const DrawMesh& mesh);
-  /// Lets go of those not asked for the longest until the rest is within the bound.
+  /// Frees the least recently used meshes until the rest is within the limit.
   void trim();
   size_t bytes() const { return bytes_; }
 
@@ -41,10 +41,10 @@ class MeshStore {
     size_t bytes = 0;
   };
   size_t most_, bytes_ = 0;
-  std::list<Entry> entries_;  // the last asked for first
+  std::list<Entry> entries_;  // most recently used first
 };
 
-/// Triangles as corners, each distinct one of a vertex once; triangles without area are left out.
+/// Triangles as corners, shared by equal corners of a vertex; triangles without area are left out.
 /// `colors`: one, or one per triangle.
 /// returns  triangles of each texture of the skin, which come last
 std::vector<TexturedRun> share_corners(const std::vector<Eigen::Vector3d>& vertices,

@@ -1,4 +1,4 @@
-// Lines around bodies and along their edges, found in what is seen first.
+// Lines around bodies and along their edges, found in the first visible surfaces.
 #pragma once
 #include "clench/render/gl/gl_objects.h"
 #include "clench/render/paint/shadows.h"
@@ -7,17 +7,16 @@
 
 namespace clench {
 
-/// Textures of what is seen: places, unit normals, and whether there is anything (alpha of the
-/// third).
+/// Textures of the visible surfaces: positions, unit normals, and coverage (alpha of the third).
 struct SeenTextures {
   unsigned places, facings, paints;
 };
 
-/// Lives inside the life of a GlContext; `eye` is in scene units.
+/// Must not outlive its GlContext; `eye` is in scene units.
 class Outline {
  public:
   Outline(unsigned program, const Eye& eye, const RenderOptions& options);
-  /// Over the framebuffer that is bound. `soft`: lines have soft sides, where there is one sample a
+  /// Draws over the bound framebuffer. `soft`: lines have soft sides, used with one sample per
   /// pixel.
   void draw(const SeenTextures& seen, float cover, bool soft) const;
 

@@ -17,14 +17,14 @@
 namespace clench {
 namespace {
 
-// what is drawn to, of a tile's size
+// render targets, of a tile's size
 struct Layers {
   explicit Layers(const Tile& tile);
-  // what is seen first, and the framebuffer of these
+  // first visible surfaces, and their framebuffer
   gl::Object places, facings, paints, depths, first;
   gl::Object light, lit;         // one pass
-  gl::Object sum, added;         // all passes
-  gl::Object pixels, developed;  // as a screen shows it
+  gl::Object sum, added;         // sum of all passes
+  gl::Object pixels, developed;  // display colors
 };
 
 Layers::Layers(const Tile& tile) {
@@ -72,13 +72,13 @@ class Painter {
   RenderOptions options_;
   Eigen::Matrix4d projection_;
   bool heavy_;
-  int lamps_;  // per sample
+  int lamps_;  // lights per sample
   std::vector<Light> lamp_;
   std::vector<Eigen::Vector2d> shifts_;
   float open_light_ = 0;
-  double done_ = 0;  // pixels
+  double done_ = 0;  // pixels done
 
-  gl::Object sorted_;  // indices of what is seen through
+  gl::Object sorted_;  // indices of transparent triangles
   std::vector<TexturedRun> sorted_runs_;
   Cover cover_;
   Shadows shadows_;
@@ -115,7 +115,7 @@ void Painter::draw(int first, int count) const {
                  reinterpret_cast<const void*>(first * sizeof(uint32_t)));
 }
 
-// a solid body by the program `first`, which is the current one before and after
+// draws an opaque body by the program `first`, which is current before and after
 void Painter::draw_seen(const Batch& batch, const Eigen::Matrix4f& clip) const {
   draw(batch.first, batch.plain_count);
   if (batch.textured.empty()) return;
@@ -129,7 +129,7 @@ void Painter::draw_seen(const Batch& batch, const Eigen::Matrix4f& clip) const {
   gl::use(programs_.first);
 }
 
-// solid bodies and the floor, without the lamp
+// draws opaque bodies and the floor, without the lamp
 void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
   glBindFramebuffer(GL_FRAMEBUFFER, layers.first);
   glDepthMask(GL_TRUE);
@@ -148,7 +148,7 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
       draw_seen(batch, clip);
     }
   glDisable(GL_CULL_FACE);
-  // seen from below it would only be in the way
+  // a floor seen from below would hide the scene
   if (list_.ground && shading_eye_.z() > *list_.ground) {
     gl::set(programs_.first, "floor_sign", -1.0f);
     const gl::DepthOffset behind_bodies(1);
@@ -156,7 +156,7 @@ void Painter::find_first(const Layers& layers, const Eigen::Matrix4f& clip) {
   }
 }
 
-// what is seen of a group, where nothing solid hides it, for its lines
+// finds the surfaces of a group, for its outlines, where nothing opaque hides it
 void Painter::find_group(std::span<const Batch> group, const Layers& solid, const Layers& layers,
                          const Eigen::Matrix4f& clip, const Tile& tile) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, solid.first);
@@ -180,7 +180,7 @@ void Painter::shade(const Layers& layers, const Tile& tile) {
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   shadows_.give(programs_.shade);
-  // a sample sees a few points of the lamp, which stand for all
+  // each sample uses a few points of the lamp, at the power of all
   gl::set(programs_.shade, "power", static_cast<float>(options_.samples));
   gl::bind(programs_.shade, "places", 1, layers.places);
   gl::bind(programs_.shade, "facings", 2, layers.facings);
@@ -195,7 +195,7 @@ void Painter::shade(const Layers& layers, const Tile& tile) {
   cover_.draw(programs_.shade);
 }
 
-// the nearest side of each cone, over what lies behind it; hides what is seen through behind it
+// draws the nearest side of each cone over the surfaces behind it, and hides transparent ones there
 void Painter::lay_marks(const Eigen::Matrix4f& clip) {
   if (list_.marks.count == 0) return;
   gl::set(programs_.mark, "to_clip", clip);
@@ -215,7 +215,7 @@ void Painter::lay_marks(const Eigen::Matrix4f& clip) {
   glDepthFunc(GL_LESS);
 }
 
-// what is seen through, the farthest first, over what lies behind it
+// draws transparent triangles, the farthest first, over the surfaces behind them
 void Painter::lay_clear(const Eigen::Matrix4f& clip) {
   if (sorted_runs_.empty()) return;
   glEnable(GL_DEPTH_TEST);
@@ -259,7 +259,7 @@ void Painter::add(const Layers& layers) {
 void Painter::paint(const Tile& tile, Picture& out) {
   const Layers layers(tile);
   const Outline lines(programs_.outline, eye_, options_);
-  // bodies that are seen through and cones have lines of their own
+  // transparent bodies and cones have separate outlines
   const std::optional<Layers> group =
       options_.outline > 0 ? std::optional<Layers>(tile) : std::nullopt;
   const auto find = [&](std::span<const Batch> batches, const Eigen::Matrix4f& clip) {
@@ -275,7 +275,7 @@ void Painter::paint(const Tile& tile, Picture& out) {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
   for (int s = 0; s < options_.samples; ++s) {
-    glFinish();  // or a stop would wait for all that was drawn before
+    glFinish();  // otherwise a stop would wait for all earlier commands
     options_.progress.tell((done_ + double(s) / options_.samples * tile.width * tile.height) /
                                (double(out.width) * out.height),
                            "drawing");

@@ -1,4 +1,4 @@
-// A scene to pixels, tile by tile and pass by pass.
+// Draws a scene tile by tile and pass by pass.
 #pragma once
 #include "clench/render/figure/picture.h"
 #include "clench/render/gl/programs.h"
@@ -7,8 +7,8 @@
 
 namespace clench {
 
-/// Lives inside the life of a GlContext; `eye` is in scene units.
-/// throws  Stopped; Error when the driver refuses
+/// Must not outlive its GlContext; `eye` is in scene units.
+/// throws  Stopped; Error if the driver fails
 /// source  Haeberli & Akeley (1990), The accumulation buffer: soft shadows, smooth edges
 Picture paint(const Programs& programs, PaperScene& scene, const Eye& eye,
               const RenderOptions& options);

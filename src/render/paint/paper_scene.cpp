@@ -10,10 +10,10 @@ namespace {
 
 constexpr int room_lights_per_sample = 16, min_room_lights = 24, max_room_lights = 512;
 constexpr int room_map_size = 256;  // [pixels]
-constexpr double max_cast = 12e6;   // triangles in all maps of the room
-constexpr int heavy_lamp = 4;       // lights of a lamp at what is seen through
+constexpr double max_cast = 12e6;   // triangles in all shadow maps of the room
+constexpr int heavy_lamp = 4;       // lights of a lamp on transparent surfaces of heavy scenes
 
-// a small picture shows less of what many lights do
+// a small picture shows fewer details of the light, and needs fewer lights
 int room_lights(const RenderOptions& options, size_t casters) {
   const double fine = std::clamp(std::max(options.width, options.height) / 640.0, 0.25, 1.0);
   const double afford =
@@ -35,7 +35,7 @@ PaperScene::PaperScene(const Programs& programs, const Scene& scene)
 }
 
 size_t PaperScene::bytes() const {
-  // in memory and on the card, with light
+  // in memory and on the card, including light
   return list_.corners.size() * (2 * sizeof(Corner) + 32) +
          2 * list_.indices.size() * sizeof(uint32_t) + textures_.bytes();
 }

@@ -1,5 +1,5 @@
-// A scene on the graphics card with the light that was gathered for it: what pictures from several
-// sides share.
+// A scene on the graphics card with the light gathered for it, shared by pictures from several
+// sides.
 #pragma once
 #include <memory>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace clench {
 
-/// Lives inside the life of a GlContext, and of the programs.
+/// Must not outlive its GlContext and the programs.
 class PaperScene {
  public:
   /// throws  Error as make_draw_list does
@@ -22,17 +22,16 @@ class PaperScene {
   const LoadedTextures& textures() const { return textures_; }
   size_t bytes() const;
 
-  /// Triangles that throw shadows, so many that fewer lights and one side of what is closed must
-  /// do?
+  /// Do so many triangles cast shadows that fewer lights, and one side of closed bodies, are used?
   bool heavy() const { return casters_ > 100000; }
-  /// Light of a room that suits a picture of this size and smoothness, kept until another is asked
-  /// for.
-  /// throws  Stopped, and keeps what it had
+  /// Gathers light of a room for a picture of this size and smoothness; cached until another is
+  /// requested.
+  /// throws  Stopped, and keeps the previous light
   void light_room(const RenderOptions& options);
-  /// That of a lamp as it stands for these axes of a view, at what is seen through.   throws
-  /// Stopped
+  /// Gathers light of the lamp at these axes of a view, at transparent surfaces.
+  /// throws  Stopped
   void light_lamp(const Eigen::Matrix3d& axes, const Progress& progress);
-  /// What all lights of the room return from a white floor with nothing in between.
+  /// Light of all lights of the room reflected by an unoccluded white floor.
   float open_room() const { return open_room_; }
 
  private:

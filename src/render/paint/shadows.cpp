@@ -10,10 +10,10 @@
 namespace clench {
 namespace {
 
-constexpr double reach = 1.03;  // of a map: the scene's ball and a margin [scene units]
+constexpr double reach = 1.03;  // half width of a map: the scene's ball and a margin [scene units]
 constexpr int gathered_width = 2048;
 
-// what was drawn, row by row
+// copies the drawn pixels to a buffer, row by row
 gl::Object to_buffer(int rows) {
   gl::Object out = gl::make_buffer(nullptr, size_t{16} * gathered_width * rows);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, out);
@@ -23,7 +23,7 @@ gl::Object to_buffer(int rows) {
   return out;
 }
 
-// neighbors on the floor share their light, so that no single shadow of the many shows
+// averages the light of neighboring corners of the floor, so that no single shadow is visible
 gl::Object smooth_floor(const Programs& programs, const DrawList& list, unsigned gathered,
                         int rows) {
   if (!list.ground) return to_buffer(rows);
@@ -103,14 +103,14 @@ void Shadows::cast(const DrawList& list, const LoadedCorners& loaded,
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps_, 0, static_cast<int>(i));
     glClear(GL_DEPTH_BUFFER_BIT);
     gl::set(program, "axes", std::vector{axes_[i]});
-    // of what is closed only the side that faces the lamp can be nearest to it
+    // of closed bodies only the side that faces the lamp can be nearest to it
     const auto draw = [](const Batch& batch) {
       (batch.closed ? glEnable : glDisable)(GL_CULL_FACE);
       glDrawElements(GL_TRIANGLES, batch.caster_count, GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(batch.first_caster * sizeof(uint32_t)));
     };
     for (const Batch& batch : list.solid) draw(batch);
-    // bodies take turns, so that two of half opacity do not stop the same lights
+    // bodies are offset, so that two of half opacity do not block the same lights
     for (size_t b = 0; b < list.clear.size(); ++b) {
       const double turn = light.chance + 0.38196601125 * static_cast<double>(b);
       if (turn - std::floor(turn) < list.clear[b].opacity) draw(list.clear[b]);
@@ -136,7 +136,7 @@ gl::Object gather(const Programs& programs, const DrawList& list, const LoadedCo
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_rows);
   if (rows > max_rows)
     fail(ErrorKind::limit,
-         "picture: {} corners of triangles are more than the {} that OpenGL takes here",
+         "picture: {} corners of triangles exceed the {} that OpenGL supports here",
          list.corners.size(), static_cast<size_t>(max_rows) * gathered_width);
 
   // corners as textures, four numbers each
@@ -157,7 +157,7 @@ gl::Object gather(const Programs& programs, const DrawList& list, const LoadedCo
   glClear(GL_COLOR_BUFFER_BIT);
   for (size_t i = 0; i < lights.size(); i += Shadows::most) {
     if (list.corners.size() > 100000)
-      glFinish();  // or a stop would wait for all that was drawn before
+      glFinish();  // otherwise a stop would wait for all earlier commands
     progress.check();
     shadows.cast(list, loaded,
                  std::span(lights).subspan(i, std::min<size_t>(Shadows::most, lights.size() - i)));

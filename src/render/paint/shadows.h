@@ -1,4 +1,4 @@
-// What of a scene each light reaches: maps of depth, and light gathered at corners.
+// Visibility of lights: depth maps, and light gathered at corners.
 #pragma once
 #include <span>
 
@@ -9,14 +9,15 @@
 
 namespace clench {
 
-/// Corners of triangles on the graphics card, in the order of their indices; the array reads both.
+/// Corners of triangles on the graphics card, in the order of their indices; the vertex array reads
+/// both.
 struct LoadedCorners {
   LoadedCorners(const std::vector<Corner>& corners, const std::vector<uint32_t>& indices);
   gl::Object array, corners, indices;
-  int count;  ///< of indices
+  int count;  ///< number of indices
 };
 
-/// One triangle over all of the framebuffer; reads nothing but the program.
+/// Draws one triangle over the complete framebuffer, without vertex attributes.
 class Cover {
  public:
   void draw(unsigned program) const;
@@ -27,16 +28,16 @@ class Cover {
 
 class Shadows {
  public:
-  /// lights at a time; those that are not cast are dark
+  /// lights per pass; those not cast are dark
   static constexpr int most = lights_at_once;
 
-  /// `size` of the maps in pixels, `count` of them
+  /// `count` maps of `size` pixels per side
   Shadows(const Programs& programs, int size, int count = most);
 
-  /// Draws the maps of these lights, at most `count`. Bodies that are seen through stop a part of
-  /// the lights.
+  /// Draws the maps of these lights, at most `count`. Transparent bodies block a fraction of the
+  /// lights.
   void cast(const DrawList& list, const LoadedCorners& loaded, std::span<const Light> lights);
-  /// The lights just cast, for a program that has `light_part`; takes texture unit 0.
+  /// Sets the lights just cast in a program that contains `light_part`; uses texture unit 0.
   void give(unsigned program) const;
 
  private:
@@ -48,11 +49,11 @@ class Shadows {
   std::vector<float> radiance_, share_;
 };
 
-/// The corners of a list read this buffer of light at a place of `surface_vertex`.
+/// Binds this buffer of light to a location of `surface_vertex`, for the corners of a list.
 void read_light(const LoadedCorners& loaded, int place, unsigned light);
 
-/// Light at each corner, a buffer of four numbers each: front and back, and how open each lies.
-/// throws Error when there are more corners than a texture holds
+/// Light at each corner, a buffer of four numbers each: front and back, and the openness of each.
+/// throws Error if there are more corners than a texture holds
 /// throws Stopped
 gl::Object gather(const Programs& programs, const DrawList& list, const LoadedCorners& loaded,
                   Shadows& shadows, const std::vector<Light>& lights, const Progress& progress);

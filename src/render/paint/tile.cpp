@@ -40,7 +40,7 @@ Eigen::Matrix4d crop_to(const Tile& tile, const RenderOptions& options,
   return crop;
 }
 
-// all lies within a ball about the origin; the near plane comes as close as that allows
+// everything is within a ball around the origin; the near plane is as close as that allows
 Eigen::Vector2d depth_range(const Eye& eye) {
   const double distance = eye.eye.norm(), ball = 2 * floor_reach;
   const double far = distance + ball;
@@ -59,7 +59,7 @@ void read_tile(const Tile& tile, Picture& out, const Eigen::Vector2i& first) {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(first.x() + tile.border, first.y() + tile.border, tile.width, tile.height, GL_RGBA,
                GL_UNSIGNED_BYTE, pixels.data());
-  // rows from the bottom to rows from the top
+  // reverses the order of rows, to begin at the top
   for (int y = 0; y < tile.height; ++y) {
     const size_t row = out.height - 1 - tile.y - y, start = row * out.width + tile.x;
     const uint8_t* from = &pixels[4 * static_cast<size_t>(y) * tile.width];

@@ -1,4 +1,4 @@
-// A large picture is drawn tile by tile, which bounds the memory that it takes.
+// Tiles of a large picture, drawn one after the other to limit memory.
 #pragma once
 #include <vector>
 
@@ -16,32 +16,32 @@ struct Tile {
   int drawn_height() const { return height + 2 * border; }
 };
 
-/// All tiles of a picture, wide enough a border for its lines.
+/// All tiles of a picture, with borders wide enough for its lines.
 std::vector<Tile> tiles_of(const RenderOptions& options);
 
-/// Everything in clip coordinates to the part that a tile shows, shifted by parts of a pixel.
+/// Maps clip coordinates of the picture to those of a tile, shifted by fractions of a pixel.
 Eigen::Matrix4d crop_to(const Tile& tile, const RenderOptions& options,
                         const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
 
-/// Depths between which all of a scene and its floor lie, seen from an eye in scene units.
+/// Near and far depths that enclose a scene and its floor, seen from an eye in scene units.
 Eigen::Vector2d depth_range(const Eye& eye);
 
-/// Where rays come from, for shading: a perspective eye, or a point far behind an orthographic one;
+/// Origin of view rays, for shading: a perspective eye, or a point far behind an orthographic one;
 /// scene units.
 Eigen::Vector3f shading_eye(const Eye& eye);
 
-/// Of the framebuffer that is bound, which holds the tile with its border from `first` on: red, green,
-/// blue, alpha.
+/// Reads the tile, without its border, from the bound framebuffer, in which it begins at `first`
+/// including the border: red, green, blue, alpha.
 void read_tile(const Tile& tile, Picture& out, const Eigen::Vector2i& first = {0, 0});
 
-/// Size of a map of shadows, its texels about as wide as the pixels of the picture: a power of two
+/// Size of a shadow map, with texels about as wide as the pixels of the picture: a power of two
 /// times `min_size`, at most `max_size`.
 int map_size_for(const RenderOptions& options, int min_size, int max_size);
 
-/// throws  Error when OpenGL has met a fault
+/// throws  Error if OpenGL has reported one
 void check_driver();
 
-/// Of this size, with alpha unless a studio is behind.
+/// A picture of this size, with alpha unless the backdrop is a studio.
 Picture empty_picture(const RenderOptions& options);
 
 }  // namespace clench

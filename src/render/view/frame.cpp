@@ -14,13 +14,15 @@
 namespace clench {
 namespace {
 
-constexpr double used = 0.84;  // part of the frame's width and height that a framed scene may fill
+// fraction of the frame's width and height that a framed scene may fill
+constexpr double used = 0.84;
 
-// points that views are compared by: of surfaces, of what must be in the frame, and of contacts
+// numbers of points that views are compared by: on surfaces, on what must be in the frame, and on
+// contacts
 constexpr int looked_at = 5000, framed_looked_at = 1500, marks_looked_at = 1000;
-constexpr int around = 12;  // directions tried at either height
+constexpr int around = 12;  // directions tried at each of the two heights
 
-// from the front right, a little above
+// from the front right, slightly from above
 const Eigen::Vector3d default_back(0.62, -0.70, 0.42), steeper_back(0.62, -0.70, 0.75);
 
 }  // namespace
@@ -40,7 +42,7 @@ Eigen::Matrix3d view_axes(const Eye& eye) {
   Eigen::Matrix3d axes;
   const Eigen::Vector3d back = away / distance;
   Eigen::Vector3d up = eye.up.stableNormalized();
-  // an up that the view hides: take the axis most across the view instead, y first
+  // `up` is along the view: use the axis most across the view instead, y first
   if (up.cross(back).norm() < 1e-6) {
     int across = 1;
     for (const int k : {2, 0})
@@ -81,17 +83,18 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// of a scene, about the center of what must be in the frame and divided by its radius
+// sample points of a scene, relative to the center of what must be in the frame and divided by its
+// radius
 struct Sight {
-  Points framed;  // all that must be in the frame, to its last vertex
+  Points framed;  // all vertices that must be in the frame
   Points solid, aside, clear,
-      marks;    // some of what hides; of what need not be seen; of what should
+      marks;    // samples of occluders; of what need not be seen; of what should be seen
   Points held;  // further points that must be in the frame
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;
 };
 
-// points evenly spread over a mesh, `per_area` of them a unit of its area
+// points evenly spread over a mesh, `per_area` of them per unit of its area
 // source  Roberts (2018), The unreasonable effectiveness of quasirandom sequences
 void spread_over(const Points& p, const std::vector<Triangle>& triangles,
                  const std::vector<double>& areas, double per_area, Points& out) {
@@ -118,7 +121,7 @@ std::vector<double> areas_of(const Points& p, const std::vector<Triangle>& trian
 
 void append(Points& to, const Points& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-// about so many of them, evenly from first to last
+// about `count` of the points, evenly from first to last
 Points every_so_often(const Points& points, size_t count) {
   const size_t step = 1 + points.size() / count;
   Points out;
@@ -126,7 +129,7 @@ Points every_so_often(const Points& points, size_t count) {
   return out;
 }
 
-// about the middle of all, and divided by the largest distance from it
+// moves points relative to the center of all that must be in the frame, and divides by its radius
 void normalize(std::vector<Points>& placed, const std::vector<bool>& must, Sight& sight) {
   const auto ball = ball_around([&](const auto& what) {
     for (size_t i = 0; i < placed.size(); ++i)
@@ -143,7 +146,7 @@ void normalize(std::vector<Points>& placed, const std::vector<bool>& must, Sight
     for (auto& p : *points) p = unit * (p - sight.center);
 }
 
-// cones and arrows, what else must be held, and the places that should be seen
+// adds cones and arrows, other points that must be in the frame, and points that should be seen
 void add_marks(const Scene& scene, Sight& sight) {
   for (const DrawCone& cone : scene.cones) append(sight.held, cone_piece(cone).p_W);
   for (const DrawArrow& arrow : scene.arrows) append(sight.held, arrow_piece(arrow).p_W);
@@ -161,7 +164,7 @@ Sight sight_of(const Scene& scene) {
       any = any || (!mesh.background && mesh.framed);
     }
   add_marks(scene, sight);
-  // only a floor: that is what there is to see
+  // with only a floor, the floor is what must be seen
   const bool only_floor = sight.held.empty() &&
                           std::ranges::all_of(meshes, [](const auto* m) { return m->background; });
   std::vector<Points> placed;
@@ -195,7 +198,7 @@ Sight sight_of(const Scene& scene) {
   return sight;
 }
 
-// the view of this direction that holds everything; `corners` are not empty
+// the view in this direction that holds all `corners`, which are not empty
 Eye fit(const Points& corners, const Eigen::Vector3d& direction, double aspect, bool ortho) {
   Eye eye;
   eye.eye = direction;
@@ -215,8 +218,7 @@ Eye fit(const Points& corners, const Eigen::Vector3d& direction, double aspect, 
     farthest = std::min(farthest, p.z());
   }
 
-  // as near as the narrower pair of sides allows, but not inside a flat scene that is seen along
-  // itself
+  // as near as the narrower pair of sides allows, but not inside a flat scene that is seen edge-on
   const Eigen::Array2d half = (high + low) / 2;
   const double back = std::max((half / slope).maxCoeff(), nearest + 0.05);
   const Eigen::Vector2d across = (high - low) / 2;
@@ -226,7 +228,7 @@ Eye fit(const Points& corners, const Eigen::Vector3d& direction, double aspect, 
   return eye;
 }
 
-// what one view shows, on a raster coarse enough that points alone fill it
+// content of a view, on a raster coarse enough that sample points fill it
 class Overview {
  public:
   Overview(const Eye& eye, double aspect)
@@ -247,7 +249,7 @@ class Overview {
       aside_[cell] = aside;
     }
   }
-  // part of points that nothing solid hides; they cover the picture, too
+  // fraction of points that no opaque surface hides; they also cover the picture
   double shown(const Points& points) {
     int count = 0;
     for (const auto& p : points) {
@@ -267,7 +269,7 @@ class Overview {
   static double part(const Raster& raster) {
     return static_cast<double>(std::ranges::count(raster, true)) / (columns * rows);
   }
-  // cell, -1 outside the view, and distance
+  // raster cell, -1 outside the view, and distance
   std::pair<int, double> place(const Eigen::Vector3d& at) const {
     const Eigen::Vector3d p = axes_ * (at - eye_);
     const double depth = -p.z(), by = ortho_ ? focal_ : focal_ / depth;
@@ -284,7 +286,7 @@ class Overview {
   Raster covered_ = {}, aside_ = {};
 };
 
-// how far a view is from the side of what need not be seen: 1 behind it, looking over it, to -1
+// position of a view relative to what need not be seen: from 1 behind it, looking over it, to -1
 double beside(const Sight& sight, const Eigen::Vector3d& direction) {
   const Points& wanted = sight.marks.empty() ? sight.framed : sight.marks;
   if (sight.aside.empty() || wanted.empty()) return 0;
@@ -297,8 +299,7 @@ double beside(const Sight& sight, const Eigen::Vector3d& direction) {
   return off.norm() > 1e-9 ? off.normalized().dot(direction.normalized()) : 0;
 }
 
-// how much of contacts, of what is grasped, and of the frame a view shows, less what is beside the
-// matter
+// score of a view: visible contacts, grasped object and frame, minus what need not be seen
 double worth(const Sight& sight, const Eye& eye, double aspect) {
   Overview view(eye, aspect);
   view.hide(sight.solid, false);
@@ -316,7 +317,7 @@ Eye frame(const Scene& scene, double aspect, bool ortho) {
     return fit({{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}}, default_back,
                aspect, ortho);
 
-  // from all around; the default unless another shows clearly more
+  // directions all around; the default unless another shows clearly more
   const Points some = every_so_often(sight.framed, framed_looked_at);
   Eigen::Vector3d best = default_back;
   double most = -1e9;

@@ -1,4 +1,4 @@
-// The view that was last found to hold a scene.
+// Cache of the last view found to hold a scene.
 #pragma once
 #include <optional>
 

@@ -13,20 +13,21 @@ using Eigen::Vector2f;
 
 namespace {
 
-constexpr float label_part = 0.018f, caption_part = 0.022f;  // of the picture's height
-constexpr float min_letters = 9;                             // height [pixels]
-constexpr float min_picture = 120;   // in smaller ones words would hide all else [pixels]
-constexpr float arrow_air = 0.004f;  // half width of an arrow, part of the picture's height
-constexpr float air = 0.35f;         // about letters, part of their height
+constexpr float label_part = 0.018f, caption_part = 0.022f;  // fractions of the picture's height
+constexpr float min_letters = 9;                             // minimum height [pixels]
+constexpr float min_picture = 120;  // in smaller pictures words would hide everything else [pixels]
+// half width of an arrow, as a fraction of the picture's height
+constexpr float arrow_air = 0.004f;
+constexpr float air = 0.35f;  // margin around letters, as a fraction of their height
 const Eigen::Vector3f caption_color(0.1f, 0.1f, 0.1f);
 
-// distances and directions in which a box looks for room: each ring has 16
+// distances and directions in which a box is displaced: each ring has 16
 constexpr int rings = 8, ring_places = 16;
-constexpr float ring_step = 0.5f;  // heights
+constexpr float ring_step = 0.5f;  // in heights of the box
 
 PixelBox moved(const PixelBox& box, const Vector2f& by) { return {box.low + by, box.high + by}; }
 
-// shifted back into the picture; one that is larger keeps its lower corner in it
+// shifted into the picture; one that is larger keeps its lower corner in it
 PixelBox kept_inside(const PixelBox& box, const Vector2f& picture) {
   const Vector2f over = (box.high - picture).cwiseMax(0.0f);
   const PixelBox left = moved(box, -over);
@@ -49,7 +50,7 @@ std::optional<PixelBox> find_room(const PixelBox& expected, const Vector2f& pict
   return {};
 }
 
-// pixels of a place as the eye sees it
+// projects a point to pixels of the picture
 std::optional<Vector2f> seen_at(const Eigen::Vector3d& p_W, const Eye& eye,
                                 const Vector2f& picture) {
   const Eigen::Vector3d p = view_axes(eye).transpose() * (p_W - eye.eye);
@@ -63,7 +64,7 @@ std::optional<Vector2f> seen_at(const Eigen::Vector3d& p_W, const Eye& eye,
   return at;
 }
 
-// what labels keep clear of: boxes along an arrow
+// boxes along an arrow, which labels avoid
 void take_arrow(const DrawArrow& arrow, const Eye& eye, const Vector2f& picture,
                 std::vector<PixelBox>& taken) {
   constexpr int pieces = 24;

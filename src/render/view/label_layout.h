@@ -1,4 +1,4 @@
-// Where the words of a picture go, so that none lie over each other.
+// Layout of the words of a picture without overlaps.
 #pragma once
 #include <optional>
 #include <span>
@@ -17,25 +17,25 @@ struct PixelBox {
   }
 };
 
-/// Boxes moved as little as need be, the first the least, until each lies within the picture and
-/// clear of `taken` and of those before it. Empty for one that finds no place within four of its
-/// heights up and down and eight sideways.
+/// Boxes moved as little as necessary, earlier ones with priority, until each lies within the
+/// picture and is clear of `taken` and of those before it. Empty for a box without a free position
+/// within four of its heights up and down and eight sideways.
 std::vector<std::optional<PixelBox>> spread_boxes(std::span<const PixelBox> expected,
                                                   const Eigen::Vector2f& picture,
                                                   std::vector<PixelBox> taken = {});
 
-/// What is written on a picture, and where: the text begins at the lower left corner of its box.
+/// A text on a picture and its position: the text begins at the lower left corner of its box.
 struct PlacedText {
   PixelBox box;
   std::string text;
   Eigen::Vector3f color;
-  float height;  ///< of capital letters [pixels]
+  float height;  ///< height of capital letters [pixels]
 };
 
-/// The caption in the lower left corner, its lines broken where they are too wide, and each label
-/// at its place as the eye sees it, or next to it; those behind the eye, out of the picture or
-/// without room are left out. `letters`: height of all capital letters [pixels]; 0: a part of the
-/// picture's. Nothing is written on pictures of less than 120 pixels either way.
+/// The caption in the lower left corner, with lines broken to fit the width, and each label at its
+/// projected position or next to it; labels behind the eye, out of the picture or without a free
+/// position are left out. `letters`: height of all capital letters [pixels]; 0: a fraction of the
+/// picture's. Pictures of less than 120 pixels in either direction have no text.
 std::vector<PlacedText> place_texts(const Scene& scene, const Eye& eye,
                                     const Eigen::Vector2f& picture, const Font& font,
                                     float letters = 0);

@@ -8,9 +8,9 @@ namespace clench {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lamp_radius = 0.06;  // tangent of the half angle under which the lamp is seen
-constexpr float lamp_power = 0.62f, room_power = 0.62f;  // each alone on a white surface
-constexpr double floor_power = 0.42;                     // part of its light that the floor returns
+constexpr double lamp_radius = 0.06;  // tangent of the half angle subtended by the lamp
+constexpr float lamp_power = 0.62f, room_power = 0.62f;  // each by itself, on a white surface
+constexpr double floor_power = 0.42;  // fraction of its light that the floor reflects
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -23,7 +23,8 @@ Eigen::Vector2d spread(int i) {
 float chance(int i) { return static_cast<float>(fraction(0.5 + i * 0.6180339887498949)); }
 
 Eigen::Vector3d towards_lamp(const Eigen::Matrix3d& axes) {
-  // level directions to the viewer's right and towards the viewer, also when looking straight down
+  // horizontal directions to the viewer's right and towards the viewer, also when looking straight
+  // down
   Eigen::Vector3d right = axes.col(0), back;
   right.z() = 0;
   if (right.norm() < 1e-3) right = Eigen::Vector3d::UnitX();
@@ -49,7 +50,7 @@ std::vector<Light> place_lamp(const Eigen::Matrix3d& axes, int count) {
 }
 
 std::vector<Light> place_room(int count) {
-  // a spiral over the ball; most lights above, where most of the light comes from
+  // a spiral over the sphere; most lights are above, where most of the light comes from
   const int above = 3 * count / 4;
   std::vector<Light> out;
   for (int i = 0; i < count; ++i) {

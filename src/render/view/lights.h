@@ -7,9 +7,9 @@ namespace clench {
 
 struct Light {
   Eigen::Vector3f to_light = Eigen::Vector3f::UnitZ();  ///< unit
-  float radiance = 0;  ///< linear; what a white surface facing it returns, nothing in between
-  float share = 0;     ///< of it in all the light that a surface could get, by direction alone
-  /// 0..1, spread evenly: a body of opacity a throws the shadow of a part a of all lights
+  float radiance = 0;  ///< linear; light reflected by an unoccluded white surface that faces it
+  float share = 0;     ///< fraction of the light that a surface can receive, by direction only
+  /// 0..1, spread evenly: a body of opacity a blocks the fraction a of all lights
   float chance = 0;
 };
 
@@ -17,14 +17,14 @@ struct Light {
 /// view.
 std::vector<Light> place_lamp(const Eigen::Matrix3d& axes, int count);
 
-/// Directions all around: a bright ceiling, and a floor that returns part of it.
+/// Directions all around: a bright ceiling, and a floor that reflects a fraction of it.
 std::vector<Light> place_room(int count);
 
-/// What lights together return from a white surface facing up, nothing in between.
+/// Light of all lights reflected by an unoccluded white surface facing up.
 float light_on_floor(const std::vector<Light>& lights);
 
-/// Where each sample looks, in pixels about (0, 0), which is their mean; spread as a tent over two
-/// pixels.
+/// Position of each sample, in pixels relative to (0, 0), which is their mean; spread as a tent
+/// over two pixels.
 std::vector<Eigen::Vector2d> place_samples(int count);
 
 }  // namespace clench

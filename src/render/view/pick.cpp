@@ -17,7 +17,7 @@ struct Ray {
   Eigen::Vector3d from, along;  // world; along is unit
 };
 
-// keeps the nearest of what a ray meets
+// keeps the nearest hit of a ray
 class Nearest {
  public:
   explicit Nearest(const Ray& ray) : ray_(ray) {}
@@ -79,7 +79,7 @@ void meet_floor(double height, const Ray& ray, Nearest& nearest) {
                 {.kind = Shown::Kind::floor});
 }
 
-// of all meshes and marks from the plane of the eye, at most
+// upper bound on the distance of all meshes and marks from the plane of the eye
 double depth_of(const Scene& scene, const Eigen::Vector3d& eye) {
   double most = 0;
   const auto add = [&](const Eigen::Vector3d& p, double radius) {
@@ -106,7 +106,7 @@ std::optional<Picked> pick(const Scene& scene, const Eye& eye, const PicturePlac
   const double half = flat ? eye.ortho_height / 2 : std::tan(eye.field_of_view / 2);
   const Eigen::Vector3d aside = half * (x * axes.col(0) + y * axes.col(1));
   Ray ray{eye.eye, (aside - axes.col(2)).normalized()};
-  // an orthographic view shows what is behind the eye, too
+  // an orthographic view also shows what is behind the eye
   const double behind = flat ? 1.1 * depth_of(scene, eye.eye) : 0;
   if (flat) ray = {eye.eye + aside + behind * axes.col(2), -axes.col(2)};
 

@@ -7,9 +7,9 @@
 
 namespace clench {
 
-// some minutes without graphics hardware
+// takes some minutes without graphics hardware
 static constexpr int64_t max_drawn = int64_t{1} << 30;
-// of a draft that is reduced, which lies in memory at once
+// of a draft that is reduced, which is completely in memory
 static constexpr int64_t max_large = int64_t{1} << 27;
 
 void check(const RenderOptions& options) {

@@ -1,5 +1,4 @@
-// Is what a scene shows the same as before? Then what was prepared for it is good for the next
-// picture.
+// Detects whether a scene has changed, so that data prepared for it can be reused.
 #pragma once
 #include <vector>
 
@@ -7,8 +6,8 @@
 
 namespace clench {
 
-/// The meshes, cones, arrows and floor of a scene, and what its view must show; keeps its shapes
-/// alive.
+/// The meshes, cones, arrows and floor of a scene, and the parts that its view must show; keeps its
+/// shapes alive.
 struct SceneKey {
   std::vector<DrawMesh> meshes = {};
   std::vector<DrawCone> cones = {};
@@ -17,7 +16,7 @@ struct SceneKey {
   std::vector<Eigen::Vector3d> spots = {}, held = {};
 
   explicit SceneKey(const Scene& scene);
-  /// equal to the bit
+  /// bit-exact comparison
   bool matches(const Scene& scene) const;
 };
 

@@ -16,7 +16,8 @@ int push_world(lua_State* L, const WorldPtr& world) {
 
 void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies) {
   const World& world = *to<WorldHandle>(L, index)->world;
-  constexpr size_t many_triangles = 100000;  // whose tree takes longer than a blink
+  // size above which building the tree takes noticeable time
+  constexpr size_t many_triangles = 100000;
   size_t bytes = 0;
   for (const auto id : bodies) {
     const Body& body = world.body(id);
@@ -24,7 +25,7 @@ void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies)
     if (body.appearance.skin) bytes += body.appearance.skin->bytes();
     if (!body.shape) continue;
     bytes += body.shape->bytes();
-    // here it can be stopped, in the first query not
+    // built here, where it can be stopped, and not in the first query
     if (body.shape->mesh().triangles.size() > many_triangles) body.shape->tree(Progress(bar_of(L)));
   }
   add_owned<WorldHandle>(L, index, bytes);

@@ -1,5 +1,5 @@
-// Worlds, bodies and robots as scripts hold them: a world lives as long as somebody
-// holds a part of it.
+// Handles of worlds, bodies and robots for scripts: a world lives while any handle of it or of its
+// parts exists.
 #pragma once
 #include <memory>
 #include <span>
@@ -38,12 +38,12 @@ struct RobotHandle {
   bool operator==(const RobotHandle&) const = default;
 };
 
-/// Leaves a world that nobody has yet on the stack; handles of what is in it own nothing.
+/// Pushes a new world without other owners; handles of its parts own nothing.
 int push_world(lua_State* L, const WorldPtr& world);
-/// The world whose handle is at the index got these bodies, read from files.
+/// Registers bodies read from files with the world whose handle is at the index.
 void add_owned_bodies(lua_State* L, int index, std::span<const Id<Body>> bodies);
 
-/// A moment of a world.
+/// A saved state of a world.
 struct SnapshotHandle {
   std::shared_ptr<const Snapshot> moment;
 };
@@ -69,7 +69,7 @@ inline World& world_of(lua_State* L) { return *self<WorldHandle>(L).world; }
 /// {low, high}
 int push(lua_State* L, const Bounds& bounds);
 
-/// A link of the robot, or its base, by its name, whole or without the robot's.
+/// A link of the robot, or its base, by its name, with or without the robot's.
 /// throws  Error "subject: robot 'dlr' has no link 'thum'; did you mean 'thumb'?"
 Id<Body> find_link(const RobotHandle& robot, const std::string& name, const std::string& subject);
 
@@ -78,14 +78,14 @@ int push_bodies(lua_State* L, const WorldPtr& world, const std::vector<Id<Body>>
 /// A list of {a, b} of bodies.
 int push_pairs(lua_State* L, const WorldPtr& world, const std::vector<BodyPair>& pairs);
 
-/// The bodies that an argument stands for: a body, or a robot with base, links and mount.
-/// throws Error when it is neither, belongs to another world or was removed
+/// The bodies of an argument: a body, or a robot with base, links and mount.
+/// throws Error if it is neither, belongs to another world or was removed
 std::vector<Id<Body>> check_bodies(lua_State* L, int i, const char* name, const WorldPtr& world);
 
-/// The body that a body or robot (its base) at argument 1 stands for: fields that both have.
+/// The body of a body or robot (its base) at argument 1, for fields that both have.
 BodyHandle self_body(lua_State* L);
 
-/// That body, for getters and setters (getter.h).
+/// The same body, for getters and setters (getter.h).
 struct Entity : BodyHandle {
   static Entity from_self(lua_State* L) { return {self_body(L)}; }
 };

@@ -1,4 +1,4 @@
-// The log: the only thing that prints unasked. To stderr, or to a function of the script.
+// The log: the only unrequested output. To stderr, or to a function of the script.
 #pragma once
 #include <string>
 
@@ -9,25 +9,25 @@ namespace clench {
 
 enum class LogLevel { debug, info, warning, error, quiet };
 
-/// Tells the script's log, if its level lets the message through. May be called under the engine's
-/// functions.
-/// throws  Raised when the script's own sink fails
+/// Passes a message to the script's log, if its level permits. May be called by functions of the
+/// engine.
+/// throws  Raised if the script's own sink fails
 void log(lua_State* L, LogLevel level, const std::string& message);
 
 inline void log_warning(lua_State* L, const std::string& message) {
   log(L, LogLevel::warning, message);
 }
 
-/// Is this the first time in this state that it is asked about that?
-/// key  a static thing whose address stands for it
+/// Is this the first call with that key in this state?
+/// key  a static object identified by its address
 bool first_time(lua_State* L, const void* key, const std::string& about);
 
-/// Tells a warning, with the script's line, and never again in this state.
-/// key  a static thing whose address stands for it
+/// Logs a warning, with the script's line, once per state.
+/// key  a static object identified by its address
 void warn_once(lua_State* L, const void* key, const std::string& message);
 
-/// Warns once where a distance is beyond 10 m, for which millimeters are a likely cause.
-/// subject  what lies there
+/// Warns once if a distance exceeds 10 m, which is probably due to millimeters.
+/// subject  name of the distant thing
 void suspect_millimeters(lua_State* L, const std::string& subject, double distance);
 
 LogLevel log_level(lua_State* L);

@@ -12,7 +12,7 @@
 
 namespace clench {
 
-// ".name" or ":autograsp" of a class's member; empty: there is none
+// ".name" or ":autograsp" of a class's member; empty if there is none
 static std::string member_of(const Class* kind, std::string_view key) {
   for (; kind; kind = kind->parent) {
     for (const Entry& field : kind->fields)
@@ -49,7 +49,7 @@ static int find_name(lua_State* L) {
 int set_finder(lua_State* L, const char* finder, const Class& kind) {
   const Entry* field = running_entry(L);
   if (push_kept_table(L, field)) {
-    // as every list has it
+    // the same for all lists
     lua_getmetatable(L, -2);
     for (const char* event : {"__tostring", "__contents"}) {
       lua_getfield(L, -1, event);

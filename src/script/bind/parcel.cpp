@@ -28,7 +28,7 @@ static void push_class(lua_State* L, const std::string& name) {
   protected_call(L, 1, 1);
 }
 
-// of the table at the index; "": it is no object of the standard library
+// name of the class of the table at the index; "": not an object of the standard library
 static std::string class_name_of(lua_State* L, int index) {
   if (!lua_getmetatable(L, index)) return {};
   const int metatable = lua_gettop(L);
@@ -44,7 +44,7 @@ static std::string class_name_of(lua_State* L, int index) {
   return is_class ? name : std::string();
 }
 
-// of the table on top; a class that the state does not know leaves it a plain table
+// sets the class of the table on top; if the state does not know the class, the table stays plain
 static void set_class(lua_State* L, const std::string& name) {
   push_class(L, name);
   if (lua_istable(L, -1))

@@ -1,4 +1,4 @@
-// A Lua value outside any state, on its way to another one.
+// A Lua value outside any state, to be transferred to another one.
 #pragma once
 #include <functional>
 #include <lua.hpp>
@@ -14,17 +14,16 @@
 namespace clench {
 
 /// Plain data, objects of the standard library's classes that hold only plain data, and copies of
-/// what scripts hold: worlds as clones with their bodies and robots, snapshots, meshes,
-/// poses, vectors, random numbers, and grasps, which belong to no world afterwards, as those of files.
+/// handles: worlds as clones with their bodies and robots, snapshots, meshes, poses, vectors,
+/// random numbers, and grasps, which then belong to no world, like those of files.
 class Parcel {
  public:
   Parcel() = default;
-  /// The value at the index.
+  /// Copies the value at the index.
   /// throws  Error "clench.parallel.map: items[3].close: a function cannot be handed over"
   Parcel(lua_State* L, int index, const std::string& what);
 
-  /// Leaves the value on the stack, with the worlds that were cloned for it; nil for an empty
-  /// parcel.
+  /// Pushes the value, with the worlds that were cloned for it; nil for an empty parcel.
   void unpack(lua_State* L) const { unpack(L, root_); }
   const std::vector<WorldPtr>& worlds() const { return worlds_; }
 
@@ -34,7 +33,7 @@ class Parcel {
   using Object = std::function<void(lua_State*)>;
   struct Node {
     std::variant<std::monostate, bool, lua_Integer, double, std::string, Fields, Object> value;
-    std::string class_name = {};  // of a table that is an object of the standard library
+    std::string class_name = {};  // class of a table that is an object of the standard library
   };
   struct Packing {
     lua_State* L;

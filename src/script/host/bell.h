@@ -9,7 +9,7 @@ namespace clench {
 /// An eventfd that becomes readable when a job of a state sends an event, shows a value or ends.
 class Bell {
  public:
-  /// throws  Error when the system has no descriptor left
+  /// throws  Error if the system has no descriptor left
   Bell();
   ~Bell();
   Bell(const Bell&) = delete;
@@ -27,7 +27,7 @@ class Bell {
 };
 
 /// The bell of a state's jobs, created at the first call.
-/// throws  Error when the system has no descriptor left
+/// throws  Error if the system has no descriptor left
 const std::shared_ptr<Bell>& bell_of(lua_State* L);
 
 }  // namespace clench

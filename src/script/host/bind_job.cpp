@@ -1,4 +1,4 @@
-// clench.job: a function of a script that runs in a thread of its own.
+// clench.job: a function of a script that runs in a separate thread.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -37,14 +37,14 @@ inline constexpr const Class* script_class<ThisJob> = &this_job_class;
 
 namespace {
 
-// Jobs of a state that it has started. Those whose handles are gone run on; when the state closes,
-// all of them are stopped.
+// Jobs started by a state. Those whose handles no longer exist continue; when the state is closed,
+// all are stopped.
 struct StartedJobs {
   std::vector<JobPtr> jobs;
 
-  // All at once, as one may wait for what another holds. Programs that they wait for are ended with
-  // them. One that is in a call of C that cannot be stopped is left behind, and ends with the
-  // program.
+  // All at once, because one may wait for another that holds a resource. Programs that they wait
+  // for are ended with them. One that is in a C call that cannot be stopped is left behind, and
+  // ends with the program.
   ~StartedJobs() {
     for (const JobPtr& job : jobs) job->stop();
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(2);
@@ -122,7 +122,7 @@ std::string job_text(const JobPtr& job) {
   return fmt::format("job '{}', {}", job->name(), word_of(job->phase(), phases));
 }
 
-// waits in pieces of 20 ms, between which Ctrl-C is checked
+// waits in intervals of 20 ms, between which Ctrl-C is checked
 int wait_for_job(lua_State* L) {
   const JobPtr job = self<JobPtr>(L);
   const double seconds = given(L, 2) ? check_number(L, 2, "seconds") : INFINITY;
@@ -181,7 +181,7 @@ int get_this_job(lua_State* L) {
 
 const Entry job_functions[] = {
     {"job", guarded<new_job>, R"(
-Runs a function beside the script: in a thread, in a state of Lua of its own, on copies of what it is given. As many jobs run at once as there are cores, at least two; others are queued. A job whose handle is not kept runs on; the end of the program stops it.
+Runs a function concurrently with the script: in a thread, in a separate Lua state, on copies of its arguments. As many jobs run at once as there are cores, at least two; others are queued. A job without a handle continues; the end of the program stops it.
 @param task function|string  which uses nothing of the lines around it; or the name of a module that returns such a function
 @param options? {args?: any[], shared?: any, name?: string}  args: the function's arguments, of the kinds that clench.parallel.map hands over; shared: the same, as `clench.this_job.shared`; name: for messages
 @return job
@@ -203,7 +203,7 @@ The job whose function this is; nil outside of jobs.
 
 const Entry job_fields[] = {
     {"state", getter<[](const JobPtr& x) { return word_of(x->phase(), phases); }>, R"(
-What it does at present.
+Its present phase.
 @type "queued"|"running"|"paused"|"done"|"failed"|"stopped"
 > job = clench.job(function() end)
 > job:wait()
@@ -213,7 +213,7 @@ Its name in messages.
 @type string
 > clench.job(function() end, {name = "idle"}).name  --> idle)"},
     {"progress", guarded<get_progress>, R"(
-How far its longest call is, or the loop that it shows by `clench.progress`.
+Progress of its longest call, or of the loop that it shows by `clench.progress`.
 @type {fraction?: number, text: string}  fraction: of the work, in [0, 1]; nil: not known
 > job = clench.job(function() for i = 1, 4 do clench.this_job:show(i) end end)
 > job:wait()
@@ -234,13 +234,13 @@ Waits for its end. Coroutines of `clench.loop` do not run meanwhile: in them, `c
 > clench.job(function() end):wait()  --> true
 > clench.job(function() end):wait(-1)  --> error: seconds: expected a time >= 0, got -1)"},
     {"result", guarded<get_results>, R"(
-What its function returned. Raises the function's error, and an error if the job was stopped or is not over yet.
+Results of its function. Raises the function's error, and an error if the job was stopped or is not over yet.
 @return any ...
 > job = clench.job(function() error "no luck" end, {name = "lottery"})
 > job:wait()
 > job:result()  --> error: no luck)"},
     {"stop", method<[](const JobPtr& x) { x->stop(); }>, R"(
-Stops it within some 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. In a call of string.find with a hostile pattern it ends after that call. What is over stays as it is.
+Stops it within some 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. In a call of string.find with a hostile pattern it ends after that call. A job that is over is not affected.
 > job = clench.job(function() while true do end end)
 > job:stop()
 > job:wait(5), job.state  --> true, stopped
@@ -291,7 +291,7 @@ Sends a value to the script that has started the job. Events arrive in order, an
 > job:wait()
 > job:events()  --> {{grasps = 1}})"},
     {"show", guarded<show_value>, R"(
-Shows a value in place of the one shown before: what `job.snapshot` is.
+Shows a value, which becomes `job.snapshot`, in place of the previous one.
 @param value any  of the kinds that clench.parallel.map hands over
 > job = clench.job(function() clench.this_job:show "half" end)
 > job:wait()
@@ -308,16 +308,17 @@ int has_jobs(lua_State* L) {
 const Library job_library{
     .name = "clench", .doc = "", .functions = job_functions, .fields = job_library_fields};
 
-const Class job_class{.name = "job",
-                      .variable = "job",
-                      .doc = "A function that runs beside the script, as `clench.job` starts it.",
-                      .fields = job_fields,
-                      .methods = job_methods,
-                      .operators = job_operators};
+const Class job_class{
+    .name = "job",
+    .variable = "job",
+    .doc = "A function that runs concurrently with the script, started by `clench.job`.",
+    .fields = job_fields,
+    .methods = job_methods,
+    .operators = job_operators};
 
 const Class this_job_class{.name = "this_job",
                            .variable = "this_job",
-                           .doc = "What a job's function, in its own state, reports by.",
+                           .doc = "Used by a job's function, in its own state, to report.",
                            .fields = this_job_fields,
                            .methods = this_job_methods};
 

@@ -16,7 +16,7 @@ namespace clench {
 
 int thread_number() { return static_cast<int>(syscall(SYS_gettid)); }
 
-// of a file /proc/PROCESS/task/THREAD/children
+// maximum size of a file /proc/PROCESS/task/THREAD/children
 static std::vector<pid_t> read_children(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<pid_t> children;

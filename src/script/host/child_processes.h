@@ -3,7 +3,7 @@
 
 namespace clench {
 
-/// The calling thread's number in the system.
+/// Thread id of the calling thread in the system.
 int thread_number();
 
 /// Ends the programs that a thread of this process has started, and those that these have started,

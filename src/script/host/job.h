@@ -41,7 +41,8 @@ class Job {
   Phase phase() const;
   bool is_over() const;
   Watcher::State progress() const;
-  /// Waits until the job is over, at most for `time`.   returns  is it over?
+  /// Waits until the job is over, for at most `time`.
+  /// returns  is it over?
   bool wait(std::chrono::milliseconds time) const;
 
   void stop();

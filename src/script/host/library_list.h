@@ -1,4 +1,4 @@
-// Every class and library that scripts see, in the order of the documentation.
+// All classes and libraries visible to scripts, in the order of the documentation.
 #pragma once
 #include <span>
 

@@ -12,7 +12,7 @@
 
 namespace clench {
 
-// of a library: a computed field, or what the fallback finds
+// value of a library's name: a computed field, or the result of the fallback
 static int library_member(lua_State* L) {
   lua_settop(L, 2);
   if (lua_type(L, 2) != LUA_TSTRING) return 0;
@@ -26,7 +26,7 @@ static int library_member(lua_State* L) {
   return guarded<no_such_member>(L);
 }
 
-// the arguments that a function's doc names, as a call has them
+// the arguments named by a function's doc, as in a call
 static std::string argument_names(const Entry& entry) {
   constexpr std::string_view mark = "\n@param ";
   const std::string_view doc = entry.doc;
@@ -55,7 +55,7 @@ static int refuse_assignment(lua_State* L) {
   }
   if (lua_toboolean(L, 4) || std::find(known.begin(), known.end(), key) != known.end())
     fail("{}.{} cannot be set: it is read only", name, key);
-  fail("{} has no {} to set{}; a script keeps its values in variables of its own", name,
+  fail("{} has no {} to set{}; a script keeps its values in its own variables", name,
        in_quotes(key), did_you_mean(key, known));
 }
 
@@ -89,7 +89,8 @@ static int library_pairs(lua_State* L) {
   return 3;
 }
 
-// below is the name's table of functions, getters on top: both stay; leaves the closure
+// expects the name's table of functions below, and getters on top, which both stay; pushes the
+// closure
 static void push_library_lookup(lua_State* L, lua_CFunction lookup, const char* name) {
   lua_pushvalue(L, -1);
   lua_pushvalue(L, -3);
@@ -98,8 +99,7 @@ static void push_library_lookup(lua_State* L, lua_CFunction lookup, const char* 
   lua_pushcclosure(L, lookup, 4);
 }
 
-// leaves a library's table, which knows nothing yet but what to answer to misspelt names and
-// assignments
+// pushes a library's table, which is empty except for the errors for misspelt names and assignments
 static void push_empty_library(lua_State* L, const char* name) {
   lua_newtable(L);  // the library
   lua_newtable(L);  // its metatable
@@ -126,14 +126,14 @@ static void push_empty_library(lua_State* L, const char* name) {
   lua_setmetatable(L, -2);
 }
 
-// leaves the functions of the library at the index
+// pushes the functions of the library at the index
 static void push_functions_of(lua_State* L, int library) {
   lua_getmetatable(L, library);
   lua_getfield(L, -1, "__index");
   lua_remove(L, -2);
 }
 
-// leaves the table named by "clench.json" below the root, each on the way made if it is missing
+// pushes the table named by "clench.json" below the root; missing tables on the path are created
 static void push_library_table(lua_State* L, int root, const char* name) {
   lua_pushvalue(L, root);
   for (const char* dot = std::strchr(name, '.'); dot; dot = std::strchr(dot + 1, '.')) {

@@ -17,7 +17,7 @@ namespace clench {
 
 // raise(sentence, kind): an error at the script's line, "input" unless a kind is given
 static int raise(lua_State* L) {
-  // a name that a script gave may have zero bytes
+  // a name given by a script may contain zero bytes
   const std::string sentence =
       lua_type(L, 1) == LUA_TSTRING ? std::string(string_at(L, 1)) : check_string(L, 1);
   throw Error(sentence, given(L, 2) ? error_kind(check_string(L, 2)) : ErrorKind::input);
@@ -31,14 +31,14 @@ static int call_script(lua_State* L) {
   return lua_gettop(L) - 1;
 }
 
-// script_line(): "a.lua:3: ", where the script called into the standard library, or ""
+// script_line(): "a.lua:3: ", the line of the script that called the standard library, or ""
 static int script_line(lua_State* L) {
   push_script_place(L);
   return 1;
 }
 
-// suggest(name, known): "; did you mean 'count'?", or "" when none is near; nothing is near what is
-// no string
+// suggest(name, known): "; did you mean 'count'?", or "" if none is near, or if the name is not a
+// string
 static int suggest(lua_State* L) {
   std::vector<std::string> known;
   const bool named = lua_type(L, 1) == LUA_TSTRING && lua_istable(L, 2);
@@ -50,14 +50,14 @@ static int suggest(lua_State* L) {
 }
 
 // printable(text, kept): the text with '?' in place of each character that a terminal or a page
-// would obey; `kept`: characters that are not replaced, such as "\n\t"
+// would interpret; `kept`: characters that are not replaced, such as "\n\t"
 static int make_printable(lua_State* L) {
   if (lua_type(L, 1) != LUA_TSTRING) check_string(L, 1, "text");  // text may have zero bytes
   const auto kept = given(L, 2) ? string_at(L, 2) : std::string_view();
   return push(L, printable(string_at(L, 1), kept));
 }
 
-// fingerprint(text): 16 hexadecimal digits, equal for equal texts on every machine
+// fingerprint(text): 16 hexadecimal digits, equal for equal texts on all platforms
 static int fingerprint(lua_State* L) {
   Hasher hasher;
   hasher.add(string_at(L, 1));
@@ -74,7 +74,7 @@ static int packed_text(lua_State* L) {
 
 using DeadlinePtr = std::shared_ptr<Deadline>;
 
-// deadline:close(): ends it.   returns  has the time passed?
+// deadline:close(): ends the deadline.   returns  has the time passed?
 static int close_deadline(lua_State* L) { return push(L, self<DeadlinePtr>(L)->close()); }
 
 static const Entry deadline_methods[] = {{"close", guarded<close_deadline>, ""}};
@@ -83,7 +83,7 @@ static const Class deadline_class{
 template <>
 inline constexpr const Class* script_class<DeadlinePtr> = &deadline_class;
 
-// deadline(seconds): when the time is over, the running call of the engine fails as by Ctrl-C, once
+// deadline(seconds): after this time, the running call of the engine fails once, as by Ctrl-C
 static int deadline(lua_State* L) {
   return push_object(L, std::make_shared<Deadline>(bar_of(L), check_number(L, 1, "seconds")));
 }

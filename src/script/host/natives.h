@@ -1,4 +1,4 @@
-// What the standard library requires of the engine, as it does its own files: clench.raise,
+// Functions of the engine that the standard library requires like its own files: clench.raise,
 // clench.script_line, clench.suggest, clench.deadline.
 #pragma once
 #include <lua.hpp>

@@ -12,7 +12,7 @@
 
 namespace clench {
 
-// clench.shapes: the standard library's module, loaded when it is first asked for
+// clench.shapes: the standard library's module, loaded on first use
 static int load_member(lua_State* L) {
   const char* name = lua_tostring(L, 1);
   if (!find_packed(name)) return 0;

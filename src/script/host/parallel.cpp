@@ -1,4 +1,4 @@
-// clench.parallel.map: a function for each item of a list, in as many states of Lua as there are
+// clench.parallel.map: calls a function for each item of a list, in as many Lua states as there are
 // threads.
 #include <atomic>
 #include <condition_variable>
@@ -39,17 +39,17 @@ struct Outcome {
   WorkerError failure;
 };
 
-// what the states do
+// work shared by the states
 struct Task : WorkerTask {
   std::vector<Parcel> items;
   size_t memory = 0;  // limit of each state [bytes]
 };
 
-// --- in a worker's state: slot 1 of its stack is the function, slot 2 what is shared ---
+// --- in a worker's state: slot 1 of its stack is the function, slot 2 the shared value ---
 
 struct Worker {
   Parcel shared;
-  std::unique_ptr<State> state;  // null before it works and after
+  std::unique_ptr<State> state;  // null before and after its work
   int thread = 0;
   std::vector<std::pair<WorldPtr, std::shared_ptr<const Snapshot>>>
       moments;  // of the shared worlds
@@ -103,7 +103,7 @@ bool make_ready(Worker& worker, const Task& task, WorkerError& failure) {
   return false;
 }
 
-// as if no other item had been before it
+// bit-exactly independent of earlier items
 void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
   lua_State* L = worker.state->lua();
   for (const auto& [world, moment] : worker.moments) world->restore(*moment);
@@ -121,7 +121,7 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
 
 class Crew {
  public:
-  /// first  how the first worker comes by its core
+  /// first  how the first worker obtains its core
   Crew(const Task& task, std::vector<Parcel> shared, CoreSlot::Start first)
       : task_(task), first_(first), outcomes_(task.items.size()) {
     workers_.resize(shared.size());
@@ -148,7 +148,8 @@ class Crew {
       if (worker.state) paused ? worker.state->pause() : worker.state->resume();
   }
 
-  /// Waits at most so long for the outcome of item i.   returns null when it is not there
+  /// Waits for the outcome of item i, for a limited time.
+  /// returns  null if it is not available yet
   Outcome* wait(size_t i, std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, time,
@@ -198,12 +199,12 @@ class Crew {
 
   void run(Worker& worker) {
     set_thread_nice(task_.nice);
-    // the first one works in place of the caller, so that a map goes on whatever else runs
+    // the first one replaces the caller, so that a map proceeds even if all cores are busy
     const CoreSlot slot([this] { return ended_.load(); },
                         &worker == &workers_.front() ? first_ : CoreSlot::Start::wait);
     std::string problem;
     try {
-      // one that had to wait for a core may find nothing left to do
+      // after waiting for a core there may be nothing left to do
       if (!ended_ && next_ < outcomes_.size()) {
         open(worker);
         do_items(worker);
@@ -235,10 +236,10 @@ class Crew {
   std::atomic<bool> ended_ = false;
   bool paused_ = false;
   std::vector<Worker> workers_;
-  std::vector<std::jthread> threads_;  // the last member: joined before all else goes
+  std::vector<std::jthread> threads_;  // the last member: joined before all others are destroyed
 };
 
-// --- in the state that calls ---
+// --- in the calling state ---
 
 void read_items(lua_State* L, Task& task, const std::string& subject) {
   if (!lua_istable(L, 2)) fail("{}: items: expected a list, got {}", subject, described(L, 2));
@@ -289,7 +290,7 @@ int map(lua_State* L) {
     lua_pushinteger(L, static_cast<lua_Integer>(i) + 1);
     return try_script(L, 2, 0, subject + ": each");
   };
-  // the error on top of the stack goes on
+  // re-raises the error on top of the stack
   const auto raise = [&] {
     lua_pushcfunction(L, lua_error);
     lua_insert(L, -2);
@@ -298,7 +299,7 @@ int map(lua_State* L) {
   bool interrupted = false;
   lua_Integer failed = 0;
   if (count > 0) {
-    // the workers compute, and this thread only hands over what they have done
+    // the workers compute, and this thread only passes on their results
     const SlotLent lent(SlotLent::To::one);
     task.memory = State::memory_of(L) / copies.size();
     Crew crew(task, std::move(copies),
@@ -318,8 +319,8 @@ int map(lua_State* L) {
       push_outcome(L, outcome);
       lua_rawseti(L, results, static_cast<lua_Integer>(i) + 1);
       if (!told || !outcome) continue;
-      // Ctrl-C breaks off one of these calls; it is made again, and the rest of what is done is
-      // told before the error goes on
+      // Ctrl-C interrupts one of these calls; it is repeated, and the remaining results are passed
+      // on before the error is raised
       const bool asked = watching.progress().stop_asked();
       if (tell(i)) continue;
       if (!asked || interrupted) raise();
@@ -350,7 +351,7 @@ int get_cores(lua_State* L) {
 
 const Entry functions[] = {
     {"map", guarded<map>, R"(
-Calls a function for each item of a list, in many threads, each with a state of Lua and worlds of its own. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together may have as much memory as the one that calls.
+Calls a function for each item of a list, in many threads, each with a separate Lua state and separate worlds. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together are limited to the memory of the calling one.
 @param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 @param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 @param options? {threads?: integer, shared?: any, each?: function}  threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
@@ -361,7 +362,7 @@ Calls a function for each item of a list, in many threads, each with a state of 
 > clench.parallel.map(function(x) return hand.dofs end, {1})[1].error:match "global 'hand'" ~= nil  --> true
 > clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be handed over)"},
     {"nice", guarded<nice>, R"(
-Niceness of the threads that `map` and `clench.job` start from now on: where a window is open, 10 lets it come first.
+Niceness of the threads that `map` and `clench.job` start from now on: with an open window, 10 gives it priority.
 @param level? integer  from 0, as the script itself, to 19; without it the level stays
 @return integer level
 > clench.parallel.nice(10)  --> 10

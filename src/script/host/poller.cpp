@@ -52,7 +52,7 @@ void Poller::watch(int descriptor, bool readable, bool writable) {
   event.events = (readable ? EPOLLIN : 0u) | (writable ? EPOLLOUT : 0u);
   event.data.fd = descriptor;
   if (event.events == 0) {
-    epoll_ctl(set_, EPOLL_CTL_DEL, descriptor, nullptr);  // it may be closed already
+    epoll_ctl(set_, EPOLL_CTL_DEL, descriptor, nullptr);  // it may already be closed
     return;
   }
   if (epoll_ctl(set_, EPOLL_CTL_MOD, descriptor, &event) == 0) return;
@@ -75,7 +75,7 @@ void Poller::set_timer(double seconds) {
 }
 
 std::vector<Poller::Ready> Poller::wait(double seconds) {
-  constexpr double longest = 1e6;  // [s]; its milliseconds fit into an int
+  constexpr double longest = 1e6;  // [s]; in milliseconds it fits into an int
   epoll_event events[64];
   const int milliseconds =
       seconds < 0 ? -1 : static_cast<int>(std::ceil(1e3 * std::min(seconds, longest)));

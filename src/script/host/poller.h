@@ -15,7 +15,7 @@ class Poller {
     Event event;
   };
 
-  /// throws  Error when the system has no descriptor left
+  /// throws  Error if the system has no descriptor left
   explicit Poller(std::shared_ptr<Bell> bell);
   ~Poller();
   Poller(const Poller&) = delete;
@@ -25,7 +25,7 @@ class Poller {
   int descriptor() const { return set_; }
 
   /// Sets the events for which a descriptor is watched; without any, it is no longer watched.
-  /// throws  Error when it is no open descriptor, or one of a kind that cannot be polled
+  /// throws  Error if it is not an open descriptor, or cannot be polled
   void watch(int descriptor, bool readable, bool writable);
   /// Makes `descriptor()` readable once, after `seconds` [s]; a time below 0 cancels the timer.
   void set_timer(double seconds);

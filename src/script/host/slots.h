@@ -1,21 +1,21 @@
-// The cores of the machine, shared by all threads that run scripts beside their callers.
+// The cores of the machine, shared by all threads that run scripts concurrently with their callers.
 #pragma once
 #include <functional>
 
 namespace clench {
 
-/// The right of the calling thread to compute, during the object's lifetime. There are as many as
+/// Permission of the calling thread to compute, during the object's lifetime. There are as many as
 /// cores, at least two, so that an endless job does not block all others. Threads that wait for
 /// others lend theirs, so that nested levels of work share the cores.
 class CoreSlot {
  public:
   enum class Start {
     wait,     ///< waits for a free one
-    at_once,  ///< takes one beyond their number if none is free
-    handed,   ///< has the one that the calling thread of SlotLent hands over
+    at_once,  ///< takes an additional one if none is free
+    handed,   ///< takes the one that the calling thread of SlotLent hands over
   };
-  /// Once `is_stopped` returns true it waits no longer and takes one beyond their number, so that
-  /// stopped work ends at once. A thread holds at most one.
+  /// When `is_stopped` returns true it stops waiting and takes an additional one, so that stopped
+  /// work ends immediately. A thread holds at most one.
   explicit CoreSlot(std::function<bool()> is_stopped, Start start = Start::wait);
   ~CoreSlot();
   CoreSlot(const CoreSlot&) = delete;
@@ -23,9 +23,11 @@ class CoreSlot {
 
   /// The slot of the calling thread; null if it holds none.
   static CoreSlot* of_thread();
-  /// Lets another thread have it.   returns  was it not lent yet?
+  /// Makes it available to other threads.
+  /// returns  was it not lent yet?
   bool lend();
-  /// Leaves it to the thread that starts with Start::handed.   returns  as lend()
+  /// Hands it to the thread that starts with Start::handed.
+  /// returns  as lend()
   bool hand_over();
   /// Waits until one is free again.
   void take_back();
@@ -38,7 +40,8 @@ class CoreSlot {
 /// Lends the slot of the calling thread, if it holds one, during the object's lifetime.
 class SlotLent {
  public:
-  enum class To { any, one };  ///< thread that may have it; one: that starts with Start::handed
+  /// any: any thread may take it; one: only that which starts with Start::handed
+  enum class To { any, one };
   explicit SlotLent(To to = To::any) : slot_(CoreSlot::of_thread()) {
     if (slot_ && !(to == To::one ? slot_->hand_over() : slot_->lend())) slot_ = nullptr;
   }

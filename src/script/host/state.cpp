@@ -25,7 +25,7 @@ namespace clench {
 
 void* State::allocate(void* state, void* block, size_t old_size, size_t new_size) {
   Memory& m = static_cast<State*>(state)->memory_;
-  if (!block) old_size = 0;  // then it says what kind of thing is made
+  if (!block) old_size = 0;  // without a block Lua passes the kind of object
   if (new_size > old_size && new_size - old_size > m.limit - m.used) return nullptr;
   if (new_size == 0) {
     std::free(block);
@@ -37,7 +37,7 @@ void* State::allocate(void* state, void* block, size_t old_size, size_t new_size
   return grown;
 }
 
-// what finalizers and the like fail with
+// errors of finalizers and similar code
 void State::warn(void* state, const char* text, int to_be_continued) {
   Memory& m = static_cast<State*>(state)->memory_;
   if (m.warning.empty() && !to_be_continued && *text == '@') return;  // a control message
@@ -47,14 +47,14 @@ void State::warn(void* state, const char* text, int to_be_continued) {
   m.warning.clear();
 }
 
-// an error that no call protects is a mistake of ours
+// an error outside protected calls is an internal error
 static int panic(lua_State* L) {
   const char* text = lua_tostring(L, -1);
   std::fprintf(stderr, "clench: unprotected error: %s\n", text ? text : "no text");
   return 0;
 }
 
-// Lua tells which coroutine it enters and where it comes back to
+// Lua reports the coroutine that it enters or returns to
 int State::track(lua_State* L) {
   auto* state = static_cast<State*>(lua_touserdata(L, lua_upvalueindex(1)));
   if (lua_State* thread = lua_tothread(L, 1))
@@ -63,7 +63,7 @@ int State::track(lua_State* L) {
 }
 
 static int open_all(lua_State* L) {
-  // what the environment says of modules is read by add_user_modules
+  // environment variables for modules are read by add_user_modules
   lua_pushboolean(L, 1);
   lua_setfield(L, LUA_REGISTRYINDEX, "LUA_NOENV");
   luaL_openlibs(L);
@@ -74,14 +74,14 @@ static int open_all(lua_State* L) {
   add_bare_names(L);
   push_packed(L, "error_text");  // while all that it needs is there
   lua_pop(L, 1);
-  // the coroutines' guide gets our tracker
+  // passes our tracker to the module that wraps coroutines
   push_packed(L, "host.coroutines");
   lua_pushvalue(L, 1);
   lua_call(L, 1, 0);
   return 0;
 }
 
-// a script that asks for more gets an error, not the machine's last page
+// a script that requests more memory gets an error, before the machine runs out of it
 static size_t default_memory_limit() {
   const auto pages = static_cast<size_t>(sysconf(_SC_PHYS_PAGES));
   return pages / 4 * 3 * static_cast<size_t>(sysconf(_SC_PAGESIZE));
@@ -137,11 +137,12 @@ void State::set_quiet() {
 
 // any error value as text, with the traceback
 static int explain(lua_State* L) {
-  lua_sethook(L, nullptr, 0, 0);  // the run ends here: nothing interrupts what tells why
+  lua_sethook(L, nullptr, 0, 0);  // the run ends here: nothing interrupts the output of the reason
   lua_settop(L, 1);
   push_packed(L, "error_text");
   lua_pushvalue(L, 1);
-  if (lua_pcall(L, 1, 1, 0) != LUA_OK) lua_pushliteral(L, "error object that cannot be told");
+  if (lua_pcall(L, 1, 1, 0) != LUA_OK)
+    lua_pushliteral(L, "error object that cannot be converted to text");
   lua_replace(L, 1);
   lua_settop(L, 1);
   // a traceback's own text would end at a zero byte
@@ -151,10 +152,10 @@ static int explain(lua_State* L) {
   return 1;
 }
 
-// os.exit where the program is not the script's to end; upvalue: where that is told
+// os.exit if the script must not end the program; upvalue: destination of the report
 static int on_exit(lua_State* L) {
   auto* asked = static_cast<std::string*>(lua_touserdata(L, lua_upvalueindex(1)));
-  // the nearest line of a script: what calls it may be pcall, or a finalizer's nobody
+  // the nearest line of a script: the caller may be pcall, or a finalizer without one
   lua_pushliteral(L, "");
   lua_Debug caller;
   for (int level = 1; lua_rawlen(L, -1) == 0 && lua_getstack(L, level, &caller); ++level)
@@ -186,9 +187,10 @@ static double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// with what catches an interruption [s]
+// time that code which catches an interruption may take [s]
 #ifdef __SANITIZE_ADDRESS__
-static constexpr double patience = 3;  // all takes several times as long
+// everything takes several times as long
+static constexpr double patience = 3;
 #else
 static constexpr double patience = 0.5;
 #endif
@@ -199,7 +201,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
   lua_getallocf(L, &data);
   State& state = *static_cast<State*>(data);
   const bool again = state.interrupts_ > 1 || now() > state.patient_until_;
-  // the first time another coroutine, or a call of the engine, may have ended for it
+  // the first request may already have ended another coroutine or a call of the engine
   const bool first = state.bar_->take_all();
   // raised at every instruction from now on, so that a script that catches the error ends, too
   lua_sethook(L, on_hook, all_events, again ? 1 : 1000);
@@ -254,7 +256,7 @@ void State::resume() {
   paused_.notify_all();
 }
 
-// takes what a call left above base off the stack
+// pops the results of a call down to base
 State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);
   bar_->take_all();
@@ -275,7 +277,7 @@ State::Result State::finish(int status, int base) {
   return result;
 }
 
-// --- running; what can fail for want of memory runs inside lua_pcall ---
+// --- running; code that can fail for lack of memory runs inside lua_pcall ---
 
 struct Arguments {
   const std::string& path;
@@ -308,7 +310,7 @@ static bool push_strings(lua_State* L, const std::vector<std::string>& strings) 
   return true;
 }
 
-// below is a chunk, or the message of why there is none
+// below is a chunk, or a message with the reason why there is none
 State::Result State::run_loaded(int status, const std::vector<std::string>& arguments) {
   const int base = lua_gettop(L_) - 1;
   const Watched watched{Progress(bar_)};
@@ -336,7 +338,7 @@ State::Result State::run_code(const std::string& code, const std::string& name) 
 
 // (module, function, arguments...)
 static int call_packed(lua_State* L) {
-  lua_rotate(L, 1, -1);  // the module behind its function and the arguments
+  lua_rotate(L, 1, -1);  // the module after its function and the arguments
   take_packed_function(L, lua_tostring(L, -1));
   lua_pop(L, 1);
   lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
@@ -357,7 +359,7 @@ State::Result State::call(const std::string& module, const std::string& function
 
 // --- the console ---
 
-// prints its arguments as the console shows them; the first one is from now on `_`
+// prints its arguments in the format of the console, and stores the first one as `_`
 static int show_results(lua_State* L) {
   const int count = lua_gettop(L);
   if (count == 0) return 0;

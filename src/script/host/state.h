@@ -1,5 +1,5 @@
-// A Lua of one's own, with clench in it: what the command runs scripts in. Every call is protected;
-// a script can neither end the process by an error nor take all of the machine's memory.
+// A separate Lua state with clench in it, in which the command runs scripts. Every call is
+// protected; a script can neither end the process by an error nor exhaust the machine's memory.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -20,55 +20,55 @@ class State {
   struct Result {
     bool ok = true;
     std::string error;                ///< message and traceback
-    std::vector<std::string> values;  ///< what was returned, as text
+    std::vector<std::string> values;  ///< returned values, as text
   };
   enum class Line { done, incomplete, failed };
 
-  /// memory  that its scripts may have [bytes]; 0: three quarters of the machine's
-  /// throws  Error when there is no memory
+  /// memory  limit for its scripts [bytes]; 0: three quarters of the machine's
+  /// throws  Error if there is no memory
   explicit State(size_t memory = 0);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  /// From now on require looks for the user's modules in the folder of this file first; until then
-  /// in none.
+  /// From now on require first searches the folder of this file for the user's modules; until then
+  /// it searches no folder.
   void set_script(const std::string& path);
   /// Runs a file, "-" for stdin, as the script, with the global `arg` and `...` as the command's
   /// arguments.
   Result run_file(const std::string& path, const std::vector<std::string>& arguments);
-  /// Runs a chunk that messages call by its name.
+  /// Runs a chunk under a name for messages.
   Result run_code(const std::string& code, const std::string& name);
   /// Runs a console's input: an expression, "=expression" or statements; prints the results to
-  /// stdout and errors to stderr. incomplete: it is the beginning of something.
-  /// line: what messages call the first of its lines
+  /// stdout and errors to stderr. incomplete: it is the beginning of a chunk. line: name of its
+  /// first line in messages
   Line evaluate(const std::string& text, int line = 1);
   /// Calls a function of the packed standard library, in its module's table, with strings.
   Result call(const std::string& module, const std::string& function,
               const std::vector<std::string>& arguments);
 
-  /// From now on os.exit ends nothing but is an error. The first sentence of these is put into
-  /// `asked`, which outlives the state, for a script may hide the error.
+  /// From now on os.exit raises an error instead of ending the program. The first such message is
+  /// stored in `asked`, which must outlive the state, because a script may catch the error.
   void refuse_exit(std::string& asked);
   /// From now on files are read only below this folder, unless a call names another.
-  /// throws Error when it is no folder
+  /// throws Error if it is not a folder
   void set_confine(const std::string& folder);
-  /// Messages below errors are not shown from now on.
+  /// From now on only errors are logged.
   void set_quiet();
   lua_State* lua() { return L_; }
-  /// What scripts of this Lua may have, be it a State's or a host's [bytes].
+  /// Memory limit of the scripts of this Lua state, which may be a State or a host's [bytes].
   static size_t memory_of(lua_State* L);
 
-  /// Makes the running chunk fail with "interrupted", coroutines too. What catches that error has
-  /// half a second to end; then, or when called again, nothing can catch it. May be called from a
-  /// signal handler.
+  /// Makes the running chunk fail with "interrupted", including coroutines. Code that catches that
+  /// error has half a second to end; after that, or at a second call, nothing can catch it. May be
+  /// called from a signal handler.
   void interrupt();
 
-  /// For a state in a thread of its own: from now on it looks by itself whether `end` was called.
+  /// For a state in a separate thread: from now on it checks by itself if `end` was called.
   void look_for_end();
-  /// Makes the running chunk fail with "stopped", uncatchably. May be called from any thread.
+  /// Makes the running chunk fail with an uncatchable "stopped". May be called from any thread.
   void end();
-  /// Holds the running chunk, of a state that looks for its end, at its next instruction until
+  /// Holds the running chunk, of a state that checks for its end, at its next instruction until
   /// `resume` or `end` is called. May be called from any thread.
   void pause() { paused_ = true; }
   void resume();
@@ -84,7 +84,7 @@ class State {
     bool quiet = false;
     std::string warning;
   };
-  // of the first three the state is the user data
+  // the user data of the first three is the state
   static void* allocate(void* state, void* block, size_t old_size, size_t new_size);
   static void warn(void* state, const char* text, int to_be_continued);
   static void on_hook(lua_State* L, lua_Debug*);
@@ -97,13 +97,13 @@ class State {
 
   Memory memory_;
   lua_State* L_ = nullptr;
-  std::shared_ptr<Bar> bar_;                   // what watches the engine
-  std::atomic<lua_State*> running_ = nullptr;  // the coroutine that runs, for interrupt
-  std::atomic<int> interrupts_ = 0;            // since a run began
+  std::shared_ptr<Bar> bar_;                   // watches calls of the engine
+  std::atomic<lua_State*> running_ = nullptr;  // the running coroutine, for interrupt
+  std::atomic<int> interrupts_ = 0;            // start of the run
   std::atomic<bool> ended_ = false, paused_ = false;
   std::function<void(bool)> on_hold_;
   void hold();
-  std::atomic<double> patient_until_ = 0;  // then an interruption can no longer be caught [s]
+  std::atomic<double> patient_until_ = 0;  // time after which an interruption cannot be caught [s]
 };
 
 }  // namespace clench

@@ -81,7 +81,7 @@ static int prepare(lua_State* L) {
   const auto& task = *static_cast<const WorkerTask*>(lua_touserdata(L, 1));
   set_path(L, "path", task.path);
   set_path(L, "cpath", task.cpath);
-  // a hook of the function's own would replace the one that stops it
+  // a hook set by the function would replace the one that stops it
   lua_getglobal(L, LUA_DBLIBNAME);
   lua_pushnil(L);
   lua_setfield(L, -2, "sethook");
@@ -104,7 +104,7 @@ static int prepare(lua_State* L) {
   return 1;
 }
 
-// (error value) -> its words, its kind or nil
+// (error value) -> its message, its kind or nil
 static int tell_error(lua_State* L) {
   push_packed(L, "error_text");
   lua_pushvalue(L, 1);

@@ -14,10 +14,10 @@ class State;
 struct WorkerTask {
   std::string module, compiled;  // a module's name or the compiled function; the other is empty
   std::string name;              // chunk name of the function in messages, "=clench.job"
-  std::string path, cpath;       // of require
+  std::string path, cpath;       // setting of require
   std::string script_folder, confine;
   LogLevel log_level = LogLevel::info;
-  int nice = 0;  // of the thread, see set_thread_nice
+  int nice = 0;  // niceness of the thread, see set_thread_nice
 };
 
 /// Reads the argument `task`: a function without upvalues other than _ENV, or the name of a module

@@ -12,7 +12,7 @@ static void push_refusal(lua_State* L, const char* name) {
   lua_pushfstring(L, "%s: bytecode is not run; expected Lua text", name);
 }
 
-// Lua's own words name neither the file nor what is expected
+// Lua's own messages name neither the file nor the expected content
 static int in_our_words(lua_State* L, int status, const char* name) {
   static constexpr char said[] = "attempt to load a binary chunk";
   if (status != LUA_ERRSYNTAX || std::strncmp(lua_tostring(L, -1), said, sizeof said - 1))
@@ -44,9 +44,9 @@ int load_module(lua_State* L, const char* module, const char* path) {
   return 2;
 }
 
-// --- Lua's own functions, for text ---
+// --- Lua's functions, restricted to text ---
 
-// what load and loadfile return; environment: index of the chunk's, 0: the globals
+// results of load and loadfile; environment: index of that of the chunk, 0: the globals
 static int give_chunk(lua_State* L, int status, int environment) {
   if (status != LUA_OK) {
     lua_pushnil(L);
@@ -60,10 +60,10 @@ static int give_chunk(lua_State* L, int status, int environment) {
   return 1;
 }
 
-// the mode "b" asks for what is refused
+// the mode "b" requests compiled chunks, which are rejected
 static bool takes_text(const char* mode) { return std::strchr(mode, 't') != nullptr; }
 
-static constexpr int part_slot = 5;  // where the reader's last part is kept alive
+static constexpr int part_slot = 5;  // keeps the reader's last part alive
 
 static const char* read_part(lua_State* L, void*, size_t* size) {
   luaL_checkstack(L, 2, "too many nested functions");
@@ -126,7 +126,7 @@ static int search_path(lua_State* L) {
   if (lua_getfield(L, lua_upvalueindex(1), "path") != LUA_TSTRING)
     return luaL_error(L, "'package.path' must be a string");
   lua_call(L, 2, 2);
-  if (lua_isnil(L, -2)) return 1;  // where it looked
+  if (lua_isnil(L, -2)) return 1;  // second result: the searched path
   return load_module(L, module, lua_tostring(L, -2));
 }
 
@@ -134,7 +134,7 @@ static void replace_searcher(lua_State* L) {
   if (lua_getglobal(L, LUA_LOADLIBNAME) == LUA_TTABLE) {
     const int package = lua_gettop(L);
     lua_getfield(L, package, "searchers");
-    // ours may stand before them already
+    // our searchers may already precede them
     const int first = lua_istable(L, -1) ? count_packed_searchers(L, package + 1) + 1 : 0;
     if (!first || lua_rawlen(L, package + 1) != static_cast<size_t>(first) + 3)
       luaL_error(L, "clench_refuse_bytecode: expected package.searchers as Lua makes them");

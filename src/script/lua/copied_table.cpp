@@ -12,7 +12,7 @@
 
 namespace clench {
 
-static const char texts_key = 0, lines_key = 0;  // their addresses name tables in the registry
+static const char texts_key = 0, lines_key = 0;  // their addresses are registry keys of tables
 
 // pushes a registry table, created if missing: texts by chunk name, or lines by function, with weak
 // keys
@@ -83,7 +83,7 @@ static bool assigns_part(std::string_view line) {
   return false;
 }
 
-// behind the bracket that closes the one at i
+// position after the bracket that closes the one at i
 static size_t behind_bracket(std::string_view line, size_t i) {
   int depth = 0;
   for (; i < line.size(); ++i) {
@@ -93,7 +93,7 @@ static size_t behind_bracket(std::string_view line, size_t i) {
   return i;
 }
 
-// behind "[...]" or ".name" at i; i itself where neither is there
+// position after "[...]" or ".name" at i; i itself if there is neither
 static size_t behind_index(std::string_view line, size_t i) {
   if (i < line.size() && line[i] == '[') return behind_bracket(line, i);
   if (i + 1 >= line.size() || line[i] != '.' || line[i + 1] == '.') return i;

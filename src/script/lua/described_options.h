@@ -1,5 +1,5 @@
-// The options of an entry as its doc describes them: names and ranges, against which a Table checks
-// what scripts give. stdlib/signature/grammar.lua has the whole grammar of docs.
+// The options of an entry as described by its doc: names and ranges, against which a Table checks
+// the arguments of scripts. stdlib/signature/grammar.lua has the complete grammar of docs.
 #pragma once
 #include <optional>
 #include <span>
@@ -21,8 +21,8 @@ struct DescribedOption {
   std::string range() const;
 };
 
-/// Options of a parameter, which counts from 0; empty if its options are not described line by
-/// line. Parsed once, and kept as long as the program runs.
+/// Options of a parameter, by its index from 0; empty if its options are not described line by
+/// line. Parsed once, and cached for the lifetime of the program.
 std::span<const DescribedOption> described_options(const Entry& entry, int parameter);
 
 }  // namespace clench

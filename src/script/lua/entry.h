@@ -1,25 +1,25 @@
-// What Lua sees of the engine, as tables of name, function and doc.
+// Description of the engine for Lua: tables of name, function and doc.
 //
 // How to add a binding
-//  1. A value or handle that scripts hold is a Class; functions live in a Library. Each is one
-//     constant in a bind_<noun>.cpp, in the folder of its kind, that ends in tables of entries, is
-//     declared in bind.h, and has one line in library.cpp. Several libraries may share a name:
-//     their entries add up.
-//  2. A function is `static int f(lua_State* L)`, named in its table as guarded<f> (guard.h). It
+//  1. A value or handle of scripts is a Class; functions belong to a Library. Each is one constant
+//     in a bind_<noun>.cpp, in the folder of its kind, ends in tables of entries, is declared in
+//     bind.h, and has one line in library.cpp. Several libraries may share a name: their entries
+//     are merged.
+//  2. A function is `static int f(lua_State* L)`, listed in its table as guarded<f> (guard.h). It
 //     reads its arguments with check.h (positional) or a Table (options), calls the engine, and
 //     returns push...(). Bad input throws clench::Error; guarded adds the script's line. Messages
-//     begin with subject(L), "hand:autograsp", found by itself. Arguments beyond the doc's `@param`
-//     lines have been refused before. What one expression gets or sets is a getter<...> or
-//     setter<...> (getter.h).
-//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). script_class<T> ties a
-//     C++ type to its Class; push(L, T{...}) makes a value of it, to<T> and check_object<T> read
-//     one.
-//  4. Nothing that can raise a Lua error may run while C++ objects with destructors live, because
-//     a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with metamethods,
-//     lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing may raise only
-//     when memory is out, and then leaks.)
-//  5. The doc is the sentence or two that a reader needs, then LuaCATS lines, then running
-//     examples. A field has `@type`; what follows two spaces is prose, with the unit in brackets:
+//     begin with subject(L), "hand:autograsp", which is found automatically. Arguments beyond the
+//     doc's `@param` lines have already been rejected. Values that one expression gets or sets use
+//     getter<...> or setter<...> (getter.h).
+//  3. A method begins with `auto& hand = self<RobotHandle>(L)` (object.h). script_class<T>
+//     associates a C++ type with its Class; push(L, T{...}) creates a value of it, to<T> and
+//     check_object<T> read one.
+//  4. Nothing that can raise a Lua error may run while C++ objects with destructors are alive,
+//     because a host's Lua may jump over them: no lua_error, luaL_check..., lua_gettable with
+//     metamethods, lua_call. Use raw access, and protected_call (guard.h) for callbacks. (Pushing
+//     raises errors only for lack of memory, and then leaks.)
+//  5. The doc has one or two sentences for the reader, then LuaCATS lines, then running examples.
+//     A field has `@type`; text after two spaces is prose, with the unit in brackets:
 // clang-format off
 //         Closes the fingers until contact stops them.
 //         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1: the hand's own pace
@@ -27,10 +27,10 @@
 //         > hand:autograsp().moved  --> true
 // clang-format on
 //     stdlib/signature/grammar.lua has the grammar of units, ranges, defaults and `@option` lines.
-//     `> code` without an arrow prepares the next one. `--> error: text` wants an error that
+//     `> code` without an arrow prepares the next one. `--> error: text` expects an error that
 //     contains text. Examples run with clench, world, hand (closed on the flask), flask, grasp and
 //     patch (of a fingertip with the flask as rubber). The tests run every one of them; `clench
-//     doc` writes docs/api from the same tables, and the REPL completes from them.
+//     doc` writes docs/api from the same tables, and the REPL uses them for completion.
 #pragma once
 #include <lua.hpp>
 #include <span>
@@ -38,7 +38,7 @@
 
 namespace clench {
 
-/// A function, method or field of a script's world.
+/// A function, method or field that scripts can use.
 struct Entry {
   const char* name;
   lua_CFunction function;  ///< of a field: its getter, called with (self)
@@ -54,26 +54,27 @@ struct Library {
   std::span<const Entry> fields = {};
 };
 
-/// What a userdata of one kind can do. Its address is its identity.
+/// Operations on userdata of one kind. Its address is its identity.
 struct Class {
   const char* name;      ///< "robot"
-  const char* variable;  ///< what messages and examples call one: "hand"
+  const char* variable;  ///< name in messages and examples: "hand"
   const char* doc;
   std::span<const Entry> fields = {};
   std::span<const Entry> methods = {};
   /// "__add", "__tostring"; "__index", "__newindex": keys that are no string
   std::span<const Entry> operators = {};
-  const Class* parent = nullptr;  ///< its fields and methods are had too
+  const Class* parent = nullptr;  ///< class whose fields and methods are inherited
 };
 
-/// Upvalues of every closure of an entry: the entry, its class or library, and how many arguments
-/// it takes; -1: any.
+/// Upvalues of every closure of an entry: the entry, its class or library, and the number of
+/// arguments that it takes; -1: any.
 enum EntryUpvalue { at_entry = 1, at_class = 2, at_library = 3, at_max_arguments = 4 };
 
-/// Of a function or method: its `@param` lines, self not among them; -1 where one of them is `...`.
+/// Number of `@param` lines of a function or method, self not included; -1 if one of them is `...`.
 int max_arguments(const Entry& entry);
 
-/// Name of the entry that runs, as messages begin: "clench.rad", "hand:autograsp", "hand.dofs".
+/// Name of the running entry, with which messages begin: "clench.rad", "hand:autograsp",
+/// "hand.dofs".
 std::string subject(lua_State* L);
 
 /// The running method's class; null in a library's function.

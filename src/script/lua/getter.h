@@ -1,4 +1,4 @@
-// Fields, and methods without arguments, that one expression makes.
+// Fields, and methods without arguments, that consist of one expression.
 #pragma once
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/object.h"
@@ -7,7 +7,7 @@
 
 namespace clench {
 
-// the object that a field belongs to, or what stands for the objects of several classes
+// the object of a field, or the substitute used for several classes
 template <class T>
 decltype(auto) receiver(lua_State* L) {
   if constexpr (requires { T::from_self(L); })
@@ -16,7 +16,7 @@ decltype(auto) receiver(lua_State* L) {
     return self<T>(L);
 }
 
-// a lambda becomes, by +, the function that it stands for
+// unary + converts a lambda to a function pointer
 template <class Result, class Object>
 int push_result(lua_State* L, Result (*of)(Object&)) {
   auto&& object = receiver<std::remove_const_t<Object>>(L);
@@ -47,12 +47,12 @@ int push_equality(lua_State* L) {
   return push(L, a && b && *a == *b);
 }
 
-/// The function of an Entry: pushes what a function or a lambda makes of the object, as
+/// The function of an Entry: pushes the result of a function or a lambda for the object, as
 ///     {"position", getter<[](const Pose& x) { return x.position; }>, R"(...)"}
 template <auto of>
 inline constexpr lua_CFunction getter = guarded<push_field<of>>;
 
-/// The same of a method without arguments, or an operator; it may return nothing.
+/// The same for a method without arguments, or an operator; it may return nothing.
 template <auto of>
 inline constexpr lua_CFunction method = getter<of>;
 

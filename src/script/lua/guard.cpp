@@ -16,7 +16,7 @@
 
 namespace clench {
 
-// its address names the place of the metatable of error values
+// its address is the registry key of the metatable of error values
 static const char error_key = 0;
 
 void set_error_metatable(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &error_key); }
@@ -50,7 +50,7 @@ void push_error_value(lua_State* L, const char* sentence, const char* kind) {
   lua_setfield(L, -2, "kind");
 }
 
-static const char raised_key = 0;  // its address names the place of the waiting error value
+static const char raised_key = 0;  // its address is the registry key of the waiting error value
 
 // the error's value is on top of the stack
 [[noreturn]] static void raise_later(lua_State* L) {
@@ -86,19 +86,19 @@ void call_script(lua_State* L, int arguments, int results, std::string_view subj
   if (!try_script(L, arguments, results, subject)) raise_later(L);
 }
 
-// `at`, or a little less where a character of UTF-8 would be cut
+// `at`, or slightly less if it would cut a UTF-8 character
 static size_t character_at(std::string_view text, size_t at) {
   for (int back = 0; back < 3 && at > 0 && (text[at] & 0xC0) == 0x80; ++back) --at;
   return at;
 }
 
-// what an exception said, as people read it, in memory that needs no destructor
+// message of an exception, in printable form, in memory that needs no destructor
 struct Message {
-  // more is a name or a word that nobody reads to its end
+  // maximum length: longer texts are cut
   static constexpr size_t longest = 1000, kept_end = 250;
   char text[longest + 1];
 
-  // without control characters, which a terminal would obey, and of a long text both ends
+  // without control characters, which a terminal would interpret; long texts keep both ends
   void copy(std::string_view what) {
     std::string_view first = what, last;
     if (what.size() > longest) {
@@ -109,7 +109,7 @@ struct Message {
     if (!last.empty()) end = std::ranges::copy(last, std::strcpy(end, "...") + 3).out;
     *make_printable(text, end) = 0;
   }
-  // of what is no sentence of ours, such as the standard library's
+  // for errors that are not ours, such as those of the standard library
   void copy(lua_State* L, std::string_view what) {
     try {
       copy(fmt::format("{}: {}", subject(L), what));
@@ -131,7 +131,7 @@ ErrorKind error_kind(std::string_view name) {
   return static_cast<ErrorKind>(found - std::begin(kind_names));
 }
 
-// as many arguments as the entry takes, or fewer
+// at most as many arguments as the entry takes
 static void check_count(lua_State* L) {
   const auto allowed = static_cast<int>(lua_tointeger(L, lua_upvalueindex(at_max_arguments)));
   const int count = lua_gettop(L) - (running_class(L) ? 1 : 0);
@@ -156,7 +156,7 @@ static Failure run_caught(lua_State* L, lua_CFunction fn, int& results, Message&
   } catch (const std::bad_alloc&) {
     message.copy(L, "not enough memory");
     kind = ErrorKind::limit;
-  } catch (const std::length_error&) {  // of what is larger than any memory
+  } catch (const std::length_error&) {  // request larger than any memory
     message.copy(L, "not enough memory");
     kind = ErrorKind::limit;
   } catch (const std::exception& e) {
@@ -172,14 +172,15 @@ int run_guarded(lua_State* L, lua_CFunction fn) {
   ErrorKind kind = ErrorKind::input;
   const Failure failure = run_caught(L, fn, results, message, kind);
   if (failure == Failure::none) {
-    // the results are on the stack, and nothing of C++ is alive
+    // the results are on the stack, and no C++ object is alive
     collect_owned(L);
     return results;
   }
 
-  // the handler is left: nothing but plain memory is alive
+  // outside the handler only plain memory is alive
   lua_settop(L, 0);
-  // if both asked, this error is the deadline's, and the user's request raises the next one
+  // if both requested a stop, this error is the deadline's, and the user's request raises the next
+  // one
   const bool out_of_time = failure == Failure::stopped && bar_of(L)->take_end_of_time();
   if (failure == Failure::stopped && !out_of_time) bar_of(L)->take_all();
   if (failure == Failure::raised) {

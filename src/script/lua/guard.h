@@ -1,7 +1,7 @@
-// The one bridge between C++ exceptions and Lua errors. It works with a Lua built as C, whose
+// The only bridge between C++ exceptions and Lua errors. It works with a Lua built as C, whose
 // errors jump over frames without unwinding them, and with one built as C++, whose errors are
-// exceptions of its own: therefore never catch (...) here, and raise only when no C++ object is
-// left alive.
+// exceptions of its own type: therefore never use catch (...) here, and raise errors only when no
+// C++ object is alive.
 #pragma once
 #include <exception>
 #include <lua.hpp>
@@ -11,18 +11,19 @@
 
 namespace clench {
 
-/// The kind of that name, as error values have it.   throws Error when there is none
+/// The error kind with that name, as in error values.
+/// throws  Error if there is none
 ErrorKind error_kind(std::string_view name);
 
-/// A Lua error on its way through C++; its value waits in the state, and guarded raises it
-/// again unchanged.
+/// A Lua error passing through C++; its value is stored in the state, and guarded raises it again
+/// unchanged.
 class Raised : public std::exception {
  public:
   const char* what() const noexcept override { return "an error in a script's function"; }
 };
 
 /// Calls the function below its `arguments` on the stack.
-/// throws  Raised when it fails
+/// throws  Raised if it fails
 void protected_call(lua_State* L, int arguments, int results);
 
 /// protected_call of a script's function. An error without a message, and a yield, become an error
@@ -35,20 +36,20 @@ void call_script(lua_State* L, int arguments, int results, std::string_view subj
 bool try_script(lua_State* L, int arguments, int results, std::string_view subject);
 
 /// Runs fn.
-/// returns  what fn returned, or -1 with an error value on top of the stack
+/// returns  its result, or -1 with an error value on top of the stack
 int run_guarded(lua_State* L, lua_CFunction fn);
 
 /// Pushes "a.lua:3: ", of the innermost function that is neither C nor of the standard library; ""
-/// where there is none. No C++ object may be alive where Lua errors jump: it raises them for want
-/// of memory.
+/// if there is none. Raises Lua errors for lack of memory, so no C++ object may be alive where
+/// these jump.
 void push_script_place(lua_State* L);
 
-/// Pops what error values have as their metatable.
+/// Pops the metatable to be used for error values.
 void set_error_metatable(lua_State* L);
-/// Pushes the value of an error at the script's line. Raises Lua errors only for want of memory.
+/// Pushes an error value with the script's line. Raises Lua errors only for lack of memory.
 void push_error_value(lua_State* L, const char* sentence, const char* kind);
 
-/// fn as Lua may call it: a std::exception becomes a Lua error with the calling script's line.
+/// fn as a Lua function: a std::exception becomes a Lua error with the calling script's line.
 template <lua_CFunction fn>
 int guarded(lua_State* L) {
   const int results = run_guarded(L, fn);

@@ -12,7 +12,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// the file of the program or shared library whose code holds an address
+// the file of the program or shared library that contains the code at an address
 struct Search {
   uintptr_t address;
   std::string file;
@@ -25,14 +25,14 @@ static int visit(dl_phdr_info* info, size_t, void* data) {
     if (info->dlpi_phdr[i].p_type != PT_LOAD || search.address < start ||
         search.address - start >= info->dlpi_phdr[i].p_memsz)
       continue;
-    // the program itself has no name here
+    // the executable itself has no name here
     search.file = info->dlpi_name && *info->dlpi_name ? info->dlpi_name : "/proc/self/exe";
     return 1;
   }
   return 0;
 }
 
-// also of a program whose file was replaced while it runs, as a build does
+// also correct for a program whose file was replaced while it runs, as a build does
 static fs::path real_path(const std::string& file) {
   constexpr std::string_view mark = " (deleted)";
   std::error_code error;

@@ -4,7 +4,7 @@
 
 namespace clench {
 
-// addresses name the places of null and of the empty objects' metatable
+// addresses are the registry keys of null and of the empty objects' metatable
 static const char null_key = 0, object_key = 0;
 
 static int null_text(lua_State* L) { return push(L, "null"); }

@@ -145,7 +145,7 @@ class Reader {
       return lua_pushinteger(L_, n);
     double x = 0;
     const auto result = std::from_chars(first, last, x);
-    // out of range is either too large, an error, or too small, which is zero or nearly so
+    // out of range means either overflow, an error, or underflow, which gives zero or a tiny number
     if (result.ec != std::errc()) x = std::strtod(std::string(first, last).c_str(), nullptr);
     if (!std::isfinite(x))
       complain(start, "a number too large for 64 bits: " +
@@ -175,7 +175,7 @@ class Reader {
     if (!take('u')) refuse("one of \" \\ / b f n r t u after a backslash");
     unsigned code = hex4();
     if (code >= 0xD800 && code < 0xDC00) {
-      // the first half of a pair
+      // the first half of a surrogate pair
       const unsigned low = take('\\') && take('u') ? hex4() : 0;
       if (low < 0xDC00 || low > 0xDFFF) complain(start, "half of a surrogate pair");
       code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
@@ -185,7 +185,7 @@ class Reader {
     scratch_ += text_of(std::u32string(1, code));
   }
 
-  // stands on the opening quote; valid until the next call
+  // begins at the opening quote; valid until the next call
   const std::string& string() {
     const size_t start = at_++;
     scratch_.clear();

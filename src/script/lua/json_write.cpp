@@ -54,7 +54,7 @@ class Writer {
     }
     const double x = lua_tonumber(L_, index);
     if (!std::isfinite(x)) refuse("a finite number", index);
-    // the shortest digits, 17 at most, that read back to the same bits; a float stays one
+    // the shortest digits, at most 17, that read back bit-exactly; floats remain floats
     std::string text = fmt::format("{}", x);
     if (text.find_first_of(".e") == std::string::npos) text += ".0";
     out += text;
@@ -95,7 +95,7 @@ class Writer {
     if (luaL_getmetafield(L_, index, "__json") != LUA_TNIL) {
       lua_pushvalue(L_, index);
       call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path_));
-      if (++conversions_ > json_depth) refuse("an end to values that stand for values");
+      if (++conversions_ > json_depth) refuse("a finite chain of __json values");
       value(-1, depth);
       --conversions_;
       lua_pop(L_, 1);
@@ -110,7 +110,7 @@ class Writer {
     open_.pop_back();
   }
 
-  // keys are all names, or all of 1..n
+  // keys must be either all names, or 1..n
   void table(int index, int depth) {
     std::vector<std::string> names;
     const auto size = static_cast<lua_Integer>(lua_rawlen(L_, index));
@@ -178,7 +178,7 @@ class Writer {
 
   lua_State* L_;
   int indent_;
-  int conversions_ = 0;  // values of __json that stand for one another
+  int conversions_ = 0;  // chain of values returned by __json
   std::string path_;
   std::vector<const void*> open_;
 };

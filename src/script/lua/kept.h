@@ -1,4 +1,4 @@
-// What a state of Lua keeps until it closes, in its registry.
+// Objects stored in the registry of a Lua state until it closes.
 #pragma once
 #include <lua.hpp>
 #include <new>
@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Leaves the table that the address of `key` names on the stack, made when it is first asked for.
+/// Pushes the table whose registry key is the address of `key`, created on first use.
 /// returns  is it new?
 inline bool push_kept_table(lua_State* L, const void* key) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return false;
@@ -17,11 +17,11 @@ inline bool push_kept_table(lua_State* L, const void* key) {
   return true;
 }
 
-/// The one T of the state, made when it is first asked for.
+/// The only T of the state, created on first use.
 template <class T>
 T& kept(lua_State* L) {
   static_assert(alignof(T) <= 8, "Lua aligns to 8 bytes only");
-  static const char key = 0;  // its address names the T
+  static const char key = 0;  // its address is the registry key of the T
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &key) != LUA_TUSERDATA) {
     lua_pop(L, 1);
     new (lua_newuserdatauv(L, sizeof(T), 0)) T();

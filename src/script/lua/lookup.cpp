@@ -24,7 +24,7 @@ static int no_such_setter(lua_State* L) {
   fail("{} has no field {} to set{}", name, in_quotes(key), did_you_mean(key, known));
 }
 
-// the value of a field, a table, that is on top
+// expects the value of a field, a table, on top
 static int copied(lua_State* L) {
   check_part_not_assigned(L, lua_tostring(L, lua_upvalueindex(owner)), lua_tostring(L, 2));
   return 1;
@@ -63,7 +63,7 @@ static int set_member(lua_State* L) {
   return 0;
 }
 
-// the metatable is below; takes the named fallback out of it and puts the lookup in its place
+// replaces the named fallback of the metatable below by the lookup
 static void set_lookup(lua_State* L, const char* event, lua_CFunction lookup, const char* name,
                        const Class& kind) {
   const bool setting = lookup == set_member;

@@ -1,10 +1,10 @@
-// How Lua finds what entries of a class give: its metatable.
+// Lookup of the entries of a class in Lua: its metatable.
 #pragma once
 #include "clench/script/lua/entry.h"
 
 namespace clench {
 
-/// Leaves the metatable of a class on the stack, made at the first call.
+/// Pushes the metatable of a class, created at the first call.
 void push_metatable(lua_State* L, const Class& kind);
 
 }  // namespace clench

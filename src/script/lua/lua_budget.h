@@ -1,4 +1,4 @@
-// A bound on the memory of Lua values that are made of a text.
+// A limit on the memory of Lua values created from a text.
 #pragma once
 #include <lua.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// Counts what a Lua state takes from its creation on, what is left for the collector included.
+/// Counts the memory that a Lua state allocates from its creation on, including garbage.
 class LuaBudget {
  public:
   /// name, bytes  as of MemoryBudget

@@ -1,6 +1,6 @@
-// C++ values as Lua userdata: made by push_object, read by to, check_object (check.h) and self. Lua
-// sees a userdata alone and not what its value owns besides: that is counted here, and collected by
-// the guard (guard.h) where it has become much.
+// C++ values as Lua userdata: created by push_object, read by to, check_object (check.h) and self.
+// Lua sees only the size of the userdata and not the memory owned by its value: that is counted
+// here, and the guard (guard.h) collects garbage if it has become large.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -16,8 +16,7 @@
 
 namespace clench {
 
-/// The Class that stands for T, a const Class* beside each class's declaration; null: scripts hold
-/// no T.
+/// The Class of T, a const Class* next to each class's declaration; null: scripts have no T.
 template <class T>
 inline constexpr std::nullptr_t script_class = nullptr;
 template <class T>
@@ -28,12 +27,12 @@ const Class& class_of() {
   return *script_class<T>;
 }
 
-/// How a value lies in its userdata: aligned by hand, because Lua aligns to 8 bytes only.
+/// Layout of a value in its userdata: aligned explicitly, because Lua aligns only to 8 bytes.
 template <class T>
 struct Box {
   const Class* kind;
   bool alive;             ///< false after __gc or __close
-  uint32_t owned_kb = 0;  ///< what Lua was told of
+  uint32_t owned_kb = 0;  ///< memory reported to Lua
   alignas(T) unsigned char storage[sizeof(T)];
 
   T* value() { return std::launder(reinterpret_cast<T*>(storage)); }
@@ -44,14 +43,14 @@ struct Box {
   }
 };
 
-/// of a userdata, whose own place need not be aligned as the box
+/// size of a userdata that can hold an aligned box at any address
 template <class T>
 inline constexpr size_t box_bytes = sizeof(Box<T>) + alignof(Box<T>);
 
 /// Does the value at the index have the class's metatable?
 bool has_class(lua_State* L, int index, const Class& kind);
 
-/// The T in the userdata at the index; null when it is something else or was closed.
+/// The T in the userdata at the index; null if it is something else or was closed.
 template <class T>
 T* to(lua_State* L, int index) {
   if (!has_class(L, index, class_of<T>())) return nullptr;
@@ -60,14 +59,15 @@ T* to(lua_State* L, int index) {
   return box->kind == &class_of<T>() && box->alive ? box->value() : nullptr;
 }
 
-/// Bytes that a value owns besides its userdata, about; overloaded beside the classes whose values
-/// own much. Shared parts count with whoever is sure to drop them last, or modestly.
+/// Approximate memory that a value owns besides its userdata [bytes]; overloaded next to classes
+/// whose values own much. Shared parts are counted by the owner that is certain to drop them last,
+/// or with a small size.
 template <class T>
 size_t owned_bytes(const T&) {
   return 0;
 }
 
-/// Ends the value's life; a second call, or a foreign self, does nothing.
+/// Destroys the value; a second call, or a foreign self, has no effect.
 template <class T>
 int close_object(lua_State* L) {
   if (T* value = to<T>(L, 1)) {
@@ -79,7 +79,7 @@ int close_object(lua_State* L) {
   return 0;
 }
 
-/// The value at the index, which is a T, owns so many bytes more.
+/// Adds to the owned memory of the value at the index, which must be a T [bytes].
 template <class T>
 void add_owned(lua_State* L, int index, size_t bytes) {
   auto* box = Box<T>::in(lua_touserdata(L, index));
@@ -88,9 +88,9 @@ void add_owned(lua_State* L, int index, size_t bytes) {
   if (kilobytes > 0) count_owned(L, kilobytes);
 }
 
-/// Leaves a userdata with the value on the stack.
-/// user_values  Lua values that it keeps besides, nil at first
-/// returns  1
+/// Pushes a userdata with the value.
+/// user_values  number of its associated Lua values, initially nil
+/// returns      1
 template <class T>
 int push_object(lua_State* L, T value, int user_values = 0) {
   const Class& kind = class_of<T>();
@@ -127,7 +127,7 @@ struct What;
 ///         "subject: expected a snapshot, got one that was closed"
 [[noreturn]] void fail_object(const What& what, const Class& kind, int index);
 
-/// The object that a method or field belongs to.
+/// The object of the running method or field.
 template <class T>
 T& self(lua_State* L) {
   if (T* object = to<T>(L, 1)) return *object;

@@ -21,7 +21,7 @@ const PackedFile* find_packed(std::string_view module) {
   return nullptr;
 }
 
-// leaves the compiled chunk on the stack
+// pushes the compiled chunk
 static void load_packed(lua_State* L, const PackedFile& file) {
   lua_pushstring(L, "@stdlib/");
   lua_pushlstring(L, file.path.data(), file.path.size());
@@ -43,7 +43,7 @@ void push_packed(lua_State* L, const char* module) {
     load_packed(L, *file);
     lua_pushvalue(L, -2);
     lua_call(L, 1, 1);
-    // a module that returns nothing is true, as with require
+    // a module that returns nothing has the value true, as with require
     if (lua_isnil(L, -1)) {
       lua_pop(L, 1);
       lua_pushboolean(L, 1);
@@ -64,7 +64,7 @@ void take_packed_function(lua_State* L, const char* module) {
   lua_pop(L, 1);
 }
 
-// the loader that require calls with the name
+// loader called by require with the name
 static int run_packed(lua_State* L) {
   const char* name = luaL_checkstring(L, 1);
   if (!std::strncmp(name, "clench.", 7)) name += 7;
@@ -72,7 +72,7 @@ static int run_packed(lua_State* L) {
   return 1;
 }
 
-// leaves what require wants of a searcher
+// pushes the values that require expects of a searcher
 static int give_packed(lua_State* L, const PackedFile& file) {
   lua_pushcfunction(L, run_packed);
   lua_pushlstring(L, file.path.data(), file.path.size());
@@ -84,7 +84,7 @@ static int give_module(lua_State* L) {
   return 1;
 }
 
-// names of ours are ours alone: one that is not there is an error, which ends the search
+// our prefix is reserved: an unknown name is an error, which ends the search
 static int search_packed(lua_State* L) {
   const char* name = luaL_checkstring(L, 1);
   if (!std::strcmp(name, "clench")) {
@@ -98,7 +98,7 @@ static int search_packed(lua_State* L) {
   return luaL_error(L, "no module '%s' in clench's standard library", name);
 }
 
-// those that scripts use; the others' names are left to the user's own modules
+// modules for scripts; other names are left to the user's own modules
 static bool has_bare_name(std::string_view module) {
   for (const std::string_view name : {"report", "shapes", "show", "study", "test"})
     if (module == name || (module.starts_with(name) && module[name.size()] == '.')) return true;

@@ -84,7 +84,7 @@ int push_record(lua_State* L, std::initializer_list<Field> fields) {
   return 1;
 }
 
-// print(list): the standard library knows how
+// print(list): implemented in the standard library
 static int list_text(lua_State* L) {
   push_packed(L, "show");
   lua_pushvalue(L, 1);
@@ -92,7 +92,7 @@ static int list_text(lua_State* L) {
   return 1;
 }
 
-static const char list_key = 0;  // its address names the lists' metatable
+static const char list_key = 0;  // its address is the registry key of the lists' metatable
 
 int push_list(lua_State* L, int expected_items, int expected_fields) {
   lua_createtable(L, expected_items, expected_fields);
@@ -100,7 +100,8 @@ int push_list(lua_State* L, int expected_items, int expected_fields) {
     lua_pushcfunction(L, list_text);
     lua_setfield(L, -2, "__tostring");
     lua_pushboolean(L, 1);
-    lua_setfield(L, -2, "__contents");  // its text is its contents: show need not ask it again
+    // its text shows its contents, so show need not call it again
+    lua_setfield(L, -2, "__contents");
   }
   lua_setmetatable(L, -2);
   return 1;

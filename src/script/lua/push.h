@@ -1,6 +1,6 @@
-// C++ values onto Lua's stack: push(L, value), which others overload for types of theirs. Lists and
-// records print their contents. Each function returns 1. Numbers, vectors and poses that scripts
-// are given can be given back: what overflowed is an error "vec3: the result is not finite, got
+// C++ values onto Lua's stack: push(L, value), overloaded for further types elsewhere. Lists and
+// records print their contents. Each function returns 1. Numbers, vectors and poses given to
+// scripts are valid as arguments: an overflow is an error "vec3: the result is not finite, got
 // (inf, 0, 0)".
 #pragma once
 #include <Eigen/Core>
@@ -20,21 +20,21 @@ namespace clench {
 
 int push_nil(lua_State* L);
 int push(lua_State* L, double x);
-int push_unbounded(lua_State* L, double x);  ///< of which infinity is a value, too
+int push_unbounded(lua_State* L, double x);  ///< a number that may be infinite
 int push(lua_State* L, bool b);
 int push(lua_State* L, int n);
 int push(lua_State* L, lua_Integer n);
 int push(lua_State* L, std::string_view text);
 int push(lua_State* L, const char* text);
 int push(lua_State* L, const Eigen::Vector3d& v);          ///< a vec3
-int push(lua_State* L, const Pose& pose);                  ///< one that check_place allows
+int push(lua_State* L, const Pose& pose);                  ///< one that satisfies check_place
 int push(lua_State* L, std::span<const double> numbers);   ///< a list
 int push_rows(lua_State* L, const Eigen::MatrixXd& rows);  ///< a list of lists
 
-/// An empty table that prints what will be in it; fill it with lua_rawseti and set_field.
+/// An empty table that prints its contents; fill it with lua_rawseti and set_field.
 int push_list(lua_State* L, int expected_items = 0, int expected_fields = 0);
 
-/// A list of what push_item(item) leaves on the stack, one for each item of a range.
+/// A list of the values that push_item(item) pushes, one for each item of a range.
 template <class Range, class PushItem>
 int push_list_of(lua_State* L, const Range& range, PushItem push_item) {
   push_list(L, static_cast<int>(std::size(range)));
@@ -60,7 +60,7 @@ int push(lua_State* L, const Eigen::MatrixBase<Derived>& m) {
 }
 
 template <class T>
-concept ListItem = !std::is_same_v<T, double>;  // lists of numbers are pushed as they are
+concept ListItem = !std::is_same_v<T, double>;  // lists of numbers are pushed unchanged
 
 /// An object of a class; nil for a null pointer.
 template <Scripted T>
@@ -84,7 +84,7 @@ int push(lua_State* L, const std::vector<T>& list) {
   return push(L, std::span<const T>(list));
 }
 
-/// A table by names; of its numbers infinity is a value, too.
+/// A table indexed by names; its numbers may be infinite.
 template <class T>
 int push(lua_State* L, const std::map<std::string, T>& named) {
   push_list(L, 0, static_cast<int>(named.size()));
@@ -98,8 +98,8 @@ int push(lua_State* L, const std::map<std::string, T>& named) {
   return 1;
 }
 
-/// A key of a record, and its value, or a function that leaves the value on the stack: either lives
-/// until the record is pushed. A value that is nil leaves no field.
+/// A key of a record, and its value, or a function that pushes the value: either must live until
+/// the record is pushed. A nil value adds no field.
 class Field {
  public:
   template <class T>

@@ -52,7 +52,7 @@ std::string described(lua_State* L, int index) {
       return lua_toboolean(L, index) ? "true" : "false";
     case LUA_TNUMBER:
       if (lua_isinteger(L, index)) return fmt::format("{}", lua_tointeger(L, index));
-      // which of the two it is depends on how it was made
+      // its sign depends on how it was made
       if (std::isnan(lua_tonumber(L, index))) return "nan";
       return fmt::format("{}", lua_tonumber(L, index));
     case LUA_TSTRING:
@@ -113,18 +113,18 @@ std::string read_string(lua_State* L, int i, const What& what) {
   return std::string(text);
 }
 
-// leaves the item of a list on the stack; metamethods are not asked
+// pushes the item of a list; metamethods are not called
 static void push_item(lua_State* L, int list, int item) {
   if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "too many values on the stack");
   lua_rawgeti(L, list, item);
 }
 
-// so that no message hangs on the order of a hash table; "" is none yet
+// the smallest, so that messages do not depend on the order of a hash table; "" is none yet
 static void keep_least(std::string& least, std::string text) {
   if (least.empty() || text < least) least = std::move(text);
 }
 
-// the key of a table that is none of its list, of names the least; "" when there is none
+// a key of a table that is not in its list, the smallest name; "" if there is none
 static std::string foreign_key(lua_State* L, int table, lua_Integer size, const char* extra) {
   std::string name, other;
   for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1)) {
@@ -179,14 +179,14 @@ std::vector<double> read_numbers(lua_State* L, int i, const What& what, int coun
     return {v->x(), v->y(), v->z()};
   const std::string expected =
       count < 0 ? "a list of numbers" : fmt::format("{} number{}", count, count == 1 ? "" : "s");
-  // an item that is a number is no count of numbers
+  // a number as an item would be mistaken for a count of numbers
   if (lua_type(L, i) != LUA_TTABLE && count >= 0) fail_expected(what, "a list of " + expected, i);
   const int size = read_list_size(L, i, what, expected);
   if (count >= 0 && size != count) fail("{}: expected {}, got {}", what.text(), expected, size);
   std::vector<double> numbers(static_cast<size_t>(size));
   for (int k = 1; k <= size; ++k) {
     push_item(L, i, k);
-    // the item's name is made only when it is needed
+    // the item's name is created only if needed
     if (lua_type(L, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, -1)))
       read_number(L, -1, what.item(k));
     numbers[static_cast<size_t>(k - 1)] = lua_tonumber(L, -1);

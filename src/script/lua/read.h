@@ -1,5 +1,5 @@
-// Lua values as C++ values, strictly: no strings for numbers, nothing infinite, and a sentence for
-// what is wrong.
+// Lua values as C++ values, with strict checks: no strings as numbers, nothing infinite, and an
+// error message for invalid values.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace clench {
 
-/// Whose value is read, for messages: "hand:autograsp: speed".
+/// Name of the value being read, for messages: "hand:autograsp: speed".
 struct What {
   lua_State* L;
-  std::string_view subject;  ///< empty: the entry that runs
-  std::string key;           ///< empty: the value itself, as of a field that is set
+  std::string_view subject;  ///< empty: the running entry
+  std::string key;           ///< empty: the value itself, for example of a field being set
 
   std::string text() const;
   What item(int i) const { return {L, subject, key + '[' + std::to_string(i) + ']'}; }
@@ -36,19 +36,19 @@ std::string described(lua_State* L, int index);
 
 // each throws Error as above; i is an index of the stack
 double read_number(lua_State* L, int i, const What& what);    ///< finite
-int64_t read_integer(lua_State* L, int i, const What& what);  ///< 2.0 is an integer too
+int64_t read_integer(lua_State* L, int i, const What& what);  ///< 2.0 is also an integer
 int read_int(lua_State* L, int i, const What& what);          ///< within the range of int
 bool read_boolean(lua_State* L, int i, const What& what);
 std::string read_string(lua_State* L, int i, const What& what);    ///< without zero bytes
 Eigen::Vector3d read_vec3(lua_State* L, int i, const What& what);  ///< a vec3 or {x, y, z}
-/// a pose, or the table that clench.pose takes
+/// a pose, or the table that clench.pose accepts
 Pose read_pose(lua_State* L, int i, const What& what);
-/// How many items a list has: a table of the keys 1, 2, ... and none else but `extra`.
+/// Number of items in a list: a table with the keys 1, 2, ... and no others except `extra`.
 /// throws  Error "...: expected a list of contacts, got a table with the key 'link'"
 int read_list_size(lua_State* L, int i, const What& what, std::string_view expected,
                    const char* extra = nullptr);
-/// The names in a table {name = value}, sorted, so that the first fault told is always the same.
-/// numbers  takes the keys that are ints, sorted; null: those are refused like all others
+/// The sorted names in a table {name = value}, so that the first reported fault is always the same.
+/// numbers  receives the keys that are ints, sorted; null: those are rejected like all others
 /// throws   Error "...: expected names of variables as keys, got 3"
 std::vector<std::string> read_keys(lua_State* L, int table, const What& what,
                                    std::string_view expected, std::vector<int>* numbers = nullptr);

@@ -12,7 +12,7 @@ struct Current {
   std::shared_ptr<lua_State*> state = std::make_shared<lua_State*>(nullptr);
 };
 
-// a function kept in the registry until nobody wants it
+// a function stored in the registry until its last user releases it
 struct Reference {
   lua_State* main;
   int number;

@@ -1,4 +1,4 @@
-// A script's function that the engine may call, as long as the script waits for the engine.
+// A script's function that the engine may call while the script waits for the engine.
 #pragma once
 #include <functional>
 #include <lua.hpp>
@@ -6,10 +6,10 @@
 
 namespace clench {
 
-/// The state that calls the engine now: a coroutine's, or the main one.
+/// The Lua thread that is calling the engine: a coroutine, or the main one.
 class CallingState {
  public:
-  /// It is L until this ends; then again what it was.
+  /// Sets it to L during its lifetime, then restores the previous one.
   explicit CallingState(lua_State* L);
   ~CallingState() { *current_ = before_; }
   CallingState(const CallingState&) = delete;
@@ -20,10 +20,10 @@ class CallingState {
   lua_State* before_;
 };
 
-/// The function at the index, which gives a number. It lives as long as the result, or a copy of
-/// it, does, and may be called where a CallingState is.
-/// throws  when called: Raised, where the function fails; Error when it gives no number, or nobody
-///         waits
+/// The function at the index, which must return a number. It lives as long as the result or a copy
+/// of it, and may be called while there is a CallingState.
+/// throws  when called: Raised, if the function fails; Error if it returns no number, or there is
+///         no CallingState
 std::function<double()> script_number(lua_State* L, int index);
 
 }  // namespace clench

@@ -4,7 +4,7 @@
 
 namespace clench {
 
-// their addresses name the places of the texts
+// their addresses are the registry keys of the texts
 static const char setting_keys[3] = {};
 
 static const void* key_of(Setting setting) { return &setting_keys[static_cast<int>(setting)]; }

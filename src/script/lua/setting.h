@@ -1,4 +1,4 @@
-// Texts that a state keeps for whoever runs it, "" until they are set.
+// Text settings of a Lua state, "" until they are set.
 #pragma once
 #include <string>
 
@@ -7,17 +7,17 @@ struct lua_State;
 namespace clench {
 
 enum class Setting {
-  modules,      ///< the folder of the script that runs: require looks in it for the user's modules
-  confine,      ///< the folder below which files are read, where a call does not name another
+  modules,      ///< the folder of the running script: require searches it for the user's modules
+  confine,      ///< the folder below which files are read, unless a call names another
   worker_nice,  ///< niceness of threads for jobs and clench.parallel.map, 0 to 19
 };
 
 std::string get_setting(lua_State* L, Setting setting);
-/// Leaves it on the stack.
+/// Pushes it.
 void push_setting(lua_State* L, Setting setting);
 void set_setting(lua_State* L, Setting setting, const std::string& text);
 
-/// Another text as long as it lives.
+/// Replaces a setting during its lifetime.
 class ScopedSetting {
  public:
   ScopedSetting(lua_State* L, Setting setting, const std::string& text);

@@ -5,7 +5,7 @@
 
 namespace clench {
 
-/// The string at the index, with its zero bytes, as long as it stays on the stack.
+/// The string at the index, including zero bytes, valid while it stays on the stack.
 inline std::string_view string_at(lua_State* L, int index) {
   size_t size = 0;
   const char* text = lua_tolstring(L, index, &size);

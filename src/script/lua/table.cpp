@@ -128,8 +128,8 @@ void Table::refuse(int key) const {
   fail("{}: unknown key {}{}", subject_, described(L_, key), instead_of(name, known_));
 }
 
-// The options that the doc of the running entry describes for its argument at the index; none for
-// a table within another, whose subject is longer.
+// The options that the doc of the running entry describes for its argument at the index; none for a
+// nested table, whose subject is longer.
 static std::span<const DescribedOption> options_at(lua_State* L, int index,
                                                    const std::string& table_subject) {
   const Entry* entry = running_entry(L);
@@ -137,7 +137,7 @@ static std::span<const DescribedOption> options_at(lua_State* L, int index,
   return described_options(*entry, index - (running_class(L) ? 2 : 1));
 }
 
-// Refuses numbers beyond the range of their option.
+// Rejects numbers beyond the range of their option.
 static void check_ranges(lua_State* L, int index, std::span<const DescribedOption> options,
                          const std::string& table_subject) {
   for (const DescribedOption& option : options) {
@@ -157,11 +157,11 @@ void Table::done() {
   const auto options = options_at(L_, index_, subject_);
   check_ranges(L_, index_, options, subject_);
   if (!options.empty()) {
-    // what the doc does not describe is unknown, even if the function would read it
+    // an option that the doc does not describe is unknown, even if the function would read it
     known_.clear();
     for (const DescribedOption& option : options) known_.push_back(option.name);
   }
-  // the least unknown name, so that the message does not hang on the order of a hash table
+  // the smallest unknown name, so that the message does not depend on the order of a hash table
   std::string unknown;
   for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {
     if (lua_type(L_, -2) != LUA_TSTRING) refuse(lua_absindex(L_, -2));

@@ -1,4 +1,4 @@
-// The options of a call: one Lua table, read key by key, where a key that nobody read is an error.
+// The options of a call: one Lua table, read key by key, in which unread keys are errors.
 #pragma once
 #include <initializer_list>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace clench {
 
-/// A word, and what it stands for.
+/// A word, and its value.
 template <class T>
 struct Word {
   const char* word;
@@ -25,7 +25,7 @@ struct Words : std::span<const Word<T>> {
       : std::span<const Word<T>>(words.begin(), words.size()) {}
 };
 
-/// The word that stands for a value; the last one where none does.
+/// The word for a value; the last one if there is none.
 template <class T>
 const char* word_of(const T& value, std::type_identity_t<Words<T>> words) {
   for (const Word<T>& word : words)
@@ -38,7 +38,7 @@ const char* word_of(const T& value, std::type_identity_t<Words<T>> words) {
 class Table {
  public:
   /// The table at the index, which must stay on the stack; nothing or nil is the empty table.
-  /// subject  default: the entry that runs
+  /// subject  default: the running entry
   /// throws   Error "...: expected a table of options, got 3"
   Table(lua_State* L, int index, std::string subject = "");
 
@@ -53,7 +53,7 @@ class Table {
   bool boolean(const char* key, bool fallback);
   std::string string(const char* key);
   std::string string(const char* key, const std::string& fallback);
-  /// what one of the words stands for
+  /// value of one of the words
   /// throws  Error "...: unknown norm 'L3'; did you mean 'L1'?"
   template <class T>
   T choice(const char* key, std::type_identity_t<Words<T>> words, T fallback);
@@ -69,13 +69,13 @@ class Table {
   /// Calls read(index, what) with each item of a list.
   template <class Read>
   void each(const char* key, std::string_view expected, Read read);
-  /// a userdata, or null when the key is absent
+  /// a userdata, or null if the key is absent
   template <class T>
   T* object(const char* key);
-  /// Leaves a function, or nil when absent, on the stack.
-  /// returns  whether there is one
+  /// Pushes a function, or nil if absent.
+  /// returns  is there one?
   bool push_function(const char* key);
-  /// Leaves whatever the key holds on the stack, for what has no reader here.
+  /// Pushes the value of the key, for types that have no reader here.
   /// returns  its type
   int push(const char* key);
 
@@ -83,16 +83,16 @@ class Table {
   What what(const char* key) const { return {L_, subject_, key}; }
   const std::string& subject() const { return subject_; }
 
-  /// throws Error for a key that was not asked for; call it last
+  /// throws Error for a key that was not read; call it last
   void done();
 
  private:
   [[noreturn]] void refuse(int key) const;
-  /// throws Error when the key is absent, and one that nobody asked for reads nearly like it
+  /// throws Error if the key is absent, and an unread one has a similar name
   void push_required(const char* key);
   template <class T>
   T required(const char* key);
-  /// The place among the words of the one that the key holds.
+  /// The index of the key's value among the words.
   size_t place_of_word(const char* key, const std::vector<std::string>& words);
 
   lua_State* L_;

@@ -1,4 +1,4 @@
-// The values that are read and pushed everywhere: vectors and poses.
+// Values that are read and pushed everywhere: vectors and poses.
 #pragma once
 #include <Eigen/Core>
 
@@ -17,7 +17,7 @@ inline constexpr const Class* script_class<Pose> = &pose_class;
 /// "(0.1, 0, -2)", six digits
 std::string vec3_text(const Eigen::Vector3d& v);
 
-/// The pose that a table {xyz=, rpy= | quat= | matrix=} says.
+/// The pose of a table {xyz=, rpy= | quat= | matrix=}.
 /// throws  Error that begins with the subject
 Pose pose_from_table(lua_State* L, int index, const std::string& subject);
 

@@ -18,11 +18,12 @@ static double bar_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-static constexpr double bar_delay = 0.5, pause = 0.1;  // before it shows, and between two bars [s]
+// before it is shown, and between two updates [s]
+static constexpr double bar_delay = 0.5, pause = 0.1;
 
 static constexpr std::string_view erase_line = "\r\x1b[K";
 
-// The terminal is one for all states and threads of the process.
+// The terminal is shared by all states and threads of the process.
 static std::atomic<bool> bar_stands = false;
 
 void write_above_bar(std::string_view lines) {
@@ -99,7 +100,7 @@ void Bar::draw(double fraction, std::string_view text) {
     const int full = floor_between(fraction * width, 0, width);
     line += fmt::format("[{:#<{}}{: <{}}] {:3d} %  ", "", full, "", width - full,
                         floor_between(100 * fraction, 0, 100));
-    // what is left, when there is something to tell it from
+    // remaining time, if it can be estimated
     if (fraction > 0.02 && fraction < 1)
       line += fmt::format("{:.0f} s left  ", (time - began_) * (1 - fraction) / fraction);
   }

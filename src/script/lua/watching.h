@@ -11,31 +11,33 @@
 
 namespace clench {
 
-/// Shows a bar on stderr when that is a terminal, for work of more than half a second.
+/// Shows a bar on stderr if that is a terminal, for work of more than half a second.
 class Bar : public Watcher {
  public:
   Bar();
   /// Stores the progress of a script's own loop; meanwhile that of the engine is not displayed.
   void note_script(double fraction, std::string_view text);
-  /// The progress of the script's own loop while there is one, else that of the engine. May be
+  /// The progress of the script's own loop if there is one, otherwise that of the engine. May be
   /// called from any thread.
   State shown() const;
   /// Stops displaying; for states in other threads.
   void hide() { terminal_ = false; }
 
-  /// Work begins, and ends: the outermost takes the bar away.
+  /// Start and end of work: the end of the outermost work removes the bar.
   void begin();
   void end();
   void begin_script();
   void end_script();
 
-  /// Asks for a stop as Ctrl-C does. May be called in a signal handler.
+  /// Requests a stop as Ctrl-C does. May be called in a signal handler.
   void interrupt() { interrupted_ = true, stop(); }
-  /// Asks for a stop at the end of a time limit. Any thread may call it.
+  /// Requests a stop at the end of a time limit. Any thread may call it.
   void end_time() { out_of_time_ = true, stop(); }
-  /// Withdraws a request of end_time(), and leaves that of interrupt().   returns  was there one?
+  /// Withdraws a request of end_time(), and leaves that of interrupt().
+  /// returns  was there one?
   bool take_end_of_time();
-  /// Withdraws all requests.   returns  was there one?
+  /// Withdraws all requests.
+  /// returns  was there one?
   bool take_all();
 
  private:
@@ -51,8 +53,8 @@ class Bar : public Watcher {
   std::atomic<bool> interrupted_ = false, out_of_time_ = false;
 };
 
-/// Writes lines to stderr, in place of a bar that stands there; the bar is drawn again below them.
-/// Any thread may call it.
+/// Writes lines to stderr, in place of a visible bar, which is drawn again below them. Any thread
+/// may call it.
 void write_above_bar(std::string_view lines);
 
 /// The bar of the state, created on first use.

@@ -83,7 +83,7 @@ end
 ---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
 ---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each reply
----@option seed? integer = 1
+---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table hand # `path`, `unplug()`, `close()`; `motors`, `stops`: how often the motors were switched off
 --- > simulated = clench.devices.simulated.barrett {}
 --- > line = clench.port.serial {path = simulated.path}
@@ -94,6 +94,6 @@ return function(options)
   return new_line("barrett", options, function(o)
     local motors = {}
     for _, letter in ipairs(order) do motors[letter] = new_motor() end
-    return {motors = motors, stops = 0, move_time = o:not_negative("move_time", 0)}
+    return {motors = motors, stops = 0, move_time = o:get "move_time"}
   end, serve)
 end

@@ -25,7 +25,7 @@ end
 local function read_sensors(o)
   local given = o:raw "sensors" or {}
   if type(given) ~= "table" or #given > count then o:expected("sensors", "a list of at most 22 numbers", given) end
-  local random, sensors = clench.random(o:count("seed", 1, 0, 1 << 53)), {}
+  local random, sensors = clench.random(o:get "seed"), {}
   for i = 1, count do
     local value = given[i] or random:integer(40, 220)
     if math.type(value) ~= "integer" or value < 1 or value > 255 then o:expected(("sensors[%d]"):format(i), "a whole number from 1 to 255", value) end
@@ -40,7 +40,7 @@ end
 ---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
 ---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each reply
----@option seed? integer = 1
+---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table glove # `path`, `sensors`, `state` (3: ready), `unplug()`, `close()`
 --- > simulated = clench.devices.simulated.cyberglove {}
 --- > #simulated.sensors, simulated.state  --> 22, 3

@@ -164,7 +164,7 @@ end
 ---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
 ---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each answer
----@option seed? integer = 1
+---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table bus # `path`, `motors` by id, `unplug()`, `close()`
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > line = clench.port.serial {path = simulated.path}
@@ -179,6 +179,6 @@ return function(options)
       if math.type(id) ~= "integer" or id < 0 or id > 252 then o:expected(("ids[%d]"):format(i), "a number from 0 to 252", id) end
       motors[id] = new_motor()
     end
-    return {motors = motors, speed = o:positive("speed", 5)}
+    return {motors = motors, speed = o:get "speed"}
   end, serve)
 end

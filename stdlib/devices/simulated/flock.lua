@@ -57,14 +57,14 @@ end
 ---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
 ---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each record
----@option seed? integer = 1
+---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table flock # `path`, `poses`, `unplug()`, `close()`
 --- > simulated = clench.devices.simulated.flock {birds = 2}
 --- > #simulated.poses  --> 2
 --- > simulated:close()
 return function(options)
   return new_line("flock", options, function(o)
-    local birds, given, poses = o:count("birds", 1, 1, 3), o:raw "poses" or {}, {}
+    local birds, given, poses = o:get "birds", o:raw "poses" or {}, {}
     if type(given) ~= "table" or #given > 3 then o:expected("poses", "a list of poses", given) end
     for i = 1, math.max(birds, #given) do
       local pose = given[i] or clench.pose {}

@@ -39,12 +39,6 @@ function Line:close() self.port:close() end
 
 Line.__close = function(self) self:close() end
 
-local function part(o, name)
-  local value = o:not_negative(name, 0)
-  if value > 1 then o:expected(name, "a part from 0 to 1", value) end
-  return value
-end
-
 ---@param name string  "barrett"
 ---@param options? table  of the caller
 ---@param read fun(o: table): table  reads the device's own options, and returns its fields
@@ -52,9 +46,9 @@ end
 return function(name, options, read, serve)
   local o = new_options("devices.simulated." .. name, options or {})
   local fields = read(o)
-  fields.name, fields.flip_bytes, fields.lose_bytes = name, part(o, "flip_bytes"), part(o, "lose_bytes")
-  fields.delay = o:not_negative("delay", 0)
-  fields.random = clench.random(o:count("seed", 1, 0, 1 << 53))
+  fields.name, fields.flip_bytes, fields.lose_bytes = name, o:get "flip_bytes", o:get "lose_bytes"
+  fields.delay = o:get "delay"
+  fields.random = clench.random(o:get "seed")
   o:done()
   fields.port = clench.port.pty()
   fields.path = fields.port.path

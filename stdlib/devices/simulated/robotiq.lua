@@ -103,7 +103,7 @@ end
 ---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
 ---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each answer
----@option seed? integer = 1
+---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table gripper # `path`, `position`, `stops`: how often the fingers were stopped, `unplug()`, `close()`
 --- > simulated = clench.devices.simulated.robotiq {}
 --- > line = clench.port.serial {path = simulated.path}
@@ -114,6 +114,6 @@ return function(options)
   return new_line("robotiq", options, function(o)
     local object = o:raw "object"
     if object ~= nil and (math.type(object) ~= "integer" or object < 0 or object > 255) then o:expected("object", "a number from 0 to 255", object) end
-    return {slave = o:count("slave", 9, 1, 247), full_time = o:positive("full_time", 0.05), object = object, position = 0, goal = 0, met = 3, time = loop.time(), stops = 0}
+    return {slave = o:get "slave", full_time = o:get "full_time", object = object, position = 0, goal = 0, met = 3, time = loop.time(), stops = 0}
   end, serve)
 end

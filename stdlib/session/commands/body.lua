@@ -1,4 +1,4 @@
---- Commands of the Element menu: bodies and robots by their addresses, or those that are selected.
+--- Commands of the Element menu: on bodies and robots by address, or on the selection.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local script = require "clench.session.script"
@@ -12,7 +12,7 @@ local function lines_for(list, line)
   return table.concat(lines, "\n")
 end
 
--- a command that sets one field of bodies; of a robot, of all its bodies
+-- a command that sets one field of bodies; for a robot, of all its bodies
 local function setter(field, label, parameter)
   parameter.name = field
   local function targets(session, args)
@@ -38,7 +38,7 @@ local function pose_of(value) return clench.type(value) == "pose" and value or c
 
 local function names_of(list) return (lines_for(list, script.name_of):gsub("\n", ", ")) end
 
--- bodies whose collisions a command switches: none stands for the world, two for their pair, others for each with everything
+-- arguments of set_collision: without bodies for the complete world, for two bodies their pair, otherwise each body with everything
 local function collision_calls(session, args)
   local list = args.body == nil and session.selection or arguments.find_several(session, args.body)
   if args.other ~= nil then list = {list[1], arguments.find(session, args.other)} end
@@ -52,8 +52,8 @@ end
 
 return {
   {name = "body.move", label = "Move…", menu = "Element", enabled = conditions.world,
-   parameters = {body, {name = "pose", type = "pose", text = "where it is from now on, in the world frame"},
-                 {name = "stop_at_contact", type = "boolean", default = false, text = "true: it moves there on a straight line, until it touches something"}},
+   parameters = {body, {name = "pose", type = "pose", text = "its new pose, in the world frame"},
+                 {name = "stop_at_contact", type = "boolean", default = false, text = "true: it moves there along a straight line until first contact"}},
    run = function(session, args)
      local thing = arguments.find(session, args.body)
      if args.stop_at_contact then return thing:move_to(pose_of(args.pose)) end
@@ -71,8 +71,8 @@ return {
    end},
   {name = "body.collisions", label = "Collisions ON/OFF", menu = "Element", enabled = conditions.world,
    parameters = {{name = "body", type = "body", optional = true, text = "address of a body or robot; the selection by default, and without one the complete world"},
-                 {name = "other", type = "body", optional = true, text = "the other one of a pair; without it, the body and everything"},
-                 {name = "on", type = "boolean", optional = true, text = "do they collide? By default the opposite of now"}},
+                 {name = "other", type = "body", optional = true, text = "the other body of a pair; by default all bodies"},
+                 {name = "on", type = "boolean", optional = true, text = "true: they collide; by default the present setting is inverted"}},
    run = function(session, args)
      for _, call in ipairs(collision_calls(session, args)) do session.world:set_collision(table.unpack(call)) end
    end,
@@ -87,6 +87,6 @@ return {
   setter("transparency", "Transparency…", {type = "number", min = 0, max = 1, text = "0: opaque, 1: invisible"}),
   setter("color", "Color…", {type = "table", text = "red, green and blue, each from 0 to 1"}),
   {name = "body.distance", label = "Distance…", menu = "Element", shortcut = "v", enabled = conditions.world, reads = true,
-   parameters = {{name = "a", type = "body", text = "address of a body or robot"}, {name = "b", type = "body", text = "address of the other one"}},
+   parameters = {{name = "a", type = "body", text = "address of a body or robot"}, {name = "b", type = "body", text = "address of the other body or robot"}},
    run = function(session, args) return session.world:distance(arguments.find(session, args.a), arguments.find(session, args.b)) end},
 }

@@ -1,11 +1,11 @@
---- Commands of the Dynamics menu: simulated time, in one go, in steps or beside the clock, and a stack of states.
+--- Commands of the Dynamics menu: runs the simulation at once, in steps or in real time, and manages a stack of states.
 local conditions = require "clench.session.conditions"
 local playback = require "clench.session.playback"
 local script = require "clench.session.script"
 
 return {
   {name = "dynamics.run", label = "Run…", menu = "Dynamics", enabled = conditions.world, long = true,
-   parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "of simulated time"}},
+   parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "simulated time"}},
    run = function(session, args) session.world:run(args.seconds) end,
    script = function(_, args) return ("world:run(%s)"):format(script.literal(args.seconds)) end},
   {name = "dynamics.step", label = "Step", menu = "Dynamics", enabled = conditions.world,
@@ -21,7 +21,7 @@ return {
      if playback.is_on(session) then playback.stop(session) else playback.start(session, args.speed) end
    end},
   {name = "dynamics.pause", label = "Pause", menu = "Dynamics", reads = true,
-   enabled = function(session) return playback.is_on(session), "the simulation does not play" end, run = playback.stop},
+   enabled = function(session) return playback.is_on(session), "the simulation is not playing" end, run = playback.stop},
   {name = "dynamics.push", label = "Push State", menu = "Dynamics", enabled = conditions.world,
    run = function(session) table.insert(session.stack, session.world:snapshot()) end, script = function() return "world:push()" end},
   {name = "dynamics.pop", label = "Pop State", menu = "Dynamics", enabled = function(session) return #session.stack > 0, "no state was pushed" end,

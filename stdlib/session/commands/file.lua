@@ -1,7 +1,7 @@
 --- Commands on files that belong to no world.
 local report = require "clench.report"
 
-local options = {name = "options", type = "table", optional = true, text = "of the function that reads it"}
+local options = {name = "options", type = "table", optional = true, text = "options of the function that reads it"}
 
 return {
   {name = "file.check", label = "Check File…", menu = "File", reads = true, parameters = {{name = "path", type = "string", text = "a file"}, options},

@@ -1,11 +1,11 @@
---- Commands of the Grasp menu that move the current hand, unless another one is named.
+--- Commands of the Grasp menu that move the current hand, or another one by address.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
 
 local hand = {name = "hand", type = "robot", optional = true, text = "address of a robot; the current hand by default"}
-local reach = {name = "reach", type = "number", min = 0, unit = "m", optional = true, text = "largest distance"}
+local reach = {name = "reach", type = "number", min = 0, unit = "m", optional = true, text = "maximum distance"}
 
 local function call_of(method, robot, options)
   return ("%s:%s(%s)"):format(script.name_of(robot), method, options and script.literal(options) or "")
@@ -45,7 +45,7 @@ local function setter(name, label, method, values, parameters)
   }
 end
 
--- the posture that was saved for a robot
+-- the saved posture of a robot
 local function posture_of(session, args)
   local robot = arguments.find_robot(session, args.hand)
   local saved = session.postures[robot.name] or raise(("session: no posture of '%s' was saved; grasp.save_posture saves one"):format(robot.name))
@@ -56,15 +56,15 @@ local function grasp_of(session, args)
   if args.grasp then return args.grasp end
   local job = arguments.find_job(session, args.job)
   local found = session:grasps_of(job)
-  return found[args.rank] or raise(("session: grasp.apply: rank: expected 1 to %d, the grasps of job '%s', got %d"):format(#found, job.name, args.rank))
+  return found[args.rank] or raise(("session: grasp.apply: rank: expected 1 to %d, the number of grasps of job '%s', got %d"):format(#found, job.name, args.rank))
 end
 
 return {
-  caller("autograsp", "Auto Grasp", "autograsp", "ctrl+g", {{name = "speed", type = "number", min = 1e-6, optional = true, text = "1: the hand's own pace"}}),
+  caller("autograsp", "Auto Grasp", "autograsp", "ctrl+g", {{name = "speed", type = "number", min = 1e-6, optional = true, text = "1: the default speeds of the hand"}}),
   caller("open", "Auto Open", "open", nil, {}),
   caller("approach", "Approach", "approach_object", nil, {reach}),
   {name = "grasp.approach_and_grasp", label = "Approach and Grasp", menu = "Grasp", shortcut = "g", enabled = conditions.hand,
-   parameters = {hand, {name = "reach", type = "number", min = 0, unit = "m", default = 0.03, text = "largest distance"}},
+   parameters = {hand, {name = "reach", type = "number", min = 0, unit = "m", default = 0.03, text = "maximum distance"}},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)
      robot:approach_object {reach = args.reach}
@@ -79,10 +79,10 @@ return {
          {{name = "stop_at_contact", type = "boolean", optional = true, text = "true: ends at the first contact of any link"}}),
   setter("amplitudes", "EigenGrasp Interface…", "set_amplitudes", {name = "amplitudes", type = "table", text = "one per eigengrasp"},
          {{name = "keep", type = "boolean", optional = true, text = "true: keeps the part of the posture that no eigengrasp describes"},
-          {name = "fixed", type = "table", optional = true, text = "numbers of the amplitudes that stay as they are"}}),
+          {name = "fixed", type = "table", optional = true, text = "numbers of the amplitudes that keep their values"}}),
   caller("virtual_contacts", "Virtual Contacts…", "find_virtual_contacts", nil,
          {{name = "count_per_link", type = "integer", min = 1, max = 1000, optional = true, text = "number of contacts on each link"},
-          {name = "palm", type = "boolean", optional = true, text = "true: on the palm, too"},
+          {name = "palm", type = "boolean", optional = true, text = "true: also on the palm"},
           {name = "object_material", type = "string", optional = true, text = "material to be grasped"}}),
   {name = "grasp.save_posture", label = "Save Posture", menu = "Grasp", shortcut = "s", enabled = conditions.hand, reads = true, parameters = {hand},
    run = function(session, args)
@@ -99,11 +99,11 @@ return {
      if robot.parent then return ("%s:set_dofs(%s)"):format(script.name_of(robot), script.literal(saved.dofs)) end
      return ("%s:set_posture(%s, %s)"):format(script.name_of(robot), script.literal(saved.pose), script.literal(saved.dofs))
    end},
-  -- logged as the resulting state, as what a planner finds may depend on the clock
+  -- logged as the resulting state, since the grasps of a planner may depend on the clock
   {name = "grasp.apply", label = "Apply Grasp…", menu = "Grasp", enabled = conditions.hand_and_object,
    parameters = {{name = "grasp", type = "any", optional = true, text = "a grasp; by default one of a planner's job"},
                  {name = "job", type = "integer", min = 1, optional = true, text = "number of the job in session.jobs; the last one by default"},
-                 {name = "rank", type = "integer", min = 1, default = 1, text = "which of the job's grasps, the best first"}},
+                 {name = "rank", type = "integer", min = 1, default = 1, text = "rank of the job's grasp, 1 for the best"}},
    run = function(session, args)
      local grasp = grasp_of(session, args)
      if clench.type(grasp) ~= "grasp" then raise("session: grasp.apply: grasp: expected a grasp, got " .. clench.type(grasp)) end

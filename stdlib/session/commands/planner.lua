@@ -1,4 +1,4 @@
---- Planners that run as jobs beside the session, and commands for these jobs. Their parameters are those of the functions of `clench.plan`.
+--- Planners that run as background jobs of the session, and commands for these jobs. Their parameters are those of the functions of `clench.plan`.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 
@@ -19,7 +19,7 @@ local function choices_of(kind)
   return choices
 end
 
--- the parameter of a command for an option of a planner; nil for functions and for what the session gives
+-- the parameter of a command for an option of a planner; nil for functions and for options that the session sets
 local function parameter_of(field)
   local name, kind = field.name, field.type
   if from_session[name] or name:find("%.") or kind:find "^fun" then return nil end
@@ -35,7 +35,7 @@ local function parameters_of(planner)
   return list
 end
 
--- describing functions takes time, so the parameters are made when they are first asked for
+-- descriptions of functions take time to parse, so the parameters are created on first use
 local function with_parameters_of(planner, command)
   return setmetatable(command, {__index = function(_, key)
     if key ~= "parameters" then return nil end

@@ -1,4 +1,4 @@
---- Commands that judge the grasp of the current hand on the current object.
+--- Commands that evaluate the grasp of the current hand on the current object.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 
@@ -35,10 +35,10 @@ return {
          function(session, args) return grasp_of(session, args):wrench_space {norm = args.norm}:project {fixed = args.fixed or {tx = 0, ty = 0, tz = 0}} end),
   reader("forces", "Grasp Force Optimization…",
          {load, {name = "objective", type = "string", optional = true, text = "min_sum, min_norm, min_max or max_margin"},
-          {name = "max_force", type = "number", min = 0, unit = "N", optional = true, text = "largest normal force of each contact"},
-          {name = "torque_limits", type = "boolean", optional = true, text = "true: motors exert no more than they can"}},
+          {name = "max_force", type = "number", min = 0, unit = "N", optional = true, text = "maximum normal force per contact"},
+          {name = "torque_limits", type = "boolean", optional = true, text = "true: motor efforts are limited"}},
          function(session, args) return grasp_of(session, args):contact_forces(options_of(session, args)) end),
   reader("stability", "Grasp Stability Analysis…",
-         {load, {name = "max_force", type = "number", min = 0, unit = "N", optional = true, text = "largest normal force of each contact"}},
+         {load, {name = "max_force", type = "number", min = 0, unit = "N", optional = true, text = "maximum normal force per contact"}},
          function(session, args) return grasp_of(session, args):equilibrium(options_of(session, args)) end),
 }

@@ -1,4 +1,4 @@
---- Commands that choose what other commands act on. They change nothing in the world, and are undone together with what follows them.
+--- Commands that select the targets of other commands. They do not change the world, and are undone together with the command that follows.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local raise = require "clench.raise"
@@ -10,7 +10,7 @@ end
 
 return {
   {name = "world.select", label = "Select", enabled = conditions.world, reads = true,
-   parameters = {{name = "addresses", type = "table", text = "of bodies and robots"}},
+   parameters = {{name = "addresses", type = "table", text = "addresses of bodies and robots"}},
    run = function(session, args)
      local selection = {}
      for i, address in ipairs(args.addresses) do selection[i] = arguments.find(session, address) end
@@ -24,11 +24,11 @@ return {
      return chosen(session, session.hand)
    end},
   {name = "grasp.select_object", label = "Select Object…", menu = "Grasp", enabled = conditions.world, reads = true,
-   parameters = {{name = "object", type = "body", text = "address of the object that is to be grasped"}},
+   parameters = {{name = "object", type = "body", text = "address of the object to be grasped"}},
    run = function(session, args)
      local object = arguments.find(session, args.object)
      if clench.type(object) ~= "body" or object.kind ~= "object" then
-       raise(("session: expected an object, got '%s', %s"):format(object.name, clench.type(object) == "robot" and "a robot" or "of the kind " .. object.kind))
+       raise(("session: expected an object, got '%s', %s"):format(object.name, clench.type(object) == "robot" and "a robot" or "of kind " .. object.kind))
      end
      session.object = object
      return chosen(session, object)

@@ -6,7 +6,7 @@ local fields = {"time_step", "gravity", "contact_threshold"}
 
 return {
   {name = "world.friction", label = "Friction…", menu = "File", enabled = conditions.world,
-   parameters = {{name = "a", type = "string", text = "a material"}, {name = "b", type = "string", text = "the other one"},
+   parameters = {{name = "a", type = "string", text = "a material"}, {name = "b", type = "string", text = "the other material"},
                  {name = "mu", type = "number", min = 0, max = 1000, text = "coefficient, static and kinetic unless `kinetic` is given"},
                  {name = "kinetic", type = "number", min = 0, max = 1000, optional = true, text = "kinetic coefficient"}},
    run = function(session, args) session.world:set_friction(args.a, args.b, {static = args.mu, kinetic = args.kinetic or args.mu}) end,

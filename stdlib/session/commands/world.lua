@@ -1,11 +1,11 @@
---- Commands of the File menu: worlds, their files and what is imported into them.
+--- Commands of the File menu: worlds, their files, and imports.
 local conditions = require "clench.session.conditions"
 local history = require "clench.session.history"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
 
 local path = {name = "path", type = "string", text = "a file"}
-local options = {name = "options", type = "table", optional = true, text = "of the function that reads it"}
+local options = {name = "options", type = "table", optional = true, text = "options of the function that reads it"}
 
 local function call(name, args)
   return args.options and ("%s(%s, %s)"):format(name, script.literal(args.path), script.literal(args.options)) or ("%s(%s)"):format(name, script.literal(args.path))
@@ -43,16 +43,16 @@ return {
    end,
    script = function(_, args) return "world = " .. call("clench.load", args) end},
   {name = "world.save", label = "Save", menu = "File", shortcut = "ctrl+s", enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", optional = true, text = "the file that was opened or saved last, unless given"}},
+   parameters = {{name = "path", type = "string", optional = true, text = "the file; by default the one that was opened or saved last"}},
    run = function(session, args)
-     return save(session, args.path or session.path or raise "session: world.save: path: expected a file, as the world has none yet")
+     return save(session, args.path or session.path or raise "session: world.save: path: expected a file, as the world has no file yet")
    end},
   {name = "world.save_as", label = "Save As…", menu = "File", shortcut = "ctrl+shift+s", enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", text = "a file; .wld is appended to a name without an ending"}},
+   parameters = {{name = "path", type = "string", text = "a file; .wld is appended to a name without an extension"}},
    run = function(session, args) return save(session, with_ending(args.path, ".wld")) end},
   {name = "world.save_image", label = "Save Image…", menu = "File", enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", text = "a file; .png is appended to a name without an ending"},
-                 {name = "options", type = "table", optional = true, text = "of clench.render"}},
+   parameters = {{name = "path", type = "string", text = "a file; .png is appended to a name without an extension"},
+                 {name = "options", type = "table", optional = true, text = "options of clench.render"}},
    run = function(session, args)
      local to = with_ending(args.path, ".png")
      clench.render(session.world, args.options):save(to)

@@ -1,9 +1,9 @@
---- Bounds of what studies of moving grasps are given: beyond them a simulation gives no numbers, or does not end.
+--- Bounds of the inputs of studies of moving grasps: beyond them a simulation returns no finite numbers, or does not end.
 local bounds = {seconds = 1e6, speed = 1e6, mass = 1e12, force = 1e15}
 
-bounds.acceleration = 1e6  -- as of the gravity of a world [m/s^2]
+bounds.acceleration = 1e6  -- same bound as for the gravity of a world [m/s^2]
 
---- Refuses a force that accelerates the object beyond all that a world simulates.
+--- Rejects a force that accelerates the object beyond the range of simulations.
 function bounds.check_force(read, name, force, mass)
   local largest = bounds.acceleration * mass
   if force > largest then
@@ -11,9 +11,9 @@ function bounds.check_force(read, name, force, mass)
   end
 end
 
-local steps_per_period = 10  -- with fewer, the largest speed of a sine is off by more than 5 %
+local steps_per_period = 10  -- with fewer, the error of a sine's maximum speed exceeds 5 %
 
---- Refuses a frequency that the steps of a world do not follow.
+--- Rejects a frequency that the time step of a world cannot resolve.
 function bounds.check_frequency(read, frequency, time_step)
   local largest = 1 / (steps_per_period * time_step)
   if frequency > largest * (1 + 1e-9) then

@@ -1,15 +1,15 @@
 --- The load that a hand holds with a grasp, by the balance of its contact forces.
 local held_load = {}
 
---- the six directions in which objects are pulled, in the world
+--- The six directions in which objects are pulled, in the world.
 held_load.directions = {clench.vec3(1, 0, 0), clench.vec3(-1, 0, 0), clench.vec3(0, 1, 0), clench.vec3(0, -1, 0),
                         clench.vec3(0, 0, 1), clench.vec3(0, 0, -1)}
 
---- the largest sum of normal forces, where none is given [weights of the object]
+--- Default of the maximum sum of normal forces [weights of the object].
 held_load.force_ratio = 10
 
---- The load that the hand holds in the worst of six directions [weights of the object], with all normal forces together at most `force_ratio`
---- weights, and motors within their limits unless `torque_limits` is false.
+--- The load that the hand holds in the worst of six directions [weights of the object], with a sum of normal forces of at most `force_ratio` weights, and
+--- motors within their limits unless `torque_limits` is false.
 function held_load.of(object, grasp, force_ratio, torque_limits)
   local weight = 9.81 * object.mass
   local least = math.huge

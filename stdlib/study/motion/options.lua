@@ -1,19 +1,19 @@
---- What all studies of moving grasps are given.
+--- Options shared by all studies of moving grasps.
 local bounds = require "clench.study.motion.bounds"
 local read_vector = require "clench.study.motion.read_vector"
 local suspect = require "clench.suspect"
 
---- Reads hand, object and world, how the hand grips, and when the object counts as lost.
+--- Reads hand, object and world, the settings of the grip, and the displacement at which the object counts as lost.
 ---@param read table  of clench.options, of a function whose description has these options
----@param grip_force? number  by default [N]; ten weights of the object, if neither this nor the description has a default
+---@param grip_force? number  default [N]; ten weights of the object if neither this nor the description has a default
 ---@return table job
 return function(read, grip_force)
   local job = {subject = read.subject, hand = read:get "hand", object = read:get "object"}
   job.world = read:get("world", job.hand.world)
   if job.hand.world ~= job.world or job.object.world ~= job.world then read:fail("hand and object must be in the same world") end
-  if job.object.kind ~= "object" then read:fail("object: '%s' is no object but of kind '%s'", job.object.name, job.object.kind) end
+  if job.object.kind ~= "object" then read:fail("object: '%s' is of kind '%s', expected an object", job.object.name, job.object.kind) end
   if job.object.welded_to then
-    read:fail("object: '%s' is welded to '%s': unweld it first, for what is welded cannot be lost", job.object.name, job.object.welded_to.name)
+    read:fail("object: '%s' is welded to '%s': unweld it first, as a welded object cannot be lost", job.object.name, job.object.welded_to.name)
   end
   if not job.object.mesh then read:fail("object: '%s' has no surface", job.object.name) end
   job.mass = read:get("mass", job.object.mass)

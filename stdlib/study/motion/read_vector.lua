@@ -1,4 +1,4 @@
---- A vector among options, as a vec3 or a list of three numbers, no longer than `longest` of its unit.
+--- Reads an option that is a vec3 or a list of three numbers, of at most the given length.
 
 ---@param read table  of clench.options
 return function(read, name, default, longest, unit)

@@ -1,8 +1,8 @@
---- Detects that all in a world has come to rest. A touching body at rest stays bit-exactly where it is, and a step from the same state under
---- the same forces gives the same state: such a simulation changes no more, so the rest of its time need not be simulated.
+--- Detects that everything in a world has come to rest. A touching body at rest stays bit-exactly in its place, and a step from the same state under the same
+--- forces gives the same state: such a simulation no longer changes, so the rest of its time need not be simulated.
 local rest = {}
 
-local parts_at_rest = 4  -- parts of a simulation in a row in which nothing moves
+local parts_at_rest = 4  -- number of successive parts of a simulation without motion
 
 local function is_zero(v) return v.x == 0 and v.y == 0 and v.z == 0 end
 
@@ -44,7 +44,7 @@ local function are_equal(a, b)
 end
 
 ---@param world world
----@return fun(): boolean  called after each part of a simulation: has nothing moved, to the bit, in the last few parts?
+---@return fun(): boolean  called after each part of a simulation: has everything been bit-exactly at rest in the last few parts?
 function rest.detector(world)
   local count, last = 0, nil
   return function()

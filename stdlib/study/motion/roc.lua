@@ -1,9 +1,9 @@
---- The ROC curve of a number that is to tell good ones from bad ones, and the area under it.
+--- The ROC curve of a score that separates good from bad samples, and the area under it.
 --- source  Hanley & McNeil (1982), The meaning and use of the area under a ROC curve, eqs. 1 and 2 for its error
 
 ---@param good number[]  larger is better
 ---@param bad number[]
----@return {auc?: number, low?: number, high?: number, curve: {false_positives: number[], true_positives: number[]}}  no area where there are no good or no bad ones: there is nothing to compare
+---@return {auc?: number, low?: number, high?: number, curve: {false_positives: number[], true_positives: number[]}}  no area if there are no good or no bad samples
 return function(good, bad)
   local all = {}
   for _, value in ipairs(good) do all[#all + 1] = {value, true} end
@@ -12,7 +12,7 @@ return function(good, bad)
   local curve = {false_positives = {0}, true_positives = {0}}
   local g, b, area, i = 0, 0, 0, 1
   while i <= #all do
-    -- equal numbers are one step, in a straight line
+    -- equal numbers form one step, a straight line
     local value, g0, b0 = all[i][1], g, b
     while i <= #all and all[i][1] == value do
       if all[i][2] then g = g + 1 else b = b + 1 end

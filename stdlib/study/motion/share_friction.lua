@@ -1,4 +1,4 @@
---- Leaves a share of the friction between a hand's materials and an object's.
+--- Multiplies the friction between a hand's materials and an object's by a factor.
 ---@param hand robot
 ---@param object body
 ---@param share number  > 0

@@ -1,4 +1,4 @@
---- What a thread does with a grasp: its measures, and whether it survives being shaken. For clench.parallel.map.
+--- Work of a thread on a grasp: computes its measures, and whether it survives shaking. For clench.parallel.map.
 local held_load = require "clench.study.motion.held_load"
 
 local own = {

@@ -1,5 +1,4 @@
---- A grasp that moves: a copy of its world in which the hand presses the object by its motors, and how far the object
---- goes from where the hand held it then.
+--- Tests a grasp in motion: in a copy of its world the hand presses the object by its motors; then the displacement of the object from that state is recorded.
 local drives = require "clench.drives"
 local on_behalf_of = require "clench.on_behalf_of"
 local rest = require "clench.study.motion.rest"
@@ -8,8 +7,8 @@ local share_friction = require "clench.study.motion.share_friction"
 local Trial = {}
 Trial.__index = Trial
 
-local every = 0.01  -- between two looks [s]
--- Contacts act within this distance: points of a patch carry next to no torsion, as is asked of a grasp that is to hold elsewhere, too.
+local every = 0.01  -- time between two checks of the displacement [s]
+-- Contacts act within this distance: points of a patch then resist almost no torsion, which makes verdicts conservative.
 local contact_threshold = 2e-5  -- [m]
 
 local function place_of(list, entity)
@@ -18,13 +17,13 @@ local function place_of(list, entity)
   end
 end
 
--- the robot at the end of all that carries a robot
+-- the robot at the root of the chain of robots that carry a robot
 local function root_of(robot)
   while robot.parent do robot = robot.parent end
   return robot
 end
 
--- hand, object, and what carries the hand
+-- removes everything except the hand, the object, and the robots that carry the hand
 local function remove_surroundings(world, hand, object)
   local root, others = root_of(hand), {}
   for _, robot in ipairs(world.robots) do
@@ -40,7 +39,7 @@ end
 
 local still = {linear = {0, 0, 0}, angular = {0, 0, 0}}
 
--- nothing moves, whatever it did in the world that was copied
+-- sets all velocities to zero, whatever they were in the original world
 local function bring_to_rest(world)
   world:clear_forces()
   for _, robot in ipairs(world.robots) do
@@ -56,7 +55,7 @@ local function bring_to_rest(world)
   end
 end
 
--- Motors hold robots where they stand, and carry their weight; what no motor drives stays free.
+-- Motors hold robots in their postures, and compensate their weight; joints without motors stay free.
 local function hold_robots(world)
   for _, robot in ipairs(world.robots) do
     local targets = {}
@@ -70,9 +69,9 @@ local function hold_robots(world)
   end
 end
 
-local swing = 60  -- at which motors without gains of their own swing back [rad/s]
+local swing = 60  -- natural frequency of motors without given gains [rad/s]
 
--- Motors to which neither file nor script gives gains are as stiff as it takes to hold the object, too, at the lever that they have to it.
+-- Motors without gains from a file or script get gains for their inertia plus that of the object at its lever arm.
 local function set_gains(hand, object)
   local M, gains = hand:mass_matrix(), hand.gains
   hand.gains = nil
@@ -93,7 +92,7 @@ local function set_gains(hand, object)
   hand.gains = gains
 end
 
--- Torques of the motors that press by forces in equilibrium; nil where there are none, or where they need a motor that cannot pull in that direction.
+-- Motor torques of contact forces in equilibrium; nil if there are none, or if they need a motor that cannot pull in that direction.
 local function grip_torques(hand, object, total)
   local grasp = clench.grasp(hand, object)
   if #grasp.points < 2 then return nil end
@@ -107,7 +106,7 @@ local function grip_torques(hand, object, total)
   return found.joint_torques
 end
 
--- Compliant DOFs pull their tendons until their springs give what the motors can.
+-- Compliant DOFs pull their tendons to their limits, so that the springs exert the motors' maximum efforts.
 local function pull_tendons(hand)
   local targets, pulls = hand.dofs, false
   for i, info in ipairs(hand.dof_info) do
@@ -125,12 +124,12 @@ local function pressing_force(world, hand, object)
   return sum
 end
 
-local slack, pressed = 0.5, 0.9  -- parts of the requested normal force: below the first there is slack, which is taken up to the second
-local max_slack = 100   -- parts of a trial in which slack is taken up
+local slack, pressed = 0.5, 0.9  -- fractions of the requested normal force: slack below the first is taken up until the second is reached
+local max_slack = 100   -- maximum number of parts of a trial in which slack is taken up
 
--- A hand that closed to within the contact threshold may still be clear of one side of the object by less than that, and a stiff servo that
--- holds it there takes the torque that is to press: jaws then exert no force at all. So the targets of the motors that press follow their
--- motion, as those of a gripper that is controlled by force, until the hand presses.
+-- A hand that closed to within the contact threshold may still have a gap on one side of the object, and a stiff servo that holds its position counteracts the
+-- torque that is to press: jaws then exert no force at all. So the targets of the pressing motors follow their motion, as in a force-controlled gripper, until
+-- the hand presses.
 local function take_up_slack(trial, job, torques)
   local world, hand, object = trial.world, trial.hand, trial.object
   local info = hand.dof_info
@@ -149,7 +148,7 @@ end
 
 local function press(trial, job)
   local world, hand = trial.world, trial.hand
-  -- torques for what friction is left, or, where nothing is held with that, for the whole of it
+  -- torques for the reduced friction or, if there are none, for the full friction
   local by_forces = job.grip == "forces"
   local torques = by_forces and grip_torques(hand, trial.object, job.grip_force)
   share_friction(hand, trial.object, job.friction_share)
@@ -172,21 +171,21 @@ local function press(trial, job)
   take_up_slack(trial, job, torques)
 end
 
---- Where the object is in the hand's base.
+--- Pose of the object in the frame of the hand's base.
 function Trial:pose() return self.hand.pose:inverse() * self.object.pose end
 
--- how far its center of mass has gone, and how far it has turned, since it was held
+-- displacement of its center of mass [m] and rotation [rad] since it was held
 function Trial:displacement(from)
   local now = self:pose()
   return (now * self.com - from * self.com):norm(), (from:inverse() * now):angle()
 end
 
---- Runs so long, or until the object is lost.
----@param seconds number
----@param tick? fun(time: number)  called before each part of the time, with what has passed
+--- Runs for a time, or until the object is lost.
+---@param seconds number  simulated time
+---@param tick? fun(time: number)  called before each part of the time, with the elapsed time [s]
 ---@param length? number  of the parts [s]
 ---@param is_steady? boolean  forces and targets do not change: the run ends once nothing in the world moves
----@return {moved: number, turned: number, held: boolean, time?: number}  the largest displacement [m, rad]; time at which it was lost [s]
+---@return {moved: number, turned: number, held: boolean, time?: number}  moved, turned: maximum displacement [m, rad]; time: at which the object was lost [s]
 function Trial:watch(seconds, tick, length, is_steady)
   local from, row = self.held_at, {moved = 0, turned = 0, held = true}
   local parts = math.max(1, math.ceil(seconds / (length or every) - 1e-9))
@@ -196,7 +195,7 @@ function Trial:watch(seconds, tick, length, is_steady)
     self.world:run(seconds / parts)
     local moved, turned = self:displacement(from)
     row.moved, row.turned = math.max(row.moved, moved), math.max(row.turned, turned)
-    -- nor is what is no number held
+    -- a displacement of nan counts as lost
     if not (moved <= self.max_distance and turned <= self.max_angle) then
       row.held, row.time = false, seconds * part / parts
       break
@@ -210,16 +209,16 @@ end
 function Trial:watch_steady(seconds) return self:watch(seconds, nil, nil, true) end
 
 --- Pushes the object at its center of mass until the handle that it returns is removed.
----@param force fun(time: number): vec3  of the time since then [s], [N]
+---@param force fun(time: number): vec3  of the time since this call [s]; returns [N]
 function Trial:push(force)
   local world, object, began = self.world, self.object, self.world.time
   return world:on_step(function() object:apply_force(force(world.time - began)) end)
 end
 
---- Goes back to where the hand held the object at rest.
+--- Restores the state in which the hand held the object at rest.
 function Trial:reset() self.world:restore(self.ready) end
 
---- The base that carries all stands still.
+--- Stops the base that carries everything.
 function Trial:halt() self.root.base.velocity = still end
 
 local function new_trial(job)
@@ -249,8 +248,7 @@ local function new_trial(job)
   return trial
 end
 
---- Copies the world, brings all in it to rest, and lets the hand press: its motors hold its posture, and torques are added that press with
---- forces in equilibrium, the contacts as far inside their friction cones as can be; or they close. There is no gravity while it does so,
---- and until everything has come to rest.
+--- Copies the world, brings everything in it to rest, and lets the hand press: its motors hold its posture and add the torques of contact forces in
+--- equilibrium, as far inside their friction cones as possible; or they close. There is no gravity until everything has come to rest.
 ---@param job table  of study.motion.options
 return function(job) return on_behalf_of(job.subject, new_trial, job) end

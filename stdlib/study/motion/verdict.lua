@@ -1,11 +1,11 @@
---- What came of moving a grasp.
+--- The result of a test that moves a grasp.
 local drives = require "clench.drives"
 local held_text = require "clench.held_text"
 local verdict = {}
 
 local Verdict = {__name = "verdict"}
 
--- " along +x, -y", " in lift": what was not held of what was asked
+-- " along +x, -y", " in lift": the tests in which the object was lost
 local function where_lost(self)
   local names = {}
   for _, key in ipairs {"rows", "directions", "axes"} do
@@ -42,7 +42,7 @@ local function grip_measured(trial, job)
   local measured, asked = ("%.3g"):format(trial.grip_force), ("%.3g"):format(job.grip_force)
   local text = ("gripped with %s N of normal forces"):format(measured)
   if trial.grip ~= "forces" then return text .. " " .. how[trial.grip] end
-  return measured == asked and text or ("%s, %s N asked for"):format(text, asked)
+  return measured == asked and text or ("%s, %s N requested"):format(text, asked)
 end
 
 local function protocol(trial, job, asked, grip)
@@ -52,7 +52,7 @@ local function protocol(trial, job, asked, grip)
   return unlimited and ("%s; %s"):format(text, unlimited) or text
 end
 
----@param asked string  what was done, in a few words
+---@param asked string  short description of the test
 function verdict.new(trial, job, asked)
   return setmetatable({
     survived = false, held = 0, settled = trial.settled, grip = trial.grip, grip_force = trial.grip_force,
@@ -61,12 +61,12 @@ function verdict.new(trial, job, asked)
   }, Verdict)
 end
 
---- the row of a test that was not made, as the hand had lost the object while it gripped it
+--- the row of a test that was skipped, as the hand had lost the object while it gripped it
 function verdict.lost_before(trial)
   return {moved = trial.settled.moved, turned = trial.settled.turned, held = false, time = 0.0}
 end
 
---- The row of a test that begins where the hand held the object at rest, with the gravity of the job.
+--- Runs a test from the state in which the hand held the object at rest, with the gravity of the job, and returns its row.
 ---@param watch fun(): table
 function verdict.attempt(trial, job, watch)
   if not trial.settled.held then return verdict.lost_before(trial) end
@@ -75,7 +75,7 @@ function verdict.attempt(trial, job, watch)
   return watch()
 end
 
---- Appends a row to a list of the result's.
+--- Appends a row to a list in the result.
 function verdict.add(result, name, row, trial)
   result[name] = result[name] or {}
   table.insert(result[name], row)
@@ -84,7 +84,7 @@ function verdict.add(result, name, row, trial)
   result.failures = math.max(result.failures, trial.world.report.failures - trial.failures_before)
 end
 
---- Survived is what was held in all rows.
+--- Completes the result: the grasp survived if the object was held in all rows.
 function verdict.close(result)
   result.survived = result.settled.held and result.held == result.count
   result.count = nil

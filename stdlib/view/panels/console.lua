@@ -25,7 +25,7 @@ local function run(view, line)
   view:changed()
 end
 
-local colors = {error = {0.84, 0.37, 0}, input = {0.4, 0.45, 0.5}}
+local colors = {error = {0.84, 0.37, 0}, input = {0.4, 0.45, 0.5}, lua = {0, 0.45, 0.7}}
 
 local function draw(ui, view)
   ui:child("lines", {height = -ui.line_height}, function(ui)

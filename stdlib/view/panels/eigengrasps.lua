@@ -1,33 +1,72 @@
---- Sliders for the amplitudes of the hand's eigengrasps; a drag is one step of undo.
-local function reset(view, hand)
-  view.session:begin_gesture("Go To Origin")
-  hand:set_dofs(hand.eigengrasps.origin)
-  view.session:end_gesture()
-  view:changed()
+--- Sliders for the amplitudes of the hand's eigengrasps, each of which can be fixed; a drag is one step of undo.
+local script = require "clench.session.script"
+
+-- the eigengrasps of a view's hand that are fixed
+local function fixed_of(view, hand)
+  view.fixed_amplitudes = view.fixed_amplitudes or {}
+  view.fixed_amplitudes[hand.name] = view.fixed_amplitudes[hand.name] or {}
+  return view.fixed_amplitudes[hand.name]
 end
+
+local function set(view, hand, amplitudes, fixed, rigid)
+  if not view.session.gesture then view.session:begin_gesture("EigenGrasp " .. hand.name) end
+  local numbers = {}
+  for i = 1, #amplitudes do
+    if fixed[i] then numbers[#numbers + 1] = i end
+  end
+  -- with a fixed amplitude, only the posture of the amplitudes counts
+  hand:set_amplitudes(amplitudes, {keep = not (rigid or #numbers > 0), fixed = #numbers > 0 and numbers or nil})
+  view.session:emit("changed", {gesture = true})
+end
+
+local function draw_sliders(ui, view, hand)
+  local eigengrasps, amplitudes, fixed = hand.eigengrasps, hand.amplitudes, fixed_of(view, hand)
+  for i = 1, eigengrasps.count do
+    local low, high = table.unpack(eigengrasps.limits[i])
+    ui:disabled(fixed[i] == true, function(ui)
+      ui:width(-104)
+      local value, changed, finished = ui:slider(("EG %d##eigengrasp"):format(i), amplitudes[i], {min = low, max = high, format = "%.3f"})
+      if changed then
+        local goal = {table.unpack(amplitudes)}
+        goal[i] = value
+        set(view, hand, goal, fixed, view.rigid)
+      end
+      if finished then view.session:end_gesture() end
+    end)
+    ui:same_line()
+    local on, changed = ui:checkbox("fixed##eigengrasp" .. i, fixed[i] == true)
+    if changed then fixed[i] = on or nil end
+  end
+end
+
+local function go_to_origin(view, hand) view:run("grasp.dofs", {hand = view:address(hand), dofs = hand.eigengrasps.origin}) end
+
+-- makes the present posture the origin of the eigengrasps
+local function set_origin(view, hand)
+  local old = hand.eigengrasps
+  local options = {vectors = old.vectors, origin = hand.dofs}
+  view.session:begin_gesture("Set Origin", function()
+    return ("%s.eigengrasps = clench.eigengrasps %s"):format(script.name_of(hand), script.literal(options))
+  end)
+  hand.eigengrasps = clench.eigengrasps(options)
+  view.session:end_gesture()
+end
+
+local function ask_for_file(view, title, done) view.ask = {title = title, text = "eigengrasps.xml", done = done} end
 
 local function draw(ui, view)
   local hand = view.session.hand
   if not hand then return ui:text("No hand is current.", {color = {0.5, 0.5, 0.5}}) end
-  local set = hand.eigengrasps
-  local amplitudes, limits = hand.amplitudes, set.limits
-  for i = 1, set.count do
-    local low, high = limits[i][1], limits[i][2]
-    ui:width(-50)
-    local value, changed, finished = ui:slider(("EG %d##eigengrasp"):format(i), amplitudes[i], {min = low, max = high, format = "%.3f"})
-    if changed then
-      if not view.session.gesture then view.session:begin_gesture("EigenGrasp " .. hand.name) end
-      local goal = {}
-      for k = 1, set.count do goal[k] = amplitudes[k] end
-      goal[i] = value
-      hand:set_amplitudes(goal)
-      view:changed()
-    end
-    if finished then view.session:end_gesture() end
-  end
-  if ui:button "Go To Origin" then reset(view, hand) end
+  draw_sliders(ui, view, hand)
+  local rigid, changed = ui:checkbox("rigid", view.rigid == true)
+  if changed then view.rigid = rigid end
+  ui:tooltip "The posture is what the amplitudes describe; otherwise the rest of it is kept."
+  if ui:button "Go To Origin" then go_to_origin(view, hand) end
   ui:same_line()
-  if ui:button "Close to Contacts" then view:run("grasp.autograsp", {hand = hand.name}) end
+  if ui:button "Set Origin" then set_origin(view, hand) end
+  if ui:button "Close to Contacts" then view:run("grasp.autograsp", {hand = view:address(hand)}) end
+  ui:same_line()
+  if ui:button "Save…" then ask_for_file(view, "Save Eigengrasps", function(path) hand.eigengrasps:save(path) end) end
 end
 
 return {name = "EigenGrasps", place = "right", tab = true, draw = draw}

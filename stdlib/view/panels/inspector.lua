@@ -1,36 +1,51 @@
---- Properties of what is selected: pose, DOFs, mass, material.
-local function close_to(a, b) return math.abs(a - b) < 1e-12 end
+--- What is selected: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
+local properties = require "clench.view.properties"
+local units = require "clench.view.units"
+
+local function begin(view, label)
+  if not view.session.gesture then view.session:begin_gesture(label) end
+end
 
 local function draw_pose(ui, view, thing)
-  local position, euler = thing.pose.position, thing.pose.rpy
-  local values, changed, finished = {position.x, position.y, position.z}, false, false
-  local factor = view.units.length == "mm" and 1000 or 1
-  for i, axis in ipairs {"x", "y", "z"} do
-    ui:width(-40)
-    local value, is_changed, is_finished = ui:drag(axis .. " [" .. view.units.length .. "]", values[i] * factor, {speed = factor * 1e-3, format = "%.4g"})
-    if is_changed and not close_to(value / factor, values[i]) then values[i], changed = value / factor, true end
+  local position, angles = thing.pose.position, thing.pose.rpy
+  local values = {position.x, position.y, position.z, angles[1], angles[2], angles[3]}
+  local changed, finished = false, false
+  for i, axis in ipairs {"x", "y", "z", "roll", "pitch", "yaw"} do
+    local factor, name, format = units.of(view, i <= 3 and "m" or "rad")
+    ui:width(-90)
+    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), values[i] * factor, {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
+    if is_changed then values[i], changed = value / factor, true end
     finished = finished or is_finished
   end
   if changed then
-    if not view.session.gesture then view.session:begin_gesture("Move " .. thing.name) end
-    thing.pose = clench.pose {xyz = clench.vec3(table.unpack(values))} * clench.pose {rpy = euler}
+    begin(view, "Move " .. thing.name)
+    thing.pose = clench.pose {xyz = {values[1], values[2], values[3]}, rpy = {values[4], values[5], values[6]}}
     view.session:emit("changed", {gesture = true})
   end
   if finished then view.session:end_gesture() end
 end
 
+-- is a DOF an angle? Its first joint says
+local function unit_of(robot, dof)
+  for _, chain in ipairs(robot.chains) do
+    for _, joint in ipairs(chain.joints) do
+      if joint.dof == dof then return joint.kind == "prismatic" and "m" or "rad" end
+    end
+  end
+  return "rad"
+end
+
 local function draw_dofs(ui, view, robot)
-  local dofs, limits, infos = robot.dofs, robot.dof_limits, robot.dof_info
+  local dofs, limits, names = robot.dofs, robot.dof_limits, robot.dof_names
   for i = 1, #dofs do
-    local low, high = limits[i][1], limits[i][2]
+    local factor, _, format = units.of(view, unit_of(robot, i))
     ui:width(-90)
-    local name = infos and infos[i] and infos[i].name or "DOF " .. i
-    local value, changed, finished = ui:slider(name .. "##dof" .. i, dofs[i], {min = low, max = high, format = "%.3f"})
+    local value, changed, finished = ui:slider(names[i] .. "##dof" .. i, dofs[i] * factor,
+                                               {min = limits[i][1] * factor, max = limits[i][2] * factor, format = format})
     if changed then
-      if not view.session.gesture then view.session:begin_gesture("Set DOFs of " .. robot.name) end
-      local goal = {}
-      for k = 1, #dofs do goal[k] = dofs[k] end
-      goal[i] = math.max(low, math.min(high, value))
+      begin(view, "Set DOFs of " .. robot.name)
+      local goal = {table.unpack(dofs)}
+      goal[i] = math.max(limits[i][1], math.min(limits[i][2], value / factor))
       robot:move_dofs(goal)
       view.session:emit("changed", {gesture = true})
     end
@@ -38,24 +53,33 @@ local function draw_dofs(ui, view, robot)
   end
 end
 
-local function draw_body(ui, view, body)
-  ui:text(("mass      %.4g kg"):format(body.mass))
-  ui:text("material  " .. tostring(body.material))
-  ui:text("kind      " .. body.kind)
+local function draw_one(ui, view, thing)
+  ui:text(thing.name)
+  local is_robot = clench.type(thing) == "robot"
+  local mount = is_robot and thing.parent
+  if mount then
+    ui:text(("mounted on %s"):format(mount.name), {color = {0.5, 0.5, 0.5}})
+  elseif is_robot or not thing.robot then
+    draw_pose(ui, view, thing)
+  else
+    ui:text(("link of %s"):format(thing.robot.name), {color = {0.5, 0.5, 0.5}})
+  end
+  if is_robot then ui:collapsing("DOFs", true, function(ui) draw_dofs(ui, view, thing) end) end
 end
 
 local function draw(ui, view)
-  local thing = view.session.selection[1]
-  if not thing then return ui:text("Nothing is selected.", {color = {0.5, 0.5, 0.5}}) end
-  local is_robot = clench.type(thing) == "robot"
-  ui:text(thing.name)
-  ui:separator()
-  if is_robot or not thing.robot then draw_pose(ui, view, thing) end
-  if is_robot then
-    ui:collapsing("DOFs", true, function(ui) draw_dofs(ui, view, thing) end)
-  else
-    draw_body(ui, view, thing)
+  local selection = view.session.selection
+  if #selection == 0 then
+    return ui:text("Nothing is selected: click in the tree, or in the picture with the tool Select.", {color = {0.5, 0.5, 0.5}, wrap = true})
   end
+  if #selection == 1 then
+    draw_one(ui, view, selection[1])
+  else
+    local names = {}
+    for i, thing in ipairs(selection) do names[i] = thing.name end
+    ui:text(table.concat(names, ", "), {wrap = true})
+  end
+  ui:collapsing("Body Properties", true, function(ui) properties.draw(view, ui) end)
 end
 
 return {name = "Inspector", place = "right", draw = draw}

@@ -1,15 +1,11 @@
 --- The tree of the world: robots with their links, objects, obstacles.
-local function select(view, thing) view:run("world.select", {addresses = {view:address(thing)}}) end
+local selection = require "clench.view.selection"
+local is_selected = selection.has
 
-local function is_selected(view, thing)
-  for _, other in ipairs(view.session.selection) do
-    if other == thing then return true end
-  end
-  return false
-end
+local function select(view, ui, thing) selection.click(view, thing, ui:key_down(340) or ui:key_down(344)) end
 
 local function leaf(view, ui, body, label)
-  if ui:tree(label or body.name, {leaf = true, selected = is_selected(view, body)}) then select(view, body) end
+  if ui:tree(label or body.name, {leaf = true, selected = is_selected(view, body)}) then select(view, ui, body) end
 end
 
 local function draw(ui, view)
@@ -19,7 +15,7 @@ local function draw(ui, view)
     local clicked = ui:tree(robot.name, {selected = is_selected(view, robot)}, function(ui)
       for _, body in ipairs(robot.bodies) do leaf(view, ui, body, (body.name:gsub("^" .. robot.name:gsub("%p", "%%%0") .. "_", ""))) end
     end)
-    if clicked then select(view, robot) end
+    if clicked then select(view, ui, robot) end
   end
   for _, list in ipairs {{"Objects", world.objects}, {"Obstacles", world.obstacles}} do
     if #list[2] > 0 then

@@ -17,6 +17,9 @@ end
 local function draw(ui, view)
   local session = view.session
   if not (session.hand and session.object) then return ui:text("A hand and an object are needed.", {color = {0.5, 0.5, 0.5}}) end
+  if #session.world:contacts(session.hand, session.object) == 0 then
+    return ui:text("The hand does not touch the object, so there is no wrench space.", {color = {0.5, 0.5, 0.5}, wrap = true})
+  end
   view.wrench_fixed = view.wrench_fixed or {tx = 0, ty = 0, tz = 0}
   view.wrench_norm = view.wrench_norm or "L1"
   local count = 0
@@ -37,7 +40,7 @@ local function draw(ui, view)
   if view.wrench_key ~= key then
     view.wrench_key = key
     local ok, picture = pcall(picture_of, view, view.wrench_fixed, 200)
-    view.wrench_picture, view.wrench_error = ok and picture or nil, not ok and tostring(picture) or nil
+    view.wrench_picture, view.wrench_error = ok and picture or nil, not ok and tostring(picture):gsub("^.-%.lua:%d+: ", "") or nil
     view.wrench_changed = true
   end
   if view.wrench_picture then

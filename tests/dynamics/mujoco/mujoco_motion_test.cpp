@@ -76,7 +76,7 @@ struct Both {
 
 constexpr double step = 2e-4;  // [s]
 
-// contacts of MuJoCo that hardly give way, and cones that hardly slip
+// MuJoCo contacts that are almost rigid, and cones that almost never slip
 std::string scene_of(const std::string& world, const std::string& more = "") {
   return "<mujoco><compiler angle='radian'/><option timestep='0.0002' integrator='implicit' "
          "cone='elliptic' impratio='100' noslip_iterations='0'/><default><geom condim='3' "

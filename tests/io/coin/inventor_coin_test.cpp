@@ -1,4 +1,4 @@
-// Our reader of Inventor and VRML against Coin: the same triangles, to the bit.
+// Our reader of Inventor and VRML compared with Coin: bit-identical triangles.
 #include <cstdlib>
 
 #include "clench/base/text.h"

@@ -236,7 +236,7 @@ std::string random_balls(Random& random) {
   std::function<std::string(int)> body = [&](int depth) {
     std::string out = fmt::format("<body name='b{}' pos='{:.2f} {:.2f} 0'>", bodies++,
                                   random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
-    // what is fixed to a free body becomes part of it: no names of its own
+    // a body fixed to a free body becomes part of it, without separate names
     if (depth == 0 && random.uniform() < 0.3)
       return out + "<freejoint/>" + geom() + (one_of(2) ? geom() : "") + "</body>";
     if (random.uniform() < 0.6) out += "<joint range='-9 9'/>";
@@ -287,7 +287,7 @@ TEST_CASE("pairs of bodies that may collide are those of MuJoCo") {
     const fs::path file = folder.write("m.xml", text);
     const Model model = load(file);
     const auto pieces = pieces_of(*model);
-    // what is fixed to each other cannot move against each other
+    // bodies fixed to each other cannot move relative to each other
     const auto moves = [&](const auto& pair) {
       return pieces.at(pair.first) != pieces.at(pair.second);
     };

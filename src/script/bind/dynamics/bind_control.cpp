@@ -16,8 +16,7 @@ static int call_hooks_module(lua_State* L) {
   return 1;
 }
 
-// the arguments of a method, with the world's hooks in place of the world, and the world behind
-// them
+// the arguments of a method, with the world's hooks in place of the world, and the world after them
 static int add_hook(lua_State* L, const char* name) {
   const auto& world = self<WorldHandle>(L).world;
   lua_settop(L, 3);
@@ -41,8 +40,8 @@ static int pop_state(lua_State* L) { return add_hook(L, "pop"); }
 
 static const Entry control_methods[] = {
     {"on_step", guarded<on_step>, R"(
-Has a function called while the world runs, before each step, or so often: fn(world, dt), with the length of the step that
-comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and tells where it was. They belong to the world,
+Calls a function while the world runs, before each step or at intervals: fn(world, dt), with the length of the step that
+comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and states its place. They belong to the world,
 not to its clones or snapshots.
 @param fn function  called after each step
 @param options? table  how often
@@ -55,9 +54,9 @@ not to its clones or snapshots.
 > handle:remove()
 > world:on_step(5)  --> error: world:on_step: expected a function, got 5)"},
     {"spawn", guarded<spawn>, R"(
-Has a function run beside the world, as a coroutine: fn(task). It goes on when `task.wait(seconds)` is over, when
-`task.wait_until(condition, timeout)` finds the function `condition` true, which gives true, or the time over, which gives
-false, and before the next step after `task.wait_step()`. Tasks go on before steps, after the functions of on_step, in the order in which they were
+Runs a function concurrently with the world, as a coroutine: fn(task). It continues when `task.wait(seconds)` is over, when
+`task.wait_until(condition, timeout)` finds the function `condition` true and returns true, or after the time, and returns
+false, and before the next step after `task.wait_step()`. Tasks continue before steps, after the functions of on_step, in the order in which they were
 spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
 @param fn function  function that runs as a coroutine in the time of the world
 @return table handle  `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
@@ -77,8 +76,8 @@ DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its
 > #touched > 0  --> true
 > world:on("contcat", print)  --> error: world:on: event must be 'contact', 'contact_lost' or 'limit', got 'contcat')"},
     {"log", guarded<log_quantities>, R"(
-Notes quantities while the world runs, from its first step on, at a rate of its time. In `quantities` stand, in order: bodies, of
-which place and velocity are noted; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names
+Records quantities while the world runs, from its first step on, at a rate of its time. `quantities` lists, in order: bodies, of
+whose position and velocity are recorded; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names
 functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
 @param options table  what is noted, and how often
 @option rate? number [Hz, > 0] = 100  rows in a second of the world's time
@@ -90,7 +89,7 @@ functions(world) that give a number, true or false, a vector, or a list of numbe
 > log:save "build/flask.csv"
 > world:log {quantities = {"enrgy"}}  --> error: did you mean 'energy'?)"},
     {"record", guarded<record>, R"(
-Records how the world runs, for films: its state at a rate of its time.
+Records a run of the world for films: its state at a fixed rate of simulation time.
 @param options? table  how often
 @option rate? number [Hz, > 0] = 30  states in a second of the world's time
 @return recording recording  `times`; `save(path, options)`, see the guide; `remove()` ends it
@@ -99,7 +98,7 @@ Records how the world runs, for films: its state at a rate of its time.
 > #film.times  --> 3
 > film:save "film.avi"  --> error: expected a name that ends in .html, .gif, .mp4 or .png, got 'film.avi')"},
     {"push", guarded<push_state>, R"(
-Puts the state of the world on a stack of its own.
+Pushes the state of the world onto a separate stack.
 @return integer depth  how many lie there now
 > world:push()  --> 1)"},
     {"pop", guarded<pop_state>, R"(

@@ -37,7 +37,7 @@ static int get_gains(lua_State* L) {
   });
 }
 
-// of the value on top of the stack; false: those of the file
+// settings in the value on top of the stack; false: those of the file
 static std::optional<Gains> read_gain(lua_State* L, const std::string& what) {
   if (!lua_toboolean(L, -1)) return {};
   Table table(L, lua_gettop(L), what);
@@ -79,8 +79,8 @@ static int set_gains(lua_State* L) {
 
 static const Entry joint_dynamics_fields[] = {
     {"gains", guarded<get_gains>, R"(
-How stiff its motors hold it, one per DOF: those that were set; else those of its file; else such that a DOF swings back at 60
-rad/s with critical damping, as it stands. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
+Position gains of its motors, one per DOF: those set by a script; otherwise those of its file; otherwise such that a DOF returns at 60
+rad/s with critical damping at its present posture. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
 @type {kp: number, kd: number}[]  [N m/rad or N/m], [N m s/rad or N s/m]
 > hand.gains[1].kp  --> 1.0
 > gains = hand.gains
@@ -99,8 +99,8 @@ rad/s with critical damping, as it stands. Set a list of them, or some by the na
 
 static const Entry joint_dynamics_methods[] = {
     {"mass_matrix", method<[](const RobotHandle& x) { return of_robot(x).mass_matrix; }>, R"(
-Inertia of its DOFs where it stands: half of v M v is the energy with which velocities v of the DOFs move it and all that it
-carries, its base held. Armature of the joints is in it.
+Mass matrix of its DOFs at its present posture: half of v M v is the kinetic energy at DOF velocities v of the robot and everything that it
+carries, with its base fixed. It includes the armature of the joints.
 @return number[][] rows  one row and one column per DOF [kg m^2, kg m or kg]
 > M = hand:mass_matrix()
 > #M, #M[1], M[1][2] == M[2][1]  --> 12, 12, true)"},
@@ -111,7 +111,7 @@ give so that no DOF accelerates, joints without springs and friction.
 > hand.gravity_compensation = true
 > math.abs(hand:bias_forces()[1]) < 1e-12  --> true)"},
     {"inverse_dynamics", guarded<inverse_dynamics>, R"(
-Forces that its motors have to give for these accelerations of the DOFs, where nothing touches it: mass matrix, bias forces,
+Forces of its motors required for these accelerations of the DOFs, without contacts: mass matrix, bias forces,
 springs and viscous friction of the joints; not their dry friction.
 @param accelerations number[]  one per DOF [rad/s^2 or m/s^2]
 @return number[] forces  one per DOF, as set_forces takes them [N m or N]

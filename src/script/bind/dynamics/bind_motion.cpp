@@ -34,12 +34,13 @@ static int set_velocity(lua_State* L) {
 static BodyHandle pushed_body(lua_State* L) {
   const auto body = self_body(L);
   if (body->kind == BodyKind::obstacle)
-    fail("{}: an obstacle moves as it is told, whatever pushes it", subject(L));
+    fail("{}: an obstacle moves with its set velocity, independent of forces", subject(L));
   if (body->kind != BodyKind::base) return body;
   const World& world = *body.world;
   if (!world.robot(body->robot).mounting && !world.dynamic_settings().robot(body->robot).floating)
     fail(
-        "{}: the base stands or moves as it is told, whatever pushes it, unless `floating` is true",
+        "{}: the base is fixed or moves with its set velocity, independent of forces, unless "
+        "`floating` is true",
         subject(L));
   return body;
 }
@@ -98,15 +99,15 @@ static int weld_to(lua_State* L) {
 
 static const Entry motion_fields[] = {
     {"velocity", getter<[](const Entity& x) { return x.world->twist(x.id); }>, R"(
-Of its center of mass, and of its turning, in world axes. An obstacle, and the base of a robot, move by theirs as they are
-told, whatever they push. A table of its own; one that is set changes what it names. Setting a pose brings a body to rest.
+Velocity of its center of mass and angular velocity, in world axes. An obstacle and the base of a robot keep theirs,
+independent of contacts. A copy; setting a table changes the keys that it contains. Setting a pose brings a body to rest.
 @type {linear: vec3, angular: vec3}  [m/s], [rad/s]
 > flask.velocity = {linear = {0, 0, 1}}
 > flask.velocity.linear  --> (0, 0, 1)
 > flask.velocity = {linear = {0, 0, 1 / 0}}  --> error: velocity)",
      guarded<set_velocity>},
     {"surface_velocity", getter<surface_velocity>, R"(
-Of a conveyor belt: what touches it is carried along at this velocity, in its own frame, while it stands. Only the part along the surface counts.
+Surface velocity of a conveyor belt: touching bodies are carried along at this velocity, in its own frame, while it does not move. Only the component along the surface counts.
 @type vec3  [m/s]
 > flask.surface_velocity = {0.1, 0, 0}
 > flask.surface_velocity  --> (0.1, 0, 0)
@@ -120,27 +121,27 @@ The body that it is welded to, or nil.
 
 static const Entry motion_methods[] = {
     {"apply_force", guarded<apply_force>, R"(
-Pushes it in the next step, and in that one alone; pushes add up. Neither an obstacle nor the base of a robot that does not
+Applies a force in the next step only; forces add up. Neither an obstacle nor the base of a robot that does not
 float can be pushed.
 @param force vec3  in world axes [N]
 @param point? vec3  where, in the world; its center of mass by default [m]
 > flask:apply_force({0, 0, 1})
 > flask:apply_force({0, 0, 0 / 0})  --> error: force)"},
     {"apply_torque", guarded<apply_torque>, R"(
-Turns it in the next step, and in that one alone.
+Applies a torque in the next step only.
 @param torque vec3  in world axes [N m]
 > flask:apply_torque({0, 0, 0.1})
 > flask:apply_torque({0, 0, 0 / 0})  --> error: torque)"},
     {"weld", guarded<weld_to>, R"(
-Makes it one piece with another body, as the two stand: in runs it moves as a part of that, with its mass, until it is unwelded.
-Contacts between the two end. Their momentum stays, as in a blow after which they go on together. Placed by hand, they stay
-welded as they then stand. Collision tests go on as before.
+Welds it to another body at their present relative pose: in runs it moves as a part of that, with its mass, until it is unwelded.
+Contacts between the two end. Their momentum is conserved, as in a perfectly inelastic collision. If one is placed by a script, they stay
+welded at the new relative pose. Collision tests are not affected.
 @param to body|robot  a body that does not hang on it by welds; of a robot its base
 > flask:weld(hand.links[3])
 > flask.welded_to == hand.links[3]  --> true
 > flask:weld(hand.base)  --> error: is welded to)"},
     {"unweld", method<[](const Entity& x) { unweld(*x.world, x.id); }>, R"(
-It goes on by itself, with the velocity that it has.
+Removes the weld: it continues separately, with its present velocity.
 > flask:weld(hand.base)
 > flask:unweld()
 > flask.welded_to  --> nil
@@ -149,7 +150,7 @@ It goes on by itself, with the velocity that it has.
 
 const Class motion_class{.name = "motion",
                          .variable = "body",
-                         .doc = "How bodies and robots move: velocity, and what pushes them.",
+                         .doc = "Motion of bodies and robots: velocity, and applied forces.",
                          .fields = motion_fields,
                          .methods = motion_methods,
                          .parent = &entity_class};

@@ -139,18 +139,18 @@ static int set_floating(lua_State* L) {
 static const Entry robot_dynamics_fields[] = {
     {"dof_velocities", getter<[](const RobotHandle& x) { return x.world->dof_velocities(x.id); }>,
      R"(
-Of its degrees of freedom; a list of its own.
+Velocities of its degrees of freedom; a copy.
 @type number[]  [rad/s or m/s]
 > hand.dof_velocities[1]  --> 0.0)",
      guarded<set_dof_velocities>},
     {"dof_efforts", guarded<get_efforts>, R"(
-What its motors gave in the last step.
+Forces of its motors in the last step.
 @type number[]  [N m or N]
 > hand.dof_efforts[1]  --> 0.0)"},
     {"controller", guarded<get_controller>, R"(
-What its motors do: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
-that are asked for; "effort", they give the forces that set_forces says, and nothing else, as DOFs that no actuator of a MuJoCo
-file drives do at first ("none" is another word for it); "mixed": not all the same. `set_targets`, `set_target_velocities` and
+Mode of its motors: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
+that are set; "effort", they exert only the forces given by set_forces, as DOFs that no actuator of a MuJoCo
+file drives do initially ("none" is a synonym); "mixed": not all equal. `set_targets`, `set_target_velocities` and
 `autograsp {dynamic = true}` switch the DOFs that they move.
 @type "position"|"velocity"|"effort"|"none"|"mixed"
 > hand.controller  --> position
@@ -158,19 +158,19 @@ file drives do at first ("none" is another word for it); "mixed": not all the sa
 > hand.controller = "pid"  --> error: "none")",
      guarded<set_controller>},
     {"gravity_compensation", getter<is_on<&RobotDynamics::gravity_compensation>>, R"(
-Do its motors carry the weight of its own links, without what is welded to them? As controllers of real arms do. A floating
+Do its motors compensate the weight of its own links, without bodies welded to them, as controllers of real arms do? A floating
 robot has all its weight.
 @type boolean
 > hand.gravity_compensation  --> true)",
      setter<turn<&RobotDynamics::gravity_compensation>>},
     {"breakaway", getter<is_on<&RobotDynamics::breakaway>>, R"(
-Do joints leave its breakaway DOFs while the world runs, when what stops them asks for more than the breakaway torque? They are
-then locked until the DOF, opening, comes back to them. Else, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
+Do joints leave its breakaway DOFs while the world runs, if a contact exceeds the breakaway torque? They are
+then locked until the opening DOF returns to them. Otherwise, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 @type boolean
 > hand.breakaway  --> false)",
      setter<turn<&RobotDynamics::breakaway>>},
     {"floating", getter<is_on<&RobotDynamics::floating>>, R"(
-Is its base free to move? Else it stands, or moves as its velocity says.
+Is its base free to move? Otherwise it is fixed, or moves with its set velocity.
 @type boolean
 > hand.floating  --> false)",
      guarded<set_floating>},
@@ -178,21 +178,21 @@ Is its base free to move? Else it stands, or moves as its velocity says.
 
 static const Entry robot_dynamics_methods[] = {
     {"set_forces", guarded<set_forces>, R"(
-What each motor gives from now on: beside what its controller does, or alone with the controller "none". DOFs that a table by
-names leaves out keep what they had.
+Force of each motor from now on: in addition to that of its controller, or alone with the controller "none". DOFs that a table by
+names leaves out keep their forces.
 @param forces number[]|table<string, number>  [N m or N]
 > hand:set_forces {dof2 = 0.5}
 > hand:set_forces {1}  --> error: expected 12)"},
     {"set_targets", guarded<set_targets>, R"(
-Where its motors are to bring it: at once, or on a smooth way (a polynomial of the fifth degree in time). DOFs that a table
-by names leaves out go on as they did.
+Targets of its motors: reached at once, or on a smooth path (a polynomial of the fifth degree in time). DOFs that a table
+by names leaves out keep theirs.
 @param dofs number[]|table<string, number>  [rad or m]
 @param options? table  how fast
 @option velocity? number [rad/s or m/s, > 0]  the largest on the way
 > hand:set_targets({dof2 = 0.3}, {velocity = 1})
 > hand:set_targets({dof2 = 100})  --> error: must lie in)"},
     {"set_target_velocities", guarded<set_target_velocities>, R"(
-The velocities that its motors are to keep. DOFs that a table by names leaves out go on as they did.
+Target velocities of its motors. DOFs that a table by names leaves out keep theirs.
 @param velocities number[]|table<string, number>  [rad/s or m/s]
 > hand:set_target_velocities {dof2 = 0.1}
 > hand:set_target_velocities {1}  --> error: expected 12)"},
@@ -205,7 +205,7 @@ it was to close?
 
 const Class robot_dynamics_class{.name = "robot_dynamics",
                                  .variable = "hand",
-                                 .doc = "How a robot's motors move it.",
+                                 .doc = "Dynamics of a robot and its motors.",
                                  .fields = robot_dynamics_fields,
                                  .methods = robot_dynamics_methods,
                                  .parent = &joint_dynamics_class};

@@ -26,7 +26,7 @@ static double check_time(lua_State* L, int i, const char* name, double least) {
 
 // --- time ---
 
-// What happened in a run that its user does not expect: told once.
+// Warns of unexpected events of a run, once each.
 static void tell_trouble(lua_State* L, const World& world, const StepReport& before) {
   static const char overlaps = 0, failures = 0;
   if (!world.dynamics()) return;
@@ -50,7 +50,7 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
                     subject(L)));
 }
 
-// Parts of the world that ODE does not simulate; empty: none.
+// Parts of the world that ODE does not simulate; empty if there are none.
 static std::vector<std::string> lost_by_ode(const World& world) {
   std::vector<std::string> out;
   const auto add = [&](bool lost, const char* what, const std::string& name) {
@@ -89,7 +89,7 @@ static int run(lua_State* L) {
   return 0;
 }
 
-// halves of a step within a run would be steps that it does not know of
+// steps made within a run would be unknown to it
 static void check_not_running(lua_State* L) {
   if (!push_hooks(L, self<WorldHandle>(L).world, false)) return;
   lua_getfield(L, -1, "runs");
@@ -101,7 +101,7 @@ static void check_not_running(lua_State* L) {
 static int move_bodies(lua_State* L) {
   check_not_running(L);
   const double dt = check_time(L, 2, "dt", time_step_rule.min);
-  call_observers(L, self<WorldHandle>(L).world);  // of the start, before the first step
+  call_observers(L, self<WorldHandle>(L).world);  // at the start, before the first step
   return push(L, Stepper(world_of(L)).move(dt));
 }
 
@@ -143,7 +143,7 @@ static int get_energy(lua_State* L) {
   return push_record(L, {{"kinetic", e.kinetic}, {"potential", e.potential}});
 }
 
-// what bodies do to links, as a table by link
+// average contacts of bodies on links, as a table by link
 static int average_contacts(lua_State* L) {
   const World& world = world_of(L);
   const auto bodies = check_bodies(L, 2, "links", self<WorldHandle>(L).world);
@@ -181,7 +181,7 @@ static int average_contacts(lua_State* L) {
   });
 }
 
-// --- how it is solved ---
+// --- solver settings ---
 
 static constexpr Word<DynamicsEngine> engines[] = {{"clench", DynamicsEngine::clench},
                                                    {"ode", DynamicsEngine::ode}};
@@ -227,7 +227,7 @@ static int set_dynamics(lua_State* L) {
 
 static const Entry world_dynamics_fields[] = {
     {"time", getter<[](const WorldHandle& x) { return x.world->time(); }>, R"(
-How long it has run.
+Simulation time.
 @type number  [s]
 > world.time  --> 0.0)"},
     {"time_step", getter<[](const WorldHandle& x) { return x.world->dynamic_settings().step; }>, R"(
@@ -237,7 +237,7 @@ Length of the steps of `run`; from 1e-7 to 1.
 > world.time_step = 0  --> error: time step)",
      setter<set_time_step>},
     {"dynamics", guarded<get_dynamics>, R"(
-How steps are solved; a table of its own, and a table that is set changes what it names. `engine`: "clench", or "ode", which solves the same
+Solver settings; a copy, and setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same
 contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which bodies
 that touch each other have at most 6,000; more is an error of the kind "limit".
 @type {time_step: number, engine: string, cone: string, edges: integer}
@@ -246,9 +246,9 @@ that touch each other have at most 6,000; more is an error of the kind "limit".
 > world.dynamics = {engine = "odee"}  --> error: did you mean 'ode'?)",
      guarded<set_dynamics>},
     {"report", guarded<get_report>, R"(
-What steps came to: how many there were, how many ended early because bodies met (`impacts`), what the solver took
-(`iterations`; of groups of bodies that touch each other, `fallbacks`, that needed its slow methods, and `failures`, that it did not solve to 1e-9 m/s, or 1e-8 m/s of what rests),
-pairs that stood in each other (`overlaps`), points that touched in the last step, and what faults the solutions have
+Statistics of steps: their number, those that ended early because bodies collided (`impacts`), the effort of the solver
+(`iterations`; `fallbacks`, groups of touching bodies that needed its slow methods, and `failures`, groups that it did not solve to 1e-9 m/s, or 1e-8 m/s for bodies at rest),
+overlapping pairs (`overlaps`), points that touched in the last step, and the residuals of the solutions
 as velocities [m/s].
 @type {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number}
 > world.report.failures  --> 0)"},
@@ -277,22 +277,22 @@ The second half of a step: the velocities that contacts, forces, motors and limi
        for (Load& load : x.world->edit_dynamics().loads) load = {};
      }>,
      R"(
-Takes back what `apply_force` and `apply_torque` gave for the next step.
+Clears the forces and torques of `apply_force` and `apply_torque` for the next step.
 > flask:apply_force({0, 0, 1})
 > world:clear_forces()
 > world.gravity = {0, 0, 0}
 > world:run(0.001)
 > flask.velocity.linear  --> (0, 0, 0))"},
     {"momentum", guarded<get_momentum>, R"(
-Of all objects and robots; the angular one about the origin of the world.
+Total momentum of all objects and robots; the angular one about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
 > world:momentum().linear  --> (0, 0, 0))"},
     {"energy", guarded<get_energy>, R"(
-Of all objects and robots: of motion, and of height above the origin of the world and springs.
+Total energy of all objects and robots: kinetic, and potential relative to the origin of the world, including springs.
 @return {kinetic: number, potential: number}  [J]
 > world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
-What presses on each of some bodies, after the last step: the sum of the forces and their center. Bodies on which nothing
+Contact force on each of some bodies in the last step: the sum of the forces and their center. Bodies on which nothing
 presses are left out.
 @param links body|body[]  link or links whose contacts are averaged
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]
@@ -302,7 +302,7 @@ presses are left out.
 const Class world_dynamics_class{
     .name = "world_dynamics",
     .variable = "world",
-    .doc = "How a world moves: time, steps, momentum, and what presses on what.",
+    .doc = "Dynamics of a world: time, steps, momentum, and contact forces.",
     .fields = world_dynamics_fields,
     .methods = world_dynamics_methods,
     .parent = &world_control_class};

@@ -11,14 +11,14 @@ namespace clench {
 
 namespace {
 
-// whose hooks they are, and what its listeners have been told
+// owner of the hooks, and events already reported to its listeners
 struct Hooks {
   std::weak_ptr<World> world;
   std::set<std::pair<Id<Body>, Id<Body>>> touching;
-  std::set<std::pair<Id<Robot>, int>> at_limit;  // DOF + 1, or minus that at the lower one
+  std::set<std::pair<Id<Robot>, int>> at_limit;  // DOF + 1, negative at the lower limit
 };
 
-// a world that runs
+// state of a running world
 struct Stepping {
   WorldPtr world;
   Stepper stepper;
@@ -29,7 +29,7 @@ using SteppingPtr = std::shared_ptr<Stepping>;
 const Class hooks_class{.name = "hooks", .variable = "hooks", .doc = ""};
 const Class stepping_class{.name = "stepping", .variable = "stepping", .doc = ""};
 
-const char hooks_key = 0;  // its address names the place of all tables of hooks
+const char hooks_key = 0;  // its address is the registry key of the tables of hooks
 
 }  // namespace
 
@@ -38,7 +38,7 @@ inline constexpr const Class* script_class<Hooks> = &hooks_class;
 template <>
 inline constexpr const Class* script_class<SteppingPtr> = &stepping_class;
 
-// the hooks of a table of them; null when their world has gone
+// the hooks of a table of hooks; null if their world no longer exists
 static Hooks* hooks_in(lua_State* L, int table) {
   lua_rawgeti(L, table, 1);
   Hooks* hooks = to<Hooks>(L, -1);
@@ -46,7 +46,7 @@ static Hooks* hooks_in(lua_State* L, int table) {
   return hooks && !hooks->world.expired() ? hooks : nullptr;
 }
 
-// worlds that have gone leave their tables behind
+// removes the tables of worlds that no longer exist
 static void drop_old(lua_State* L, int all) {
   for (lua_pushnil(L); lua_next(L, all); lua_pop(L, 1)) {
     if (hooks_in(L, lua_gettop(L))) continue;
@@ -65,7 +65,7 @@ bool push_hooks(lua_State* L, const WorldPtr& world, bool make) {
     lua_rawsetp(L, LUA_REGISTRYINDEX, &hooks_key);
   }
   const int all = lua_gettop(L);
-  // another world may have had its place in memory
+  // another world may have had the same address
   if (lua_rawgetp(L, all, world.get()) == LUA_TTABLE)
     if (const Hooks* hooks = hooks_in(L, lua_gettop(L)); hooks && hooks->world.lock() == world) {
       lua_remove(L, all);
@@ -92,7 +92,7 @@ static int step(lua_State* L) {
 
 static bool touches(const Manifold& m) { return !m.points.empty(); }
 
-// to the list on top of the stack
+// appends to the list on top of the stack
 static void append_event(lua_State* L, std::initializer_list<Field> event) {
   push_record(L, event);
   lua_rawseti(L, -2, static_cast<lua_Integer>(lua_rawlen(L, -2)) + 1);
@@ -128,7 +128,7 @@ static void tell_contacts(lua_State* L, const WorldPtr& world, Hooks& hooks) {
 }
 
 static void tell_limits(lua_State* L, const WorldPtr& world, Hooks& hooks) {
-  // reached within so much; left when it is farther away [rad or m]
+  // a limit is reached within this distance, and left beyond it [rad or m]
   constexpr double reached = 1e-5, left = 1e-4;
   std::set<std::pair<Id<Robot>, int>> now;
   for (const auto id : world->robots()) {

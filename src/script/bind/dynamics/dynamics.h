@@ -1,4 +1,4 @@
-// How worlds, bodies and robots move, as scripts see it.
+// Dynamics of worlds, bodies and robots for scripts.
 #pragma once
 #include "clench/script/bind/handles.h"
 #include "clench/script/lua/table.h"

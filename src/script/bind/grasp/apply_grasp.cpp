@@ -38,7 +38,7 @@ static std::optional<PregraspState> pregrasp_of(const World& world, Id<Robot> ha
   return PregraspState{grasp.pregrasp->X_OH, {q.begin(), q.end()}};
 }
 
-// once, as lists have thousands
+// once, because lists have thousands
 static void warn_of_others(lua_State* L, const World& world, const GraspSpec& grasp, Id<Robot> hand,
                            Id<Body> object) {
   static const char of_identity = 0;
@@ -47,7 +47,7 @@ static void warn_of_others(lua_State* L, const World& world, const GraspSpec& gr
   if (!text.empty() && first_time(L, &of_identity, text)) log_warning(L, text);
 }
 
-// puts the hand where the grasp has it, and measures it there
+// sets the hand to the grasp, and measures it there
 int apply_by_script(lua_State* L) {
   const auto& g = self<GraspHandle>(L);
   if (!given(L, 2)) world_of(L, g);
@@ -68,7 +68,7 @@ int apply_by_script(lua_State* L) {
   if (given_object) named.object_name = (*given_object)->name;
   const auto hand = given_hand ? given_hand->id : world->find_robot(named.hand_name);
   const auto object = given_object ? given_object->id : world->find_body(named.object_name);
-  if (!hand || !object) apply_grasp(*world, named);  // says what is missing
+  if (!hand || !object) apply_grasp(*world, named);  // the error names what is missing
   if (named.dof_names.empty() && !order.names.empty()) name_dofs(named, order, nullptr, subject(L));
   warn_of_others(L, *world, g.grasp, hand, object);
   const GraspDofOptions dofs = dof_options(L, order.order);
@@ -79,7 +79,7 @@ int apply_by_script(lua_State* L) {
   measured.info = g.grasp.info;
   measured.labels = g.grasp.labels;
   measured.pregrasp = before;
-  // values of DOFs in another order would be those of other motors
+  // values of DOFs in another order would apply to other motors
   if (named.dof_names == measured.dof_names) measured.squeeze = g.grasp.squeeze;
   return push_object(L, GraspHandle{world, std::move(measured)});
 }

@@ -1,4 +1,4 @@
-// A grasp put into a world, and its identity there.
+// Applies a grasp to a world, and identifies it there.
 #pragma once
 #include <lua.hpp>
 
@@ -6,7 +6,7 @@
 
 namespace clench {
 
-/// Notes fingerprints and the version with a grasp that was measured in that world.
+/// Stores fingerprints and the version with a grasp that was measured in that world.
 void note_identity(lua_State* L, const World& world, Grasp& grasp);
 
 /// (grasp, world, options): as grasp:apply

@@ -12,7 +12,7 @@
 
 namespace clench {
 
-// --- what is asked ---
+// --- options ---
 
 static std::optional<double> positive_if(Table& options, const char* key) {
   if (!options.has(key)) return {};
@@ -38,7 +38,7 @@ static void read_caps(Table& options, ForceOptions& forces) {
   forces.total_force = positive_if(options, "total_force");
 }
 
-// limits and totals of joints; those that are not asked for leave forces.joints empty
+// limits and totals of joints; forces.joints stays empty if they are not requested
 static void read_joints(Table& options, ForceOptions& forces) {
   JointDemand joints;
   bool asked = read_limits(options, false, joints);
@@ -61,7 +61,7 @@ static ForceObjective read_objective(Table& options) {
                         ForceObjective::min_sum);
 }
 
-// --- what is answered ---
+// --- results ---
 
 static const char* status_name(ForceStatus status) {
   return word_of(status, {{"optimal", ForceStatus::optimal},
@@ -99,7 +99,7 @@ static void push_certificate(lua_State* L, const GraspHandle& g, const ForceCert
   if (c.contact >= 0) set_field(L, "contact", ContactHandle{g.world, g.grasp.contacts[c.contact]});
 }
 
-// leaves the result on the stack
+// pushes the result
 static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r,
                         const char* status) {
   push_record(L, {{"status", status}});
@@ -117,7 +117,7 @@ static void push_result(lua_State* L, const GraspHandle& g, const ForceResult& r
   if (r.certificate) set_field(L, "certificate", [&] { push_certificate(L, g, *r.certificate); });
 }
 
-// names of the motors whose limits count here but that have none
+// names of the motors whose limits matter here but are unknown
 static void push_unlimited(lua_State* L, const GraspHandle& g,
                            const std::optional<JointDemand>& joints) {
   if (!joints || joints->unlimited || joints->limits || joints->efforts || joints->springs_only)
@@ -207,12 +207,12 @@ static const Entry forces_methods[] = {
     {"contact_forces", guarded<forces>, R"(
 Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx,
 fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's center of mass; its
-weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the least sum of normal forces (Han, Trinkle and Li
-2000; Boyd and Wegbreit 2007); "min_norm", the least sum of squares of the forces, the only one that always has a single
-answer; "min_max", the least largest normal force; "max_margin", as far from the edges of the cones and from max_force
-as all can be; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible",
-with a `certificate`; "unbounded" when more force is always better; "inaccurate" when what was found does not pass its
-check: balance, cones, caps and optimum to 1e-9, and what is left of a load, to 1e-7 of it. A cap that does not bind
+weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the minimum sum of normal forces (Han, Trinkle and Li
+2000; Boyd and Wegbreit 2007); "min_norm", the minimum sum of squares of the forces, the only one that always has a unique
+solution; "min_max", the minimum largest normal force; "max_margin", as far from the edges of the cones and from max_force
+as possible; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible",
+with a `certificate`; "unbounded" if more force is always better; "inaccurate" if the solution does not pass its
+check: balance, cones, caps and optimum to 1e-9, and the residual of a load, to 1e-7 of it. An inactive cap
 changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0
 when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones,
 as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential
@@ -220,7 +220,7 @@ along x and y of contact.frame, force in the world's axes, margin from the edge 
 wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of
 the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates`
 and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or
-`dof`, whichever gives way. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
+`dof`, whichever yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
 @param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: true, what each motor can exert, as in hand.effort_ranges; or a list of one per DOF, for both directions; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, under the world's gravity; balance "nearest": the least unbalanced wrench instead
 @return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
@@ -232,16 +232,16 @@ and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit
 > grasp:contact_forces{load = {1, 2}}  --> error: 6)"},
     {"max_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
-`status` "unlimited" when no cap and no torque ends it. The `certificate` says what gives way beyond it.
+`status` "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it.
 `unlimited_efforts` as in contact_forces.
 @param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
 @return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
     {"equilibrium", guarded<balance>, R"(
-Can the hand as it stands hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
-couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm takes what it must. `status`: "stable"; "unstable", then `unbalanced` is the least
-wrench that is left and `certificate` says what gives way; "moving" when no contact forces balance the joints, so that a
+Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
+couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable", then `unbalanced` is the smallest
+wrench that remains and `certificate` names what yields; "moving" if no contact forces balance the joints, so that a
 finger moves; "inaccurate".
 @param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, for both directions, or false for none where a motor exerts anything; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
 @return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
@@ -255,7 +255,7 @@ contacts then the torque about the normal.
 @return number[][]
 > #grasp:grasp_map(), #grasp:grasp_map()[1] == 3 * #grasp.contacts  --> 6, true)"},
     {"hand_jacobian", guarded<jacobian_rows>, R"(
-How fast each DOF moves the contacts: a row for each column of the grasp map, a column for each DOF, by the ratios of
+Velocity of the contacts per DOF: a row for each column of the grasp map, a column for each DOF, by the ratios of
 its joints. Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
 @return number[][]
 > #grasp:hand_jacobian()[1] == #hand.dofs  --> true)"},

@@ -50,7 +50,7 @@ static int measure(lua_State* L) {
   options.done();
   Grasp measured = find_grasp(*hand.world, hand.id, object.id, grasp);
   note_identity(L, *hand.world, measured);
-  // once, as planners measure thousands
+  // once, because planners measure thousands
   static const char at_edges = 0;
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
   if (measured.contacts_at_edges > 0 && first_time(L, &at_edges, about))
@@ -63,7 +63,7 @@ static int measure(lua_State* L) {
 const World& world_of(lua_State* L, const GraspHandle& grasp) {
   if (!grasp.world)
     fail(
-        "{}: the grasp stands in no world, as those of planners and files; grasp:apply(world) "
+        "{}: the grasp belongs to no world, like those of planners and files; grasp:apply(world) "
         "gives one that does",
         subject(L));
   return *grasp.world;
@@ -162,12 +162,12 @@ static int get_epsilon(lua_State* L) {
   const auto& [world, g] = self<GraspHandle>(L);
   if (const auto known = g.measures.find("epsilon"); known != g.measures.end())
     return push(L, known->second);
-  // a line of a file without points tells nothing of contacts
+  // a line of a file without points has no information on contacts
   if (!world && g.points.empty()) return push_nil(L);
   return push(L, space_of(g)->epsilon());
 }
 
-// what it is in a file
+// value in a file
 static int grasp_as_json(lua_State* L) {
   read_json(L, grasp_line(self<GraspHandle>(L).grasp));
   return 1;
@@ -221,7 +221,7 @@ static int grasp_space(lua_State* L) {
 
 static const Entry grasp_functions[] = {
     {"grasp", guarded<measure>, R"(
-The grasp of a hand on an object as it is now. A grasp without contacts is no error: it resists nothing.
+The present grasp of a hand on an object. A grasp without contacts is not an error: it resists nothing.
 @param hand robot  hand that holds the object
 @param object body  object that is held
 @param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its center of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
@@ -241,7 +241,7 @@ The body that is grasped.
 > grasp.object == flask  --> true)"},
     {"hand_name", getter<[](const GraspHandle& x) { return x.grasp.hand_name; }>,
      R"(
-Name of the robot that grasps; a grasp that stands in no world has it, too.
+Name of the robot that grasps; a grasp outside any world has it, too.
 @type string
 > grasp.hand_name == hand.name  --> true)"},
     {"object_name", getter<[](const GraspHandle& x) { return x.grasp.object_name; }>, R"(
@@ -276,7 +276,7 @@ Version of Clench that measured the grasp; "" in a list from a file without it.
 @type string
 > grasp.engine_version == clench.version  --> true)"},
     {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
-Where the hand's base stood in the object's frame when the grasp was measured.
+Pose of the hand's base in the object's frame when the grasp was measured.
 @type pose
 > (flask.pose * grasp.pose).position == hand.pose.position  --> true)"},
     {"dofs", getter<[](const GraspHandle& x) { return x.grasp.dofs; }>, R"(
@@ -297,7 +297,7 @@ list from a file that does not name them.
 @type string[]
 > #grasp.joint_names == #grasp.joint_positions  --> true)"},
     {"joint_values", method<joint_values>, R"(
-The same positions as the hand's own file counts them, which other programs expect: they differ where the file's joint has
+The same positions in the convention of the hand's file, which other programs expect: they differ if the file's joint has
 another zero.
 @type number[]  [rad or m]
 > #grasp.joint_values == #grasp.joint_names  --> true)"},
@@ -321,7 +321,7 @@ Words that a script notes, by name: its planner, its script. They are kept in fi
 > grasp.labels = {planner = 3}  --> error: planner: expected a string, got 3)",
      guarded<set_labels>},
     {"pregrasp", getter<[](const GraspHandle& x) { return x.grasp.pregrasp; }>, R"(
-How the hand stands before it comes to the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
+The hand before it approaches the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
 known. Planners set it; files keep it.
 @type {pose: pose, dofs: number[]}?
 > grasp.pregrasp  --> nil
@@ -337,7 +337,7 @@ Targets of the motors that press on the object, one per DOF, perhaps beyond its 
 > grasp.squeeze = {1}  --> error: numbers, one per DOF, got 1)",
      guarded<set_squeeze>},
     {"collision_free", getter<[](const GraspHandle& x) { return x.grasp.collision_free; }>, R"(
-Did nothing collide as the hand grasped? nil: nobody looked. Planners set it; files keep it.
+Was the grasp free of collisions? nil: not checked. Planners set it; files store it.
 @type boolean?
 > grasp.collision_free = not world:collides()
 > grasp.collision_free  --> true)",
@@ -356,7 +356,7 @@ The same contacts in the object's frame, as clench.wrench_space takes them; tors
 > again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
 > again:epsilon() == grasp:quality "epsilon"  --> true)"},
     {"links", getter<[](const GraspHandle& x) { return x.grasp.links; }>, R"(
-Names of what touches at each of the points.
+Names of the touching bodies at each of the points.
 @type string[]
 > #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
     {"rho", getter<[](const GraspHandle& x) { return x.grasp.rho; }>, R"(
@@ -380,10 +380,10 @@ The options with which clench.grasp measures another grasp in the same way.
 static const Entry grasp_methods[] = {
     {"apply", guarded<apply_by_script>, R"(
 Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
-there. Hand and object are found by their names unless they are given, DOFs by theirs where the grasp has them; DOFs that it
-does not have stay. Joints that a DOF moves may be listed, too: one that differs from what its DOF makes of it is warned of. A
+there. Hand and object are found by their names unless they are given, DOFs by theirs if the grasp has them; DOFs that it
+does not have keep their values. Joints that a DOF moves may be listed, too: a warning names one that differs from the value given by its DOF. A
 value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in
-the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. Where an arm carries the hand, the arm moves, to the posture that `ik` finds first from where it is, with all that it carries. Nothing else moves, and collisions are not checked: see `world:collides`.
+the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the posture that `ik` finds first from its present one. Nothing else moves, and collisions are not checked: see `world:collides`.
 A warning names a hand whose shapes or joints, or an object whose surface differs from the one that the grasp was measured with; masses, materials, limits and motors may differ.
 @param world? world  default: its own
 @param options? {hand?: robot, object?: body, dof_order?: string|string[]}
@@ -394,13 +394,13 @@ A warning names a hand whose shapes or joints, or an object whose surface differ
 > #again.contacts == #grasp.contacts, math.abs(again:quality "epsilon" - grasp:quality "epsilon") < 1e-9  --> true, true
 > grasp:apply(clench.world{})  --> error: there is no such hand in this world)"},
     {"dofs_for", guarded<grasp_dofs_for>, R"(
-Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, where it has one.
+Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, if it has one.
 @param hand robot  hand whose DOFs are wanted
 @param options? {dof_order?: string|string[]}  as `apply` takes it
 @return number[] dofs, number[]? pregrasp  [rad or m]
 > #grasp:dofs_for(hand) == #hand.dofs  --> true)"},
     {"save", guarded<save_grasp>, R"(
-Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand stands on slides, named carriage_x, carriage_y
+Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand is on slides, named carriage_x, carriage_y
 and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and
 "lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
 @param path string  .xml or .mjcf
@@ -418,7 +418,7 @@ Can it resist every wrench?
 > grasp:is_force_closure()  --> true)"},
     {"wrench_space", guarded<grasp_space>, R"(
 Its wrench space about the object's center of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
-in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which keeps what it has found.
+in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which caches its results.
 @param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
 @return wrench_space
 > grasp:wrench_space().rank  --> 6

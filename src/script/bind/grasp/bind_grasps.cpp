@@ -103,8 +103,8 @@ static const std::vector<GraspHandle>& items_of(const GraspList& list) { return 
 
 static const Entry grasps_functions[] = {
     {"grasps", guarded<list_grasps>, R"(
-A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` says which, and
-of `.json` and `.txt` files their content does. Its grasps belong to no world: they have what the file holds of contacts, posture
+A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` selects it, and
+for `.json` and `.txt` files their contents. Its grasps belong to no world: they have the file's contacts, posture
 and measures, and `apply` puts them into a world.
 @param path? string  file of grasps to read; without it the list is empty
 @param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
@@ -123,14 +123,14 @@ and measures, and `apply` puts them into a world.
 
 static const Entry grasps_methods[] = {
     {"add", guarded<grasps_add>, R"(
-Adds a grasp at the end: its value as it is now, measures included.
+Appends a copy of a grasp, including its measures.
 @param grasp grasp  grasp to append
 @return integer count
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<grasps_save>, R"(
-Writes the list. JSON lines (`.jsonl`, or no ending) hold all there is: a head with the version, then a grasp on each line, numbers to the bit.
+Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers.
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
-`format`; a warning names what a format does not hold. The same list gives the same bytes.
+`format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
 @param path string  file to write; its ending selects the format
 @param options? {format?: string, notes?: table, compress?: boolean}  format: as clench.grasps takes it; compress: the arrays of an .npz; notes: plain data about the list as such, for the head of JSON lines
 > list = clench.grasps()

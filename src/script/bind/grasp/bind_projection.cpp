@@ -23,7 +23,7 @@ int project_space(lua_State* L) {
   ProjectionOptions options;
   options.tolerance = table.number("tolerance", options.tolerance);
   if (const int type = table.push("fixed"); type == LUA_TTABLE) {
-    // in the order of coordinates, whatever that of the table
+    // in the order of coordinates, independent of that of the table
     Table fixed(L, lua_gettop(L), table.what("fixed").text());
     for (int c = 0; c < 6; ++c)
       if (fixed.has(coordinate_names[c]))
@@ -69,7 +69,7 @@ static std::string title_of(const ProjectionHandle& handle) {
   return title;
 }
 
-// radius of what a section leaves of the ball of epsilon
+// radius of the section of the ball of epsilon
 static double ball_of(const ProjectionHandle& handle) {
   double square = handle.space->epsilon() * handle.space->epsilon();
   for (const auto& [coordinate, value] : handle.projection->fixed) square -= value * value;
@@ -82,7 +82,7 @@ static int draw_projection(lua_State* L) {
   const Projection& p = *handle.projection;
   Table options(L, 2);
   WrenchPicture showing{.solid = handle.shape};
-  // contacts answer the weakest wrench by its opposite, which the space reaches least
+  // contacts resist the weakest wrench by its opposite, the direction of the smallest reach
   Eigen::Vector3d least;
   for (int k = 0; k < 3; ++k) {
     showing.axes[k] = coordinate_names[p.free[k]];

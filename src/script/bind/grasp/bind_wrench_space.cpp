@@ -218,13 +218,13 @@ The coordinates that count.
 static const Entry space_methods[] = {
     {"epsilon", guarded<epsilon>, R"(
 Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9
-or, where that takes too many facets (rings of alike contacts, huge friction), a certified lower bound: epsilon_bounds
-says how near.
+or, if that takes too many facets (rings of equal contacts, large friction), a certified lower bound: epsilon_bounds
+has both bounds.
 @return number
 > grasp:wrench_space():epsilon() == grasp:quality "epsilon"  --> true)"},
     {"epsilon_bounds", guarded<epsilon_bounds>, R"(
 A certified bracket around epsilon, no tighter than need be: it ends when upper - lower is within the tolerance (1e-6),
-or when it is known whether epsilon reaches at_least.
+or as soon as epsilon is known to reach or miss at_least.
 @param options? {tolerance?: number, at_least?: number}
 @return {lower: number, upper: number, converged: boolean, reached?: boolean}  converged: within the tolerance; reached: lower >= at_least
 > bounds = grasp:wrench_space{edges = "exact"}:epsilon_bounds{tolerance = 1e-3}
@@ -232,7 +232,7 @@ or when it is known whether epsilon reaches at_least.
 > grasp:wrench_space():epsilon_bounds{at_least = 1}.reached  --> false)"},
     {"volume", guarded<volume>, R"(
 Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf"
-five hard contacts of eight edges or three soft ones are about the most: beyond 60,000 cells it is an error that says
+five hard contacts of eight edges or three soft ones are about the maximum: beyond 60,000 cells it is an error that states
 so.
 @return number
 > grasp:wrench_space():volume() == grasp:quality "volume"  --> true)"},
@@ -251,7 +251,7 @@ Is every wrench resisted?
 @return boolean
 > grasp:wrench_space():is_force_closure()  --> true)"},
     {"weakest", guarded<weakest>, R"(
-The wrench on the object that is resisted worst, and the contacts that give way first when it grows.
+The wrench on the object that is resisted worst, and the contacts that yield first when it grows.
 @return {direction: number[], resistance: number, contacts: integer[]}  unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it at their limit
 > w = grasp:wrench_space():weakest()
 > math.abs(w.resistance - grasp:quality "epsilon") < 1e-12 and #w.contacts >= 1  --> true)"},

@@ -19,9 +19,9 @@ struct NamedOrder {
 /// "hand", "isaac" or a list of names.
 NamedOrder read_dof_order(Table& options);
 
-/// Names the DOFs of a grasp that has none.
+/// Names the DOFs of a grasp that has no names.
 /// hand    null: the order must be a list of names
-/// throws  Error when there are other DOFs than names, or the hand has other DOFs
+/// throws  Error if the numbers of DOFs and names differ, or the hand has other DOFs
 void name_dofs(GraspSpec& grasp, const NamedOrder& order, const Robot* hand,
                const std::string& subject);
 

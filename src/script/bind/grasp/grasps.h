@@ -1,4 +1,4 @@
-// Grasps, lists of them, and what is asked of each.
+// Grasps, lists of them, and their measures.
 #pragma once
 #include <memory>
 #include <string>
@@ -17,22 +17,23 @@ extern const Library grasp_library, grasps_library, measures_library;
 
 // --- grasp. ---
 
-/// A grasp, in its world or, of a planner or a file, in none.
+/// A grasp, in its world or, if from a planner or a file, in none.
 struct GraspHandle {
   WorldPtr world;  ///< may be null
   Grasp grasp;
 };
 
-/// without the spaces, which are asked for later
+/// without wrench spaces, which are computed on demand
 inline size_t owned_bytes(const GraspHandle& handle) {
   return handle.grasp.contacts.size() * sizeof(Contact) +
          handle.grasp.points.size() * sizeof(PointContact);
 }
 
-/// The world that the grasp stands in.   throws Error when it stands in none
+/// The world of the grasp.
+/// throws  Error if it belongs to none
 const World& world_of(lua_State* L, const GraspHandle& grasp);
 
-/// A number > 0, or a list of one per contact, whose values whoever takes them checks; none when
+/// A number > 0, or a list of one per contact, whose values are checked by the caller; empty if
 /// absent.
 PerContact read_per_contact(Table& options, const char* key);
 
@@ -52,11 +53,11 @@ extern const Class grasps_class;
 template <>
 inline constexpr const Class* script_class<GraspList> = &grasps_class;
 
-// --- What every grasp can say of forces: the methods of grasp that balance loads. ---
+// --- Methods of every grasp that balance loads. ---
 
 extern const Class forces_class;
 
-// --- What every grasp can say of its worth: the methods of grasp that measure it. ---
+// --- Methods of every grasp that measure it. ---
 
 extern const Class measures_class;
 

@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 struct GraspSceneOptions {
   bool is_force_given = false;
   double force = 0;      ///< sum of the normal forces [N]
-  double height = 0.1;   ///< of the lift [m]
-  double retreat = 0.1;  ///< of a pregrasp that is not known [m]
+  double height = 0.1;   ///< height of the lift [m]
+  double retreat = 0.1;  ///< distance of a pregrasp that is not known [m]
 };
 
-/// The keys "pregrasp", "grasp" and "lift" of a grasp whose hand stands about its object.
+/// The keys "pregrasp", "grasp" and "lift" of a grasp whose hand is at its object.
 class GraspKeys {
  public:
   GraspKeys(lua_State* L, const World& world, const Grasp& grasp, const WorldSpec& spec,
@@ -61,7 +61,7 @@ class GraspKeys {
     return gravity.isZero(0) ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(-gravity.normalized());
   }
 
-  /// Efforts or targets of the motors that press.
+  /// Efforts or targets of the pressing motors.
   void press(WrittenKey& key) const {
     if (!grasp_.squeeze.empty() && !options_.is_force_given) {
       key.targets.resize(spec_.robots.size());
@@ -72,7 +72,7 @@ class GraspKeys {
     key.efforts[hand()] = efforts();
   }
 
-  // of forces in equilibrium, as many as the motors can exert
+  // from forces in equilibrium, as large as the motors can exert
   std::vector<double> efforts() const {
     ForceOptions asked;
     asked.objective = ForceObjective::max_margin;
@@ -169,7 +169,7 @@ int save_grasp(lua_State* L) {
   options.done();
   check_target(path, saving.confine);
   World world = *handle.world;
-  // the posture of the grasp, whatever moved since
+  // the posture of the grasp, even if the robot has moved since
   if (!stands_as_grasped(world, handle.grasp, handle.grasp.hand, handle.grasp.object))
     apply_grasp(world, handle.grasp, handle.grasp.hand, handle.grasp.object);
   Grasp grasp = find_grasp(world, handle.grasp.hand, handle.grasp.object, handle.grasp.options);

@@ -16,12 +16,13 @@ namespace clench {
 
 extern const Library wrench_space_library;
 
-// --- wrench_space: which wrenches contacts resist. ---
+// --- wrench_space: wrenches that contacts resist. ---
 
 /// `edges`: an integer or "exact"; empty when absent.
 /// throws  Error "...: edges must be 3 to 1000 or 'exact', got 2"
 std::optional<int> read_edges(Table& options);
-/// Is `rho` the word "gyration"?   throws  Error when it is another word
+/// Is `rho` the word "gyration"?
+/// throws  Error if it is another word
 bool is_gyration(Table& options);
 /// `norm` and `coordinates`
 WrenchSpaceOptions read_space_options(Table& options);
@@ -38,18 +39,18 @@ extern const Class wrench_space_class;
 template <>
 inline constexpr const Class* script_class<WrenchSpacePtr> = &wrench_space_class;
 
-/// with what it works out when it is asked
+/// including values computed on demand
 size_t owned_bytes(const WrenchSpacePtr& space);
 
 // --- projection: a wrench space in three coordinates. ---
 
 struct ProjectionHandle {
   std::shared_ptr<const Projection> projection;
-  ShapePtr shape;  ///< null when it is flat
+  ShapePtr shape;  ///< null if it is flat
   WrenchSpacePtr space;
 };
 
-/// of a wrench space: leaves its projection on the stack
+/// of a wrench space: pushes its projection
 int project_space(lua_State* L);
 
 extern const Class projection_class;
@@ -58,7 +59,7 @@ template <>
 inline constexpr const Class* script_class<ProjectionHandle> = &projection_class;
 
 inline size_t owned_bytes(const ProjectionHandle& handle) {
-  // its mesh lies in both
+  // its mesh is included in both
   return sizeof(Projection) + (handle.shape ? 2 * handle.shape->bytes() : 0);
 }
 

@@ -12,7 +12,7 @@
 
 namespace clench {
 
-static constexpr size_t max_named = 8;  // of letters that are boxes
+static constexpr size_t max_named = 8;  // number of characters drawn as boxes
 
 static ChartSeries read_series(lua_State* L, int index, const What& what) {
   if (!lua_istable(L, index)) fail_expected(what, "{name = ..., values = ...}", index);
@@ -28,7 +28,7 @@ static ChartSeries read_series(lua_State* L, int index, const What& what) {
   return series;
 }
 
-// once a chart, by their numbers
+// once per chart, by their code points
 static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
   std::string all = chart.title;
   for (const std::string& label : chart.labels) all += ' ' + label;
@@ -64,8 +64,8 @@ static int chart_draw(lua_State* L) {
 
 static const Entry chart_functions[] = {
     {"chart", guarded<chart_draw>, R"(
-Draws numbers as columns, one panel per series, each to its own scale, all over the same items, with its value where
-there is room; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value
+Draws numbers as columns, one panel per series, each with its own scale, all over the same items, with the value at each column if
+it fits; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value
 that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts
 that are too long lose their middle. It needs no graphics hardware.
 @param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need

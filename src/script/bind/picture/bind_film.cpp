@@ -28,7 +28,7 @@ static int save_gif(lua_State* L) {
   std::vector<int> delays(frames.size(), 10);
   if (options.has("rate")) {
     const double rate = options.positive("rate", 10);
-    // where a delay is rounded, the next one makes up for it
+    // the rounding error of a delay is carried over to the next one
     int shown = 0;
     for (size_t i = 0; i < delays.size(); ++i) {
       const int stop =

@@ -18,7 +18,7 @@
 
 namespace clench {
 
-// numbers, or false where one is missing
+// numbers, or false for missing ones
 static std::vector<double> read_gappy(lua_State* L, Table& series, const char* key) {
   std::vector<double> out;
   series.each(key, "a list of numbers", [&](int i, const What& what) {
@@ -29,7 +29,7 @@ static std::vector<double> read_gappy(lua_State* L, Table& series, const char* k
   return out;
 }
 
-// a list of texts; empty: absent
+// a list of texts; empty if absent
 static std::vector<std::string> read_texts(lua_State* L, Table& options, const char* key) {
   std::vector<std::string> out;
   if (!options.has(key)) return out;
@@ -46,7 +46,7 @@ static PlotSeries read_plot_series(lua_State* L, int index, const What& what, bo
   PlotSeries series;
   series.name = one.string("name", "");
   if (one.has("edges")) {
-    // what clench.stats.histogram gives
+    // the result of clench.stats.histogram
     series.kind = PlotKind::bars;
     series.x = one.numbers("edges");
     series.y = one.numbers("counts");
@@ -143,7 +143,7 @@ static int make_sheet(lua_State* L) {
 static const Entry plot_functions[] = {
     {"plot", guarded<make_plot>, R"(
 Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers
-over names, as bars beside one another. `false` and what is not finite are left out, and a line has a gap there. Colors can be told apart by color-blind people. It needs no
+over names, as bars next to each other. `false` and values that are not finite are left out, and a line has a gap there. Color-blind people can distinguish the colors. It needs no
 graphics hardware.
 @param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer}  kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 @return plot

@@ -29,7 +29,7 @@ static Eye read_eye(Table& options, const Eye& from) {
   eye.up = options.vec3("up", from.up);
   eye.field_of_view = options.positive("field_of_view", from.field_of_view);
   const Eigen::Vector3d back = eye.eye - eye.target;
-  // an up that one does not ask for gives way
+  // a default up vector along the view is replaced
   if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
     fail("{}: expected eye and target apart, and up not along the view", options.subject());
   return eye;
@@ -81,7 +81,7 @@ static RenderOptions read_rendering(Table& options) {
   return rendering;
 }
 
-// height of an orthographic view [m]: true keeps what is framed, or what a camera shows at its
+// height of an orthographic view [m]: true keeps the framed height, or that of a camera at its
 // target
 static double read_ortho(lua_State* L, Table& options, const Eye& eye) {
   const int type = options.push("orthographic");
@@ -106,7 +106,7 @@ struct View {
 
 constexpr const char* camera_keys[] = {"eye", "target", "up", "field_of_view", "orthographic"};
 
-// a camera that is given in part begins from the one that frames everything
+// a partly specified camera is completed from the one that frames everything
 Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOptions& rendering) {
   const int parts =
       options.has("eye") + options.has("target") + options.has("up") + options.has("field_of_view");
@@ -116,14 +116,14 @@ Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOp
   const double aspect = static_cast<double>(rendering.width) / rendering.height;
   const Eye framed = parts == 4 ? Eye{} : kept<Renderer>(L).frame_all(scene, aspect, ortho);
   Eye eye = read_eye(options, framed);
-  // where something else is looked at, the height is that at the target
+  // with another target, the height is that at the target
   if (options.has("eye") || options.has("target") || options.has("field_of_view"))
     eye.ortho_height = 0;
   eye.ortho_height = read_ortho(L, options, eye);
   return eye;
 }
 
-// size, quality and the camera, in a table of its own or not, which must be all that is left of the
+// reads size, quality and the camera, in a separate table or not, which must be all remaining
 // options
 View read_view(lua_State* L, Table& options, const Scene& scene) {
   View view{read_rendering(options), {}};
@@ -175,7 +175,7 @@ static int render_draw(lua_State* L) {
   const World* world = check_object<WorldHandle>(L, 1, "world").world.get();
   Table options(L, 2);
   Scene scene = read_scene(L, options, {&world, 1});
-  // whose bodies are picked in the picture
+  // the bodies that can be picked in the picture
   push_object(L, draw_scene(L, options, std::move(scene)), 1);
   lua_pushvalue(L, 1);
   lua_setiuservalue(L, -2, 1);
@@ -220,7 +220,7 @@ static int render_save(lua_State* L) {
   return 0;
 }
 
-// the pixel that arguments 2 and 3 name, from 0, row by row
+// the pixel given by arguments 2 and 3, from 0, row by row
 static size_t check_pixel(lua_State* L, const Picture& p) {
   const int x = check_int(L, 2, "x"), y = check_int(L, 3, "y");
   if (x < 1 || x > p.width || y < 1 || y > p.height)
@@ -261,7 +261,7 @@ static const char* kind_word(Shown::Kind kind) {
   return "other";
 }
 
-// a field of the table on top of the stack: a body that is still in the world
+// a field of the table on top of the stack: a body that still exists in the world
 static void set_picked_body(lua_State* L, const char* key, const WorldHandle* world, Id<Body> id) {
   if (!world || !id || !world->world->alive(id)) return;
   push_object(L, BodyHandle{world->world, id});
@@ -296,8 +296,8 @@ static const Entry render_functions[] = {
     {"render", guarded<render_draw>, R"(
 Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
 all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the
-links of those robots, or at everything, unless it is given, in whole or in part. The same world gives the same bytes.
-It needs EGL and OpenGL, but no display. What a picture needs is kept for the next one, which is drawn faster.
+links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes.
+It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 @param world world  world to draw
 @param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: table, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; camera: these five in a table, such as the camera of a picture; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
 @return picture
@@ -315,7 +315,7 @@ It needs EGL and OpenGL, but no display. What a picture needs is kept for the ne
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
     {"camera", guarded<choose_camera>, R"(
 The camera that clench.render chooses with the same options; of several states of a world, one for all of them, as for a film: it
-holds the objects that robots touch in some state, and those robots from the palm outward, where nothing is touched, everything.
+holds the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
 @param worlds world|world[]  a list: states of one world, such as clones of it
 @param options? table  those of clench.render
 @return table camera  {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render
@@ -347,7 +347,7 @@ Its height.
 
 static const Entry render_methods[] = {
     {"save", guarded<render_save>, R"(
-Writes a PNG file, with alpha where the background is transparent.
+Writes a PNG file, with alpha if the background is transparent.
 @param path string  file to write, .png
 > clench.render(world, {size = {64, 48}, quality = "draft"}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
 > clench.render(world, {size = {64, 48}, quality = "draft"}):save("a.jpg")  --> error: .png)"},
@@ -360,14 +360,14 @@ Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
 @return integer blue
 > select("#", clench.render(world, {size = {64, 48}, quality = "draft"}):pixel(1, 1))  --> 3)"},
     {"alpha", guarded<alpha>, R"(
-How much a pixel covers, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
+Opacity of a pixel, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
 @param x integer  column, from the left
 @param y integer  row, from the top
 @return integer alpha
 > clench.render(world, {size = {64, 48}, quality = "draft"}):alpha(1, 1)  --> 255
 > clench.render(world, {size = {64, 48}, quality = "draft", background = "transparent"}):alpha(1, 1)  --> 0)"},
     {"pick", guarded<pick_pixel>, R"(
-The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; bodies that one sees through count. nil where
+The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; transparent bodies count. nil if
 there is none. `body` and `other` are nil if they were removed since.
 @param x integer  column, from the left
 @param y integer  row, from the top

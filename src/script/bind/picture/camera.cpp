@@ -12,7 +12,7 @@
 
 namespace clench {
 
-// what a perspective camera of Inventor sees unless a file says otherwise: 45 degrees
+// default height angle of a perspective camera of Inventor: 45 degrees
 static constexpr double inventor_field_of_view = 0.7853981633974483;
 
 int get_camera(lua_State* L) {

@@ -15,12 +15,12 @@ namespace clench {
 
 extern const Library film_library, chart_library, plot_library, render_library;
 
-// --- picture: what clench.render gives. ---
+// --- picture: result of clench.render. ---
 
-/// Reads size, samples and the camera, which must be all that is left of the options, and draws.
+/// Reads size, samples and the camera, which must be all remaining options, and draws.
 Picture draw_scene(lua_State* L, Table& options, Scene scene);
 
-/// Logs why pictures have no letters, if they have none: once a Lua state.
+/// Logs the reason why pictures have no letters, if so, once per Lua state.
 void warn_without_letters(lua_State* L, const Font& font);
 
 extern const Class picture_class;
@@ -49,8 +49,8 @@ inline size_t owned_bytes(const PlotHandle& handle) {
 
 // --- cameras of worlds. ---
 
-/// The pose of a camera at eye that sees target: along its -z, with y up.
-/// throws Error begun by the subject when eye and target are one, or up is along the view
+/// The pose of a camera at eye that looks at target: along its -z, with y up.
+/// throws Error that begins with the subject, if eye and target coincide, or up is along the view
 Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                  const Eigen::Vector3d& up, const std::string& subject);
 int get_camera(lua_State* L);

@@ -12,14 +12,14 @@
 
 namespace clench {
 
-static constexpr double longest_arrow = 0.6;  // part of the object's largest radius
+static constexpr double longest_arrow = 0.6;  // as a fraction of the object's largest radius
 
 // the list `forces` of a result of grasp:contact_forces
 struct GivenForces {
   std::vector<PlacedForce> forces;
-  std::vector<Id<Robot>> robots;  // that press
+  std::vector<Id<Robot>> robots;  // forces that press
   std::vector<Contact> contacts;  // one per force
-  double longest = 0;             // length of an arrow that suits the objects [m]
+  double longest = 0;             // arrow length in proportion to the objects [m]
 };
 
 static GivenForces read_forces(lua_State* L, Table& options) {
@@ -57,7 +57,7 @@ static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
     scene.caption = {fmt::format("forces on the object, the largest {}", scene.labels[0].text)};
 }
 
-// heights in proportion to normal forces; those of grasp:contact_forces name their contacts
+// heights in proportion to normal forces; those of grasp:contact_forces identify their contacts
 static std::vector<ContactLoad> read_loads(const GivenForces& given) {
   std::vector<ContactLoad> loads;
   for (size_t i = 0; i < given.forces.size(); ++i)

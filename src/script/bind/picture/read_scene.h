@@ -8,8 +8,8 @@
 
 namespace clench {
 
-/// Reads what is drawn, which leaves size, quality and camera in the options. Several worlds are
-/// states of one, for a view of all.
+/// Reads the options of the scene, and leaves size, quality and camera. Several worlds are states
+/// of one, for a common view.
 Scene read_scene(lua_State* L, Table& options, std::span<const World* const> states);
 
 }  // namespace clench

@@ -13,7 +13,7 @@
 
 namespace clench {
 
-// numbers, or rows of numbers of one length
+// numbers, or rows of numbers of equal length
 static NpyArray read_array(lua_State* L, int index, const std::string& subject) {
   if (!lua_istable(L, index))
     fail("{}: expected a list of numbers, or of rows of them, got {}", subject,
@@ -56,7 +56,7 @@ static int save_arrays(lua_State* L) {
   options.done();
   std::map<std::string, NpyArray> arrays;
   each_named(L, 2, {L, {}, "arrays"}, "names", [&](const std::string& name, int i, const What&) {
-    // a name is one of a file in an archive
+    // a name selects a file in an archive
     if (name.empty() || name.find_first_of(std::string_view("/\\\0", 3)) != name.npos)
       fail("{}: arrays: expected names without slashes, got {}", subject(L), in_quotes(name));
     arrays[name] = read_array(L, i, fmt::format("{}: {}", subject(L), excerpt(name)));
@@ -84,7 +84,7 @@ static int arrays(lua_State* L) {
     } else if (array.shape.size() < 2) {
       push(L, array.numbers);
     } else {
-      // a table is 56 bytes, and its numbers are 16 each, in blocks of their own
+      // memory of a table: 56 bytes, and 16 per number, in separate blocks
       const size_t row = 120 + 16 * width;
       if (count > budget.left() / row)
         fail(ErrorKind::limit, "{}: {}: expected at most {} rows, got {}", path, excerpt(name),

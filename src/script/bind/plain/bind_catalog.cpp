@@ -36,8 +36,8 @@ static constexpr Shelf shelves[] = {
     {"worlds", "worlds", FileKind::world},
 };
 
-// parts of robots, planners' stand-ins for objects, and what was saved beside a world are no models
-// of their own
+// parts of robots, planners' substitutes for objects, and files saved with a world are not separate
+// models
 static bool holds_parts(const fs::path& folder) {
   const std::string name = folder.filename().string();
   return name == "iv" || name == "primitives" || name.ends_with("_files");
@@ -45,7 +45,7 @@ static bool holds_parts(const fs::path& folder) {
 
 static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine) {
   if (!lies_within(path, confine)) return false;
-  // a surface that lies beside its body's XML file belongs to that
+  // a surface next to its body's XML file belongs to that
   if (path.extension() != ".xml" && kind == FileKind::body &&
       fs::exists(fs::path(path).replace_extension(".xml")))
     return false;
@@ -57,7 +57,7 @@ static bool belongs(const fs::path& path, FileKind kind, const fs::path& confine
   }
 }
 
-// below the current folder as seen from there, else absolute
+// relative if below the current folder, otherwise absolute
 static std::string plain_path(const fs::path& path) {
   std::error_code error;
   const fs::path near = fs::proximate(path, error);
@@ -108,8 +108,8 @@ static int kind_of_file(lua_State* L) {
 
 static const Entry catalog_functions[] = {
     {"file_kind", guarded<kind_of_file>, R"(
-What a file describes, by its ending, or by its outermost element in XML; where the ending says nothing, by how its numbers
-stand.
+Kind of a file's contents, by its ending, or by its outermost element in XML; if the ending does not define it, by the layout of its
+numbers.
 @param path string  file to inspect
 @param options? {confine?: string}
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"

@@ -51,7 +51,7 @@ static int convert(lua_State* L) {
     fail("{}: expected a robot to .urdf, or its world to .xml, .mjcf, .lua or .wld, got {}", to,
          in_quotes(ending));
   if (kind == FileKind::world ||
-      as_world)  // built on the way, which tells what the new file does not hold
+      as_world)  // intermediate world, which reports contents that the new file cannot represent
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine, .format = format});
   else
@@ -64,9 +64,9 @@ static int convert(lua_State* L) {
 
 static const Entry convert_functions[] = {
     {"convert", guarded<convert>, R"(
-Writes what a file holds as another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
+Converts a file to another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
 .urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml,
-lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name what the format cannot hold.
+lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name everything that the format cannot represent.
 @param from string  file to read
 @param to string  file to write; its ending selects the format
 @param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too; of worlds `format`, as world:save takes it; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name

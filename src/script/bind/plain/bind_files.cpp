@@ -26,7 +26,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// what a reader makes of the file named by argument 1, with the options of argument 2
+// applies a reader to the file named by argument 1, with the options of argument 2
 template <class Value>
 static Value read_with(lua_State* L, Value (*read)(const fs::path&, const ReadOptions&)) {
   const std::string path = check_string(L, 1, "path");
@@ -239,7 +239,7 @@ chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list
 > os.remove(path)
 > #list == #hand.virtual_contacts, list.robot == hand.name  --> true, true)"},
     {"object_contacts", guarded<object_contacts>, R"(
-Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, where the file leaves the
+Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, if the file leaves the
 points out.
 @param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
@@ -256,7 +256,7 @@ Writes contacts on an object; without `edges` those of a point.
 > list[1].mu, #list[1].edges, list[1].placed  --> 0.5, 8, true)"},
     {"primitives", guarded<primitives>, R"(
 Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in
-primitives/<its name>.iv beside it are read instead, when that exists. y is the axis of cylinder and cone.
+primitives/<its name>.iv next to it are read instead, if that exists. y is the axis of cylinder and cone.
 @param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[]  [m]
@@ -278,14 +278,14 @@ Pre-grasps of a planner's list, in the object's frame.
 > os.remove(path)
 > list[1].direction, list[1].spread  --> (0, 0, -1), 1.0)"},
     {"save_text", guarded<save_text>, R"(
-Writes a text as a file, whole or not at all: what stood there stays when it cannot be written.
+Writes a text as a file, completely or not at all: if it fails, an existing file is unchanged.
 @param path string  file to write
 @param text string  contents of the file
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
     {"append_text", guarded<append_text>, R"(
-Appends a text on a line of its own, whose end is added, with one call of the system: a process that is killed leaves all of it
-or nothing, and of a full disk no part remains. Creates the file if there is none.
+Appends a text on a separate line, whose end is added, in one system call: a process that is killed leaves all of it
+or nothing, and on a full disk no part remains. Creates the file if necessary.
 @param path string  file to append to
 @param text string  text to append
 > path = os.tmpname()
@@ -303,7 +303,7 @@ folder, pipe or device. Changes no file.
 > clench.files.check_writable "build"  --> error: build: expected a file to write, got a folder
 > clench.files.check_writable "/dev/null"  --> error: /dev/null: expected a file to write, got a special file)"},
     {"read_text", guarded<read_whole>, R"(
-The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are refused.
+The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are rejected.
 @param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return string
@@ -320,7 +320,7 @@ Cells of a text of comma-separated values, line by line, as texts; clench.csv re
 > #records, records[1][2], records[1].quoted[2], records[2].line  --> 2, 7, true, 2
 > clench.files.csv_records("a.csv", '"a')  --> error: a.csv:1: a quote that is not closed)"},
     {"csv_text", guarded<csv_text>, R"(
-A text as a cell of comma-separated values: in quotes where it would be read otherwise, or as a number, true or false.
+A text as a cell of comma-separated values: in quotes if it would otherwise be read differently, or as a number, true or false.
 @param text string  text of the cell
 @param separator? string  "," by default, ";" or a tab
 @return string
@@ -331,14 +331,14 @@ Writes pre-grasps as a planner's list.
 @param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]  pregrasps in the frame of the object
 > clench.files.save_pregrasps("x.txt", {{point = {0, 0, 0}}})  --> error: list[1]: direction)"},
     {"glove_calibration", guarded<glove_calibration>, R"(
-How the raw numbers of a data glove become DOF values: DOF = intercept + slopes * raw.
+Calibration of a data glove, from raw numbers to DOF values: DOF = intercept + slopes * raw.
 @param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {slopes: number[][], intercepts: number[]}  [rad per count, rad]
 > clench.files.glove_calibration "no.txt"  --> error: no such file)"},
     {"glove_poses", guarded<glove_poses>, R"(
 Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
-`distance` of fingertips that were to meet [m], and the hand's `pose`.
+`distance` of fingertips that were meant to touch [m], and the hand's `pose`.
 @param path string  file to read
 @param options? {root?: string, confine?: string, strict?: boolean}
 @return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]

@@ -31,8 +31,8 @@ static int null(lua_State* L) {
 
 static const Entry json_functions[] = {
     {"encode", guarded<encode>, R"(
-A value as JSON. Keys are sorted and numbers come back to the bit, so equal values give equal text; integers stay
-integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are refused.
+A value as JSON. Keys are sorted and numbers are preserved bit-exactly, so equal values give equal text; integers stay
+integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are rejected.
 @param value any  plain data: nil, booleans, numbers, strings, lists and tables with names as keys
 @param options? {indent?: integer}  spaces per level; default: all on one line
 @return string
@@ -49,7 +49,7 @@ The value of a JSON text. A null in a list is `clench.json.null`; in an object i
 
 static const Entry json_fields[] = {
     {"null", guarded<null>, R"(
-The value that stands for null in a list.
+The value that represents null in a list.
 @type userdata
 > clench.json.encode{1, clench.json.null}  --> [1,null])"},
 };

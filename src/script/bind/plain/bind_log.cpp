@@ -21,7 +21,7 @@ namespace clench {
 
 static const char* const level_names[] = {"debug", "info", "warning", "error", "quiet"};
 
-// addresses name the places of the state's level and sink, and of what was told
+// addresses are the registry keys of the state's level and sink, and of logged messages
 static const char level_key = 0, sink_key = 0, of_file_key = 0;
 
 LogLevel log_level(lua_State* L) {
@@ -143,7 +143,7 @@ void warn_once(lua_State* L, const void* key, const std::string& message) {
   log_warning(L, place + message);
 }
 
-// the arguments as text, a space between two
+// the arguments as text, separated by spaces
 static std::string joined(lua_State* L) {
   std::string text;
   const int count = lua_gettop(L);
@@ -190,8 +190,8 @@ static int sink(lua_State* L) {
   return 0;
 }
 
-// the script's sink and level as long as it lives; then those that were there before, of which the
-// sink is at an index of the stack
+// the script's sink and level during its lifetime; then the previous ones, of which the sink is at
+// an index of the stack
 class OtherSink {
  public:
   OtherSink(lua_State* L, int before) : L_(L), before_(before), level_(log_level(L)) {
@@ -228,7 +228,7 @@ static int collect(lua_State* L) {
 
 static const Entry log_functions[] = {
     {"collect", guarded<collect>, R"(
-Calls a function, and returns what was logged meanwhile as values. Notes, warnings and errors are collected whatever the level is; nothing is printed, and no sink is called.
+Calls a function, and returns the messages logged meanwhile as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
 @param f function  function to call
 @param ... any  its arguments
 @return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, subject?: string, about?: string, count: integer}[] diagnostics  file and line: the place in a file that is read or written; subject: the part of it that is concerned, "joint 2"; about: "inferred", "ignored", "repaired" or "suspicious"; equal problems of one file are one, the first, with their count
@@ -239,26 +239,26 @@ Calls a function, and returns what was logged meanwhile as values. Notes, warnin
 > list[1].severity, list[1].text  --> warning, too thin
 > clench.log.collect(3)  --> error: f: expected a function, got 3)"},
     {"debug", guarded<log_at<LogLevel::debug>>, R"(
-Logs what only a developer wants to read.
+Logs a message for developers.
 @param ... any  values of the message, as print takes them
 > clench.log.debug "not shown by default"
 > clench.log.level()  --> info)"},
     {"info", guarded<log_at<LogLevel::info>>, R"(
-Logs what a user may want to know.
+Logs a message of possible interest to users.
 @param ... any  values of the message, as print takes them
 > clench.log.sink(function(level, text) said = level .. ": " .. text end)
 > clench.log.info("three", 3)
 > clench.log.sink()
 > said  --> info: three 3)"},
     {"warning", guarded<log_at<LogLevel::warning>>, R"(
-Logs what a user should know: what a file contains and the engine does not use, say.
+Logs a warning, such as contents of a file that the engine does not use.
 @param ... any  values of the message, as print takes them
 > clench.log.sink(function(level, text) said = level .. ": " .. text end)
 > clench.log.warning "no mass given"
 > clench.log.sink()
 > said  --> warning: no mass given)"},
     {"error", guarded<log_at<LogLevel::error>>, R"(
-Logs what went wrong, and goes on.
+Logs an error, and continues.
 @param ... any  values of the message, as print takes them
 > clench.log.sink(function(level, text) said = level .. ": " .. text end)
 > clench.log.error "the glove does not answer"
@@ -272,9 +272,9 @@ Says from which level on messages are shown, and sets it if one is given.
 > clench.log.level "info"  --> quiet
 > clench.log.level "loud"  --> error: expected one of debug, info, warning, error, quiet)"},
     {"sink", guarded<sink>, R"(
-Sends messages to a function(level, text, about, diagnostic) instead of stderr; without one, to stderr again. `about` says of what
-the reader of a file tells: what is "inferred", "ignored", "repaired" or "suspicious"; nil otherwise. `diagnostic` holds the same
-as values, as `clench.log.collect` returns them, for what readers and writers report; nil for messages of scripts.
+Sends messages to a function(level, text, about, diagnostic) instead of stderr; without one, to stderr again. `about` is the kind
+of message of a file reader: "inferred", "ignored", "repaired" or "suspicious"; nil otherwise. `diagnostic` contains a message of
+a reader or writer as values, like `clench.log.collect`; nil for messages of scripts.
 @param fn? fun(level: string, text: string, about: string?, diagnostic: table?)  called with each message in place of printing it; without it messages are printed again
 > clench.log.sink(function(level, text) said = text end)
 > clench.log.info "hello"

@@ -30,7 +30,7 @@ static Quaterniond read_quat(Table& t) {
   const auto q = t.numbers("quat", 4);
   const Quaterniond quat(q[0], q[1], q[2], q[3]);
   const double length = quat.coeffs().stableNorm();
-  // files hold six digits or so; what is already unit to the last bits stays as it is
+  // files hold about six digits; a vector that is unit up to rounding is not changed
   if (!(std::abs(length - 1) < 1e-3))
     fail("{}: quat: expected a unit quaternion {{w, x, y, z}}, got one of length {:.6g}",
          t.subject(), length);
@@ -82,14 +82,14 @@ static int count_axes(Table& t) {
   return count;
 }
 
-// the smallest rotation that turns the one given axis to its direction
+// the smallest rotation that turns the single given axis to its direction
 static Quaterniond axis_of(Table& t) {
   const int i = t.has("z_axis") ? 2 : t.has("y_axis") ? 1 : 0;
   const Vector3d direction = t.vec3(axis_names[i]);
   const double length = direction.stableNorm();
   if (!(length > 1e-9)) fail("{}: {}: expected a direction, got zero", t.subject(), axis_names[i]);
   const Vector3d unit = direction / length, axis = Vector3d::Unit(i);
-  // half a turn about the next axis, where every axis at a right angle would do
+  // half a turn about the next axis, although any axis at a right angle is possible
   if (unit.dot(axis) < -1 + 1e-14) {
     const Vector3d next = Vector3d::Unit((i + 1) % 3);
     return Quaterniond(0, next.x(), next.y(), next.z());
@@ -160,7 +160,7 @@ Pose pose_from_table(lua_State* L, int index, const std::string& subject) {
   return pose;
 }
 
-// --- what scripts call ---
+// --- entries ---
 
 static int make_pose(lua_State* L) {
   if (const Pose* pose = to<Pose>(L, 1)) return push(L, *pose);
@@ -220,7 +220,7 @@ static int pose_as_json(lua_State* L) {
 
 static const Entry pose_functions[] = {
     {"pose", guarded<make_pose>, R"(
-A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given one way at most.
+A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given in at most one form.
 @param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where one or two of the frame's axes point; of two, z_axis, else x_axis, exactly, the other as nearly as a right angle allows; one: by the smallest rotation (by half a turn about the next axis if it points backward)
 @return pose
 > clench.deg(clench.pose{axis = {0, 0, 2}, angle = clench.rad(90)}:angle())  --> 90.0
@@ -242,7 +242,7 @@ The pose of a camera at `eye` that sees `target`: it looks along its -z, with y 
 
 static const Entry pose_fields[] = {
     {"position", getter<[](const Pose& x) { return x.position; }>, R"(
-Where the frame's origin is.
+Position of the frame's origin.
 @type vec3  [m]
 > clench.pose{xyz = {1, 2, 3}}.position  --> (1, 2, 3))"},
     {"quat", getter<quat_of>, R"(
@@ -269,7 +269,7 @@ The homogeneous matrix.
 @return number[][]  4 rows of 4
 > clench.pose{xyz = {1, 2, 3}}:matrix()[1]  --> {1.0, 0.0, 0.0, 1.0})"},
     {"rotate", guarded<rotate>, R"(
-A direction turned by the rotation alone.
+A direction transformed by the rotation only.
 @param direction vec3  direction in the frame of the pose
 @return vec3
 > clench.pose{xyz = {1, 2, 3}, quat = {0, 0, 0, 1}}:rotate{1, 0, 0}  --> (-1, 0, 0))"},
@@ -293,9 +293,9 @@ const Library pose_library{.name = "clench", .doc = "", .functions = pose_functi
 const Class pose_class{.name = "pose",
                        .variable = "pose",
                        .doc =
-                           "A rigid transform, which never changes. `a * b` chains two of them, `a "
-                           "* v` takes a point along, `==` compares bit by bit. Wherever a pose is "
-                           "expected, the table that `clench.pose` takes will do.",
+                           "An immutable rigid transform. `a * b` composes two of them, `a * v` "
+                           "transforms a point, `==` compares bit-exactly. Wherever a pose is "
+                           "expected, the table that `clench.pose` takes is accepted.",
                        .fields = pose_fields,
                        .methods = pose_methods,
                        .operators = pose_operators};

@@ -59,7 +59,7 @@ static int progress_step(lua_State* L) {
   return 0;
 }
 
-// as the iterator of a loop: (self, nothing, what came last)
+// as the iterator of a loop: (self, nil, previous item)
 static int next(lua_State* L) {
   auto& progress = self<ProgressHandle>(L);
   const lua_Integer i = (lua_isinteger(L, 3) ? lua_tointeger(L, 3) : 0) + 1;
@@ -108,7 +108,7 @@ Counts so many more steps as done.
 > p:close()
 > p.done, p.total  --> 4.0, 10.0)"},
     {"close", method<[](ProgressHandle& x) { x.close(); }>, R"(
-Removes the bar; a variable declared <close> does so by itself.
+Removes the bar; a variable declared <close> does so automatically.
 > p = clench.progress(10)
 > p:close()
 > p  --> progress: 0 of 10)"},
@@ -132,7 +132,7 @@ const Library progress_library{.name = "clench", .doc = "", .functions = progres
 
 const Class progress_class{.name = "progress",
                            .variable = "progress",
-                           .doc = "How far a script's loop is, as `clench.progress` shows it.",
+                           .doc = "Progress of a script's loop, as shown by `clench.progress`.",
                            .fields = progress_fields,
                            .methods = progress_methods,
                            .operators = progress_operators};

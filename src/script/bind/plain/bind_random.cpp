@@ -22,13 +22,13 @@ static int uniform(lua_State* L) {
   return push(L, random.uniform(low, high));
 }
 
-// no bias: what lies beyond the last whole multiple of the range is drawn again
+// no bias: values beyond the last multiple of the range are redrawn
 static int integer(lua_State* L) {
   Random& random = self<Random>(L);
   const int64_t low = check_integer(L, 2, "low"), high = check_integer(L, 3, "high");
   if (low > high) fail("{}: expected low <= high, got {} and {}", subject(L), low, high);
   const uint64_t range =
-      static_cast<uint64_t>(high) - static_cast<uint64_t>(low) + 1;  // 0: all of them
+      static_cast<uint64_t>(high) - static_cast<uint64_t>(low) + 1;  // 0: the complete range
   uint64_t bits = random.bits();
   if (range)
     for (const uint64_t beyond = (0 - range) % range; bits < beyond;) bits = random.bits();

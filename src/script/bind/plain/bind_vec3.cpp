@@ -35,7 +35,7 @@ static int unit(lua_State* L) {
   const Vector3d& v = self<Vector3d>(L);
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0)) fail("{}: a vector of length 0 has no direction", subject(L));
-  // neither the squares of large numbers overflow nor those of small ones vanish
+  // squares of large numbers do not overflow, and those of small ones do not underflow
   return push(L, (v / largest).normalized());
 }
 

@@ -12,7 +12,7 @@ namespace clench {
 extern const Library units_library, vec3_library, pose_library, random_library, progress_library,
     log_library, json_library, catalog_library, convert_library, files_library, arrays_library;
 
-// --- clench.random: random numbers that are the same on every machine. ---
+// --- clench.random: random numbers, identical on all platforms. ---
 
 extern const Class random_class;
 
@@ -23,7 +23,7 @@ inline constexpr const Class* script_class<Random> = &random_class;
 
 class Bar;
 
-/// A loop of a script that is being shown.
+/// A loop of a script whose progress is displayed.
 struct ProgressHandle {
   std::shared_ptr<Bar> bar;
   double total = 1, done = 0;

@@ -53,8 +53,7 @@ BestListOptions read_best(lua_State* L, Table& options, const World& world, Id<B
   return out;
 }
 
-// the hand and the object of the options in the world that the search moves, theirs or a clone of
-// it
+// the hand and the object of the options, in the world that the search moves: theirs or its clone
 HandAndObject read_who(Table& options, WorldPtr& world) {
   const auto* hand = options.object<RobotHandle>("hand");
   const auto* object = options.object<BodyHandle>("object");
@@ -69,7 +68,7 @@ HandAndObject read_who(Table& options, WorldPtr& world) {
   if (world->body(object->id).robot)
     fail("{}: object: '{}' is a part of a robot", options.subject(), (*object)->name);
   if (world->robot(hand->id).mounting)
-    fail("{}: hand: '{}' is carried by another robot; plan for a hand that stands free",
+    fail("{}: hand: '{}' is carried by another robot; plan for a hand that is not mounted",
          options.subject(), (*hand)->name);
   return {hand->id, object->id};
 }
@@ -183,7 +182,7 @@ HandState read_search_state(lua_State* L, int i, const Annealing& search) {
   Table of(L, i, subject(L) + ": state");
   const int count = static_cast<int>(search.world().dofs(search.who().hand).size());
   const HandState out{of.pose("pose"), of.vector("dofs", count)};
-  of.has("energy"), of.has("step"), of.has("values");  // what `best` says besides
+  of.has("energy"), of.has("step"), of.has("values");  // other fields of `best`
   of.done();
   return out;
 }
@@ -210,7 +209,7 @@ std::string annealing_text(const AnnealingHandle& x) {
 
 static const Entry annealing_functions[] = {
     {"annealing", guarded<make_annealing>, R"(
-A chain of simulated annealing, to be run by hand: what `clench.plan` is made of. It moves the world's hand.
+A chain of simulated annealing, to be run step by step: the search used by `clench.plan`. It moves the world's hand.
 @param options table  the hand, the object, and the variables of the search
 @option hand robot  hand that the search moves
 @option object body  object that is grasped
@@ -238,7 +237,7 @@ A chain of simulated annealing, to be run by hand: what `clench.plan` is made of
 > clench.annealing {hand = hand, object = flask, energy = 3}  --> error: expected an energy, or a function that gives a number
 > clench.annealing {hand = hand, object = flask, energy = search.run, limits = {Txx = {0, 1}}}  --> error: no search variable 'Txx')"},
     {"run_annealings", guarded<run_all>, R"(
-Runs several chains at once, each in a world of its own; what they find does not depend on the number of threads.
+Runs several chains at once, each in a separate world; their results do not depend on the number of threads.
 @param searches annealing[]  searches to advance
 @param steps integer[]  one per chain
 @param threads? integer  1 by default
@@ -253,14 +252,14 @@ Runs several chains at once, each in a world of its own; what they find does not
 
 static const Entry annealing_fields[] = {
     {"best", guarded<get_best>, R"(
-The best states met, no two alike: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables
+The best distinct states visited: `energy`, `step`, `pose` of the hand in the object, `dofs`, and `values` of the variables
 by name.
 @type {energy: number, step: integer, pose: pose, dofs: number[], values: table}[]
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
 > search:run(20)
 > #search.best >= 1, #search.best[1].dofs  --> true, 12)"},
     {"state", guarded<get_state>, R"(
-Where the chain is, as `best` has it; its energy is infinite where it begins in collision.
+Present state of the chain, in the format of `best`; its energy is infinite if it begins in collision.
 @type table
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
 > search.state.energy == search.energy  --> true)"},
@@ -270,16 +269,16 @@ Values of its variables by name.
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}}
 > search.values.Tz  --> 0.35)"},
     {"energy", guarded<get_search_energy>, R"(
-Of the state that the chain is at; infinite where it begins in collision.
+Energy of the present state; infinite if it begins in collision.
 @type number
 > clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.energy  --> 2.0)"},
     {"first_energy", guarded<get_first>, R"(
-Of the state that it began with.
+Energy of the initial state.
 @type number
 > clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.first_energy  --> 2.0)"},
     {"counts", guarded<get_counts>, R"(
-What became of its steps: `steps`, `accepted`, `improved`; and of neighbors that were none: `in_collision`, `avoided`, `outside`
-their ranges; `stuck`: how often all tries of a step failed.
+Counts of its steps: `steps`, `accepted`, `improved`; and of rejected neighbors: `in_collision`, `avoided`, `outside`
+their ranges; `stuck`: number of steps in which all attempts failed.
 @type table
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:run(5)
@@ -312,7 +311,7 @@ Begins the schedule of temperatures anew.
 > search:reset()
 > search.energy  --> 2.0)"},
     {"clear", method<[](const AnnealingHandle& x) { x.search->best().clear(); }>, R"(
-Empties the list of the best states; what is avoided stays so.
+Clears the list of the best states; avoided states remain avoided.
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:clear()
 > #search.best  --> 0)"},

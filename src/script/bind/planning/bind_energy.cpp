@@ -221,7 +221,7 @@ int penetration(lua_State* L) {
 
 }  // namespace
 
-// a term, or a function as one; the world of the first term found is theirs
+// a term, or a function used as one; all share the world of the first term
 EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world) {
   if (lua_type(L, index) == LUA_TFUNCTION)
     return std::make_unique<EnergyFunction>(script_number(L, index));
@@ -262,7 +262,7 @@ int within(lua_State* L) {
 
 int call(lua_State* L) {
   const auto& handle = self<EnergyHandle>(L);
-  if (!handle.world) fail("energy: a function alone: call it by itself");
+  if (!handle.world) fail("energy: it consists only of a function: call that directly");
   const CallingState calling(L);
   const auto energy = handle.energy;  // a function may drop the last reference
   const auto world = handle.world;
@@ -277,8 +277,8 @@ const char* energy_text(const EnergyHandle& x) {
 
 static const Entry energy_functions[] = {
     {"contact", guarded<contact>, R"(
-How far the hand's virtual contacts are from the object, and how they face it: the mean of distance [mm] +
-normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
+Distance and orientation of the hand's virtual contacts relative to the object: the mean of distance [mm] +
+normal_weight (1 - cosine of the angle). Does not close the hand: the fastest energy.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -293,8 +293,8 @@ normal_weight (1 - cosine of the angle). Needs no closing: the quickest energy.
 > clench.energy.contact {hand = hand}  --> error: object: expected a body, got nothing
 > clench.energy.contact {hand = hand, object = hand.base}  --> error: the object is a part of a robot)"},
     {"potential_quality", guarded<potential_quality>, R"(
-What the virtual contacts could hold if they touched, nearer ones more: minus epsilon of their forces (with
-`torques`, of their wrenches). 1 where fewer than min_count are near and face the object, or they hold not in all directions.
+Grasp quality of the virtual contacts if they touched, with more weight on nearer ones: minus epsilon of their forces (with
+`torques`, of their wrenches). 1 if fewer than min_count are near and face the object, or if they do not resist all directions.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -305,7 +305,7 @@ What the virtual contacts could hold if they touched, nearer ones more: minus ep
 @return energy
 > clench.energy.potential_quality {hand = hand, object = flask}() <= 1  --> true)"},
     {"guided_potential_quality", guarded<guided_potential_quality>, R"(
-potential_quality where that is at most 0, else contact, which leads there.
+potential_quality if that is at most 0, otherwise contact, which guides the search there.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -332,9 +332,9 @@ Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_wei
 > e = clench.energy.autograsp_quality {hand = hand, object = flask, volume_weight = 0, epsilon_weight = 1}
 > math.abs(e() + grasp:quality "epsilon") < 1e-6  --> true)"},
     {"guided_autograsp_quality", guarded<guided_autograsp_quality>, R"(
-contact, and, where two virtual contacts are near the object and face it, less volume_weight times the volume of the
-closed grasp. GraspIt! has the sign of the angle wrong here, and its numbers are the default; `facing = "nearest"` is the
-right one.
+contact and, if two virtual contacts are near the object and face it, minus volume_weight times the volume of the
+closed grasp. The default reproduces the numbers of GraspIt!, which has the wrong sign of the angle; `facing = "nearest"` is the
+correct one.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -346,8 +346,8 @@ right one.
 @return energy
 > clench.energy.guided_autograsp_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"strict_autograsp", guarded<strict_autograsp>, R"(
-autograsp_quality after an approach of 30 mm that ends at a touch; where the base touches nothing then, the hand stays
-where it was. 1e8 where the grasp is worth nothing.
+autograsp_quality after an approach of 30 mm that ends at a touch; if the base touches nothing then, the hand stays
+at its start. 1e8 if the grasp has no quality.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -359,8 +359,8 @@ where it was. 1e8 where the grasp is worth nothing.
 @return energy
 > clench.energy.strict_autograsp {hand = hand, object = flask}() < 0  --> true)"},
     {"compliant", guarded<compliant>, R"(
-For hands with springs: comes to the first touch along the approach direction, closes, and asks for the balance of
-contacts and joints at full effort: -200 + the unbalanced force [N]; 1 where a finger moves on, fewer than two touch, or epsilon is below
+For hands with springs: approaches until the first touch along the approach direction, closes, and computes the balance of
+contacts and joints at full effort: -200 + the unbalanced force [N]; 1 if a finger continues to move, fewer than two touch, or epsilon is below
 min_epsilon.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
@@ -370,9 +370,9 @@ min_epsilon.
 @return energy
 > clench.energy.compliant {hand = hand, object = flask}() <= 1  --> true)"},
     {"dynamic", guarded<dynamic>, R"(
-What the closed hand holds in simulation: minus the sum over six directions of the part of the time that the object was held
-in study.shake, down to -6; where the closed hand is not in force closure, or loses the object before, 1 + contact, which leads there. It runs on
-one thread, and takes some tenths of a second where the hand holds something.
+Result of shaking the closed hand in simulation: minus the sum over six directions of the fraction of the time that the object was held
+in study.shake, down to -6; if the closed hand is not in force closure, or loses the object before, 1 + contact, which guides the search. It runs on
+one thread, and takes some tenths of a second if the hand holds something.
 @param options table  the hand and the object
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -383,7 +383,7 @@ one thread, and takes some tenths of a second where the hand holds something.
 > e(), e.any_thread  --> -6.0, false
 > clench.energy.dynamic {hand = hand, object = flask, shake = {secs = 1}}()  --> error: unknown key 'secs')"},
     {"approach_cone", guarded<approach_cone>, R"(
-How much the hand's approach direction leans from an axis beyond an angle [rad]: grasps from above, or from one side.
+Angle by which the hand's approach direction deviates from an axis, beyond a limit [rad]: grasps from above, or from one side.
 @param options table  the hand and the cone
 @option hand robot  hand that approaches
 @option axis vec3  axis of the cone, in the world
@@ -393,7 +393,7 @@ How much the hand's approach direction leans from an axis beyond an angle [rad]:
 > clench.energy.approach_cone {hand = hand, axis = d}() < 1e-9  --> true
 > clench.energy.approach_cone {hand = hand, axis = -d, angle = 1}() - (math.pi - 1) < 1e-9  --> true)"},
     {"keep_out", guarded<keep_out>, R"(
-How deep the hand reaches into a box of space, by the boxes around its bodies [mm].
+Penetration depth of the hand's bounding boxes in a forbidden box [mm].
 @param options table  the hand and the box
 @option hand robot  hand that stays out
 @option low vec3 [m]  lowest corner, along the axes of the pose
@@ -402,18 +402,18 @@ How deep the hand reaches into a box of space, by the boxes around its bodies [m
 @return energy
 > clench.energy.keep_out {hand = hand, low = {9, 9, 9}, high = {10, 10, 10}}()  --> 0.0)"},
     {"clearance", guarded<clearance>, R"(
-How much nearer than a distance the hand is to anything but its object and itself [mm].
+Shortfall of the hand's distance to everything but its object and itself, below a limit [mm].
 @param options {hand: robot, object: body, distance: number}  [m]
 @return energy
 > clench.energy.clearance {hand = hand, object = flask, distance = 0.01}()  --> 0.0)"},
     {"reach", guarded<reach>, R"(
-How much farther than a radius the hand's approach point is from a point [mm].
+Distance of the hand's approach point from a point, beyond a radius [mm].
 @param options {hand: robot, point: vec3, radius: number}  [m]
 @return energy
 > clench.energy.reach {hand = hand, point = hand.approach.point, radius = 0.1}()  --> 0.0)"},
     {"penetration", guarded<penetration>, R"(
-Depth of the hand in what it collides with, by points on its bodies, summed over the pairs of bodies [mm]; 0 only where
-nothing collides. Where no point lies inside, the depth counts that `world:penetration` gives. A search with this term and `collisions = false` may cross states that collide.
+Penetration depth of the hand in colliding bodies, by points on its bodies, summed over the pairs of bodies [mm]; 0 only where
+nothing collides. If no point lies inside, the depth given by `world:penetration` is used. A search with this term and `collisions = false` may cross states that collide.
 @param options {hand: robot, points?: integer}  points: on each body, 64
 @return energy
 > clench.energy.penetration {hand = hand}()  --> 0.0)"},
@@ -421,7 +421,7 @@ nothing collides. Where no point lies inside, the depth counts that `world:penet
 
 static const Entry energy_fields[] = {
     {"any_thread", getter<[](const EnergyHandle& x) { return x.energy->any_thread(); }>, R"(
-Is it made of the engine's terms alone? One with a function of a script runs on the script's thread, and in its world.
+Does it consist only of the engine's terms? One with a function of a script runs on the script's thread, and in its world.
 @type boolean
 > e = clench.energy.contact {hand = hand, object = flask}
 > e.any_thread, (e + function() return 1 end).any_thread  --> true, false)"},
@@ -446,18 +446,19 @@ static const Entry energy_operators[] = {
 const Library energy_library{
     .name = "clench.energy",
     .doc =
-        "What searches make small. Each function makes an energy of a hand and an object: called, "
-        "`e()`, it gives its number for how they stand now. Energies are added and weighted, `a + "
+        "Objective functions of searches. Each function makes an energy of a hand and an object: "
+        "`e()` returns its value in their present state. Energies are added and weighted, `a + "
         "0.3 * b`, functions of a script among them. Distances count in millimeters, so that the "
         "numbers are those of GraspIt!.",
     .functions = energy_functions};
 
-const Class energy_class{
-    .name = "energy",
-    .variable = "energy",
-    .doc = "A number for how a hand stands to an object, made by `clench.energy`.",
-    .fields = energy_fields,
-    .methods = energy_methods,
-    .operators = energy_operators};
+const Class energy_class{.name = "energy",
+                         .variable = "energy",
+                         .doc =
+                             "A function that rates the pose and posture of a hand relative to an "
+                             "object, made by `clench.energy`.",
+                         .fields = energy_fields,
+                         .methods = energy_methods,
+                         .operators = energy_operators};
 
 }  // namespace clench

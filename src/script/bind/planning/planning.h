@@ -1,4 +1,4 @@
-// What the bindings of planning share.
+// Declarations shared by the bindings of planning.
 #pragma once
 #include "clench/planning/energy/energy.h"
 #include "clench/planning/search/annealing.h"
@@ -12,7 +12,7 @@ namespace clench {
 // --- energy. ---
 
 struct EnergyHandle {
-  WorldPtr world;  ///< that it is about; null: a script's function alone
+  WorldPtr world;  ///< world of the energy; null: only a script's function
   std::shared_ptr<Energy> energy;
 };
 
@@ -22,16 +22,16 @@ extern const Library energy_library;
 template <>
 inline constexpr const Class* script_class<EnergyHandle> = &energy_class;
 
-/// An energy, or a function as one; a copy of its own.
-/// world   it must be about this one, or a clone of it; null: becomes its own
+/// An independent copy of an energy, or of a function used as one.
+/// world   the world that it must refer to, or a clone of it; null: set to its own
 EnergyPtr read_energy(lua_State* L, int index, WorldPtr& world);
 
 // --- annealing. ---
 
-/// What a search varies: `position`, `posture`, `semi_axes`, `limits`, `jumps`, `values`,
+/// Variables of a search: `position`, `posture`, `semi_axes`, `limits`, `jumps`, `values`,
 /// `targets`, `fixed`, `start`, `variables`.
 SearchSpace read_space(lua_State* L, Table& options, const World& world, const HandAndObject& who);
-/// A table by names.
+/// A table indexed by names.
 int push_values(lua_State* L, const SearchSpace& space, const Values& values);
 
 struct AnnealingHandle {

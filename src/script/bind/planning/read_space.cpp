@@ -1,4 +1,4 @@
-// The options of a search that say what it varies.
+// Options that define the variables of a search.
 #include "clench/script/bind/planning/planning.h"
 
 #include <algorithm>

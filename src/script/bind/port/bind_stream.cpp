@@ -34,10 +34,10 @@ using AcceptorPtr = std::shared_ptr<Acceptor>;
 
 Stream& stream_of(lua_State* L) { return *self<StreamPtr>(L); }
 
-// stream:fill(): reads what has arrived.   returns  how many bytes
+// stream:fill(): reads available bytes.   returns  their number
 int fill(lua_State* L) { return push(L, static_cast<lua_Integer>(stream_of(L).fill())); }
 
-// stream:size(): bytes that were read and not yet taken
+// stream:size(): number of bytes read and not yet taken
 int size(lua_State* L) { return push(L, static_cast<lua_Integer>(stream_of(L).received().size())); }
 
 // stream:take(count)
@@ -47,20 +47,20 @@ int take(lua_State* L) {
       L, std::string_view(stream_of(L).take(static_cast<size_t>(std::max<int64_t>(count, 0)))));
 }
 
-// stream:tail(count): the last bytes that were read, which stay
+// stream:tail(count): the last bytes read, which are not taken
 int tail(lua_State* L) {
   const std::string_view bytes = stream_of(L).received();
   const auto count = static_cast<size_t>(std::max<int64_t>(check_integer(L, 2, "count"), 0));
   return push(L, bytes.substr(bytes.size() - std::min(count, bytes.size())));
 }
 
-// stream:find(delimiter): bytes before the first delimiter; nil: there is none yet
+// stream:find(delimiter): number of bytes before the first delimiter; nil if there is none yet
 int find(lua_State* L) {
   const size_t at = stream_of(L).find(string_at(L, 2));
   return at == std::string_view::npos ? push_nil(L) : push(L, static_cast<lua_Integer>(at));
 }
 
-// stream:write(bytes, from): sends the bytes behind the first `from`.   returns  how many were sent
+// stream:write(bytes, from): sends the bytes after the first `from`.   returns  the number sent
 int write(lua_State* L) {
   const std::string_view bytes = string_at(L, 2);
   const auto from = static_cast<size_t>(std::max<int64_t>(check_integer(L, 3, "from"), 0));
@@ -80,12 +80,12 @@ int push_end(lua_State* L, Stream::End end) {
   return push(L, "unplugged");
 }
 
-// stream:ending(), stream:write_ending(): why nothing more arrives, or can be sent: nil, "closed" or
+// stream:ending(), stream:write_ending(): reason why the direction has ended: nil, "closed" or
 // "unplugged"
 int ending(lua_State* L) { return push_end(L, stream_of(L).end()); }
 int write_ending(lua_State* L) { return push_end(L, stream_of(L).write_end()); }
 
-// stream:connect_error(): why a connection has failed; nil: it has not
+// stream:connect_error(): reason why a connection has failed; nil if it has not
 int connect_error(lua_State* L) {
   const int error = stream_of(L).connect_error();
   return error == 0 ? push_nil(L) : push(L, system_reason(error));
@@ -127,7 +127,7 @@ int push_stream(lua_State* L, Stream stream) {
   return push_object(L, std::make_shared<Stream>(std::move(stream)));
 }
 
-// acceptor:accept(): the stream of the next client; nil: none waits
+// acceptor:accept(): the stream of the next client; nil if none waits
 int accept(lua_State* L) {
   std::optional<Stream> client = self<AcceptorPtr>(L)->accept();
   return client ? push_stream(L, std::move(*client)) : push_nil(L);

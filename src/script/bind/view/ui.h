@@ -9,11 +9,11 @@ namespace clench {
 class Gui;
 
 struct UiHandle {
-  std::shared_ptr<Gui> gui;  ///< null once it was closed
+  std::shared_ptr<Gui> gui;  ///< null after it is closed
   bool in_frame = false;
 };
 
-extern const Class ui_class;
+extern const Class ui_class, ui_widgets_class, ui_containers_class;
 extern const Library ui_library;
 
 template <>

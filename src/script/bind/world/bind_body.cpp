@@ -55,7 +55,7 @@ Unique in its world.
 > world:body("bottle") == flask  --> true)",
      setter<[](const BodyHandle& x, const std::string& name) { x.world->set_name(x.id, name); }>},
     {"pose", getter<[](const BodyHandle& body) { return body.world->pose(body.id); }>, R"(
-Where it is, in the world frame. Setting it moves it at once, whatever is in the way; see move_to. The parts of a robot
+Its pose in the world frame. Setting it moves the body at once, without collision checks; see move_to. The parts of a robot
 move with the robot.
 @type pose
 > flask.pose = {xyz = {0, 0, 1}}
@@ -84,7 +84,7 @@ Number of the position sensor that is to move it; nil when its file names none.
 > flask.tracker  --> nil)"},
 };
 
-// the body of that id in a clone of its world
+// the body with that id in a clone of its world
 static int body_in_world(lua_State* L) {
   const BodyHandle& body = self<BodyHandle>(L);
   const WorldPtr world = check_object<WorldHandle>(L, 2, "world").world;

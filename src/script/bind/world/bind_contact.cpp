@@ -82,7 +82,7 @@ static std::string contact_text(const ContactHandle& c) {
                      p.y(), p.z());
 }
 
-// vertices and triangles count from 1, as those of meshes
+// indices of vertices and triangles from 1, as in meshes
 static int push(lua_State* L, const Feature& feature) {
   if (feature.kind == Feature::triangle)
     return push_record(L, {{"kind", "triangle"}, {"triangle", feature.first + 1}});
@@ -110,11 +110,11 @@ The body that touches it.
 @type body
 > world:contacts(hand, flask)[1].other.kind  --> link)"},
     {"link", getter<contact_link>, R"(
-The part of a robot among the two; nil when there is none.
+The one of the two that is part of a robot; nil if neither is.
 @type body?
 > world:contacts(hand, flask)[1].link.robot == hand  --> true)"},
     {"point", getter<[](const ContactHandle& x) { return x.contact.p_W; }>, R"(
-Where, on the surface of `body`, in the world frame.
+Contact point on the surface of `body`, in the world frame.
 @type vec3  [m]
 > (world:contacts(hand, flask)[1].point - flask.pose.position):norm() < 1  --> true)"},
     {"normal", getter<[](const ContactHandle& x) { return x.contact.n_W; }>, R"(
@@ -142,11 +142,11 @@ Distance of the two surfaces there, at most the world's contact threshold.
 @type number  [m]
 > world:contacts(hand, flask)[1].gap <= world.contact_threshold  --> true)"},
     {"force", getter<[](const ContactHandle& x) { return x.contact.force_W; }>, R"(
-What pressed on body there in the last step of the world, in world axes; 0 in a world that has not run.
+Contact force on body in the last step of the world, in world axes; 0 in a world that has not run.
 @type vec3  [N]
 > world:contacts(hand, flask)[1].force  --> (0, 0, 0))"},
     {"torsion", getter<[](const ContactHandle& x) { return x.contact.torsion; }>, R"(
-Of a soft contact, the torque about the normal on body in the last step of the world.
+Torque of a soft contact about the normal on body in the last step of the world.
 @type number  [N m]
 > world:contacts(hand, flask)[1].torsion  --> 0.0)"},
     {"mu", getter<[](const ContactHandle& x) { return x.contact.friction.statics; }>, R"(
@@ -190,12 +190,11 @@ static const Entry contact_operators[] = {
     {"__tostring", method<contact_text>, ""},
 };
 
-const Class contact_class{
-    .name = "contact",
-    .variable = "contact",
-    .doc = "A point where one body touches another, as it was when it was asked for.",
-    .fields = contact_fields,
-    .methods = contact_methods,
-    .operators = contact_operators};
+const Class contact_class{.name = "contact",
+                          .variable = "contact",
+                          .doc = "A point where one body touches another, as it was when queried.",
+                          .fields = contact_fields,
+                          .methods = contact_methods,
+                          .operators = contact_operators};
 
 }  // namespace clench

@@ -223,12 +223,12 @@ static int move_dofs(lua_State* L) {
 
 static const Entry dofs_fields[] = {
     {"dofs", getter<[](const RobotHandle& x) { return x.world->dofs(x.id); }>, R"(
-Values of its degrees of freedom; a list of its own, set as by set_dofs.
+Values of its degrees of freedom; a copy, set as by set_dofs.
 @type number[]  [rad or m]
 > #hand.dofs  --> 12)",
      guarded<set_dofs>},
     {"named_dofs", guarded<get_named_dofs>, R"(
-The same values by the names of dof_names; a table of its own, set as by set_dofs.
+The same values by the names of dof_names; a copy, set as by set_dofs.
 @type table<string, number>  [rad or m]
 > hand.named_dofs.dof2 == hand.dofs[2]  --> true
 > hand.named_dofs = {dof2 = 0.1}
@@ -236,19 +236,19 @@ The same values by the names of dof_names; a table of its own, set as by set_dof
      guarded<set_dofs>},
     {"dof_limits", getter<dof_limits>, R"(
 Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a meter on
-either side of where it is, only says how far it closes, and what searches try.
+either side of its present value, limits only closing and searches.
 @type number[][]  [rad or m]
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
-What its file says of each DOF: name, where it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
-of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, where known, kp, kd, damping_ratio, where
+Data of each DOF from its file: name, if it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
+of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, if known, kp, kd, damping_ratio, where
 there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m],
 driven: false of a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless:
-true of one that no limit stops. can_close: its motor can push in the direction of default_velocity. effort_ranges says what the motors can exert.
+true for one without limits. can_close: its motor can push in the direction of default_velocity. effort_ranges has the efforts that the motors can exert.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
     {"effort_ranges", guarded<get_effort_ranges>, R"(
-Least and largest effort that the motor of each DOF can exert at rest where the DOF stands; math.huge where no limit is given,
+Minimum and maximum effort that the motor of each DOF can exert at rest at its present value; math.huge if no limit is given,
 {0, 0} of a DOF that is not driven. Limits are max_effort of dof_info in both directions and, of MJCF files, gear, gain,
 bias, control range and force range of the actuators. Contact forces with torque_limits, verified grasps and
 the motors of world:run stay within them.
@@ -264,15 +264,15 @@ Largest effort, in both directions, of motors for which the file gives no limit;
 > hand.max_effort = 0  --> error: largest effort)",
      guarded<set_max_effort>},
     {"dof_names", getter<dof_names>, R"(
-Names of its DOFs, as its file calls them; "dof1" and so on where it does not.
+Names of its DOFs in its file; "dof1" and so on if there are none.
 @type string[]
 > hand.dof_names[1]  --> dof1)"},
 };
 
 static const Entry dofs_methods[] = {
     {"set_dofs", guarded<set_dofs>, R"(
-Sets DOFs at once, whatever is in the way; see move_dofs. Joints that had broken away, or were held against their
-springs, follow again, but for those that the options name by chain, joint and the value at which they stand [rad or m].
+Sets DOFs at once, without collision checks; see move_dofs. Joints that had broken away, or were held against their
+springs, follow again, except those that the options name by chain, joint and present value [rad or m].
 @param values number[]|table<string, number>  within the limits: all, or some by their names, the others as they are [rad or m]
 @param options? {joint_positions?: number[][]}  rows {chain, joint, value}
 > hand:set_dofs{dof1 = 0, dof3 = 0.2}
@@ -281,7 +281,7 @@ springs, follow again, but for those that the options name by chain, joint and t
 > hand:set_dofs{dof3 = 20}  --> error: degrees? clench.rad(20) is 0.3491
 > hand:set_dofs{1, 2, 3}  --> error: expected 12 DOF values, got 3)"},
     {"set_posture", guarded<set_posture>, R"(
-Sets the pose of its base and all its DOFs at once, whatever is in the way; DOFs stop at their limits. All joints follow
+Sets the pose of its base and all its DOFs at once, without collision checks; DOFs stop at their limits. All joints follow
 their DOFs.
 @param pose pose  pose of the base in the world
 @param values number[]|table<string, number>  one per DOF, or some by name [rad or m]
@@ -296,10 +296,10 @@ Drives all DOFs in proportion towards values, until contact stops them.
 @return table result  as of autograsp
 > hand:move_dofs(hand.dofs).moved  --> false)"},
     {"autograsp", guarded<autograsp>, R"(
-Closes the hand: each DOF goes to its limit in the sense of its default velocity until contact stops it. Breakaway
-fingers go on beyond the joint that is stopped. The joints of compliant DOFs follow the balance of springs, contacts
+Closes the hand: each DOF moves towards its limit in the direction of its default velocity until contact stops it. Breakaway
+fingers continue past the stopped joint. The joints of compliant DOFs follow the balance of springs, contacts
 and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
-opens. With `dynamic` nothing moves yet: its motors are told to close, and do so while the world runs; then nothing is returned.
+opens. With `dynamic` nothing moves yet: its motors are set to close while the world runs, and nothing is returned.
 @param options? table  how it closes
 @option speed? number = 1  of all closing speeds, 1: those of the hand; negative: opens
 @option stop_at_contact? boolean = false  true: end at the first new contact of any link
@@ -313,20 +313,19 @@ opens. With `dynamic` nothing moves yet: its motors are told to close, and do so
 > hand:autograsp{stages = {{1, 2, 3}, {4, 5, 6, 7, 8, 9}, {10, 11, 12}}}.moved  --> true
 > hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
     {"open", guarded<open>, R"(
-Opens the hand as far as it goes. One that overlaps something is opened regardless of contacts until it is free.
+Opens the hand as far as possible. One that overlaps something is opened regardless of contacts until it is free.
 @param options? table  no options yet
 @return table result  as of autograsp
 > hand:open().moved  --> true
 > #world:contacts(hand, flask)  --> 0)"},
 };
 
-const Class dofs_class{.name = "dofs",
-                       .variable = "hand",
-                       .doc =
-                           "What every robot can do with its degrees of freedom: set them, drive "
-                           "them, close and open.",
-                       .fields = dofs_fields,
-                       .methods = dofs_methods,
-                       .parent = &kinematics_class};
+const Class dofs_class{
+    .name = "dofs",
+    .variable = "hand",
+    .doc = "Degrees of freedom of a robot: setting, driving, closing and opening.",
+    .fields = dofs_fields,
+    .methods = dofs_methods,
+    .parent = &kinematics_class};
 
 }  // namespace clench

@@ -35,7 +35,7 @@ static VectorXd check_posture(const std::vector<double>& values, const std::stri
   return vector_of(values);
 }
 
-// --- making ---
+// --- construction ---
 
 static std::vector<std::optional<Range>> read_limits(Table& options) {
   std::vector<std::optional<Range>> limits;
@@ -91,7 +91,7 @@ static std::vector<Range> amplitude_limits(const EigengraspsHandle& x) {
   return grasps.limits(x.robot.world ? x.robot.world->dofs(x.robot.id) : grasps.origin());
 }
 
-// --- verbs ---
+// --- methods ---
 
 static int amplitudes(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
@@ -153,7 +153,7 @@ Weight of each eigengrasp: of principal components the variance of the postures 
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 0}, {2, 0}}}
 > set.eigenvalues  --> {1.0})"},
     {"origin", getter<[](const EigengraspsHandle& x) { return x.ready().origin(); }>, R"(
-The posture of zero amplitudes, within the DOF limits. Where no file says it, the middle of the limits.
+The posture of zero amplitudes, within the DOF limits. If no file defines it, the middle of the limits.
 @type number[]  [rad or m]
 > #hand.eigengrasps.origin  --> 12)"},
     {"norm", getter<[](const EigengraspsHandle& x) { return x.ready().norm(); }>, R"(
@@ -161,14 +161,14 @@ Scale of the vectors' entries, one per DOF.
 @type number[]
 > clench.eigengrasps{vectors = {{1, 1}}}.norm  --> {1.0, 1.0})"},
     {"limits", getter<amplitude_limits>, R"(
-Range of each amplitude from the hand's posture, while the others stay: what its file says, else until the first
+Range of each amplitude from the hand's posture, with the others constant: that of its file, otherwise until the first
 DOF that it moves is at a limit.
 @type number[][]  {least, largest} each
 > hand.eigengrasps = nil
 > limits, range = hand.eigengrasps.limits[1], hand.dof_limits[1]
 > math.abs((limits[2] - limits[1]) - (range[2] - range[1])) < 1e-12  --> true)"},
     {"range", getter<[](const EigengraspsHandle& x) { return x.ready().range(); }>, R"(
-Range of each amplitude overall: what its file says, else the least and largest of all postures within the DOF limits.
+Overall range of each amplitude: that of its file, otherwise the minimum and maximum over all postures within the DOF limits.
 @type number[][]  {least, largest} each
 > range = hand.eigengrasps.range[1]
 > range[1] < range[2]  --> true)"},
@@ -176,7 +176,7 @@ Range of each amplitude overall: what its file says, else the least and largest 
        return x.robot.world ? std::optional(x.robot) : std::nullopt;
      }>,
      R"(
-The hand whose set it is; nil for a set by itself.
+The hand that the set belongs to; nil for an independent set.
 @type robot?
 > hand.eigengrasps.hand == hand  --> true
 > clench.eigengrasps{vectors = {{1}}}.hand  --> nil)"},
@@ -184,13 +184,13 @@ The hand whose set it is; nil for a set by itself.
        return handle.set || handle.robot->eigengrasps;
      }>,
      R"(
-Does it come from a file or a script? A hand without a set of its own has one eigengrasp per DOF.
+Is it from a file or a script? A hand without a set has one eigengrasp per DOF.
 @type boolean
 > hand.eigengrasps = nil
 > hand.eigengrasps.is_custom  --> false
 > #hand.eigengrasps  --> 12)"},
     {"count", getter<[](const EigengraspsHandle& x) { return x.ready().size(); }>, R"(
-How many there are, as # says.
+Their number, like #.
 @type integer
 > clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
 };
@@ -204,7 +204,7 @@ Amplitudes of the posture of the set that is nearest to DOF values; without them
 > set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
 > set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
     {"dofs", guarded<dofs>, R"(
-DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, what it has besides its own
+DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, its component outside its own
 amplitudes is kept.
 @param amplitudes number[]  one amplitude per eigengrasp
 @param options? {from?: number[]}

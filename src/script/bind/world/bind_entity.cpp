@@ -69,7 +69,7 @@ static std::array<double, 3> color_of(const Entity& body) {
   return {color.x(), color.y(), color.z()};
 }
 
-// one {red, green, blue} per triangle; nil where the body has one color
+// one {red, green, blue} per triangle; nil if the body has a single color
 static int get_triangle_colors(lua_State* L) {
   const auto body = self_body(L);
   const auto& colors = body->appearance.triangle_colors;
@@ -107,7 +107,7 @@ static void push_texture(lua_State* L, const Texture& texture) {
   lua_setfield(L, -2, "tint");
 }
 
-// images as bytes of files, numbers and places of triangles packed
+// images as bytes of files, numbers and image coordinates of triangles packed
 static int get_textures(lua_State* L) {
   const auto body = self_body(L);
   const SkinPtr& skin = body->appearance.skin;
@@ -163,11 +163,11 @@ Name of its material, which decides its friction.
      setter<[](const Entity& x, const std::string& name) { x.world->set_material(x.id, name); }>},
     {"material_from", getter<[](const Entity& x) { return word_of_origin(x->material_from); }>,
      R"(
-Where the material comes from: its file, a script or option, or nowhere: then it is assumed.
+Origin of the material: its file, a script or option, or none: then it is assumed.
 @type "assumed"|"file"|"script"
 > world:add_object("models/objects/flask.iv", {name = "other", material = "glass"}).material_from  --> script)"},
     {"mass_from", getter<[](const Entity& x) { return word_of_origin(x->mass_from); }>, R"(
-Where the mass comes from, likewise.
+Origin of the mass, likewise.
 @type "assumed"|"file"|"script"
 > world:add_object(clench.shapes.box {0.01, 0.01, 0.01}, {name = "cube"}).mass_from  --> assumed)"},
     {"mass", getter<[](const Entity& x) { return x->mass; }>, R"(
@@ -211,23 +211,23 @@ Its surface; nil when it has none.
     {"visual_mesh",
      getter<[](const Entity& x) { return x->appearance.visual ? x->appearance.visual : x->shape; }>,
      R"(
-The mesh that pictures and pages draw: that for display where the file gives one, else its surface; nil when it has none.
+The mesh that pictures and pages draw: that for display if the file has one, otherwise its surface; nil if it has none.
 @type mesh?
 > flask.visual_mesh == flask.mesh  --> true)"},
     {"triangle_colors", guarded<get_triangle_colors>, R"(
-Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, where the file gives several, by materials or textures; nil
-where the body has one color.
+Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, if the file has several, by materials or textures; nil
+if the body has one color.
 @type number[][]?
 > flask.triangle_colors  --> nil)"},
     {"textures", guarded<get_textures>, R"(
-Images on the triangles of `visual_mesh`, as its file places them; nil where it has none. `images` is a list of `{jpeg =, width =, height =,
-wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image goes on beyond its edges ("repeat", "mirror" or
+Images on the triangles of `visual_mesh`, as its file places them; nil if it has none. `images` is a list of `{jpeg =, width =, height =,
+wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image continues beyond its edges ("repeat", "mirror" or
 "clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: of each triangle the number of its image,
 `"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
 @type table?
 > flask.textures  --> nil)"},
     {"mesh_report", guarded<get_mesh_report>, R"(
-How the triangles of its file were read and repaired: lines of text, and the same as fields `format`, `unit` [m],
+How the triangles of its file were read and repaired: lines of text, and the same data as fields `format`, `unit` [m],
 `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,
 `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped`
 (was it inside out?). Nil when it has no mesh, or none from a file.
@@ -236,8 +236,8 @@ How the triangles of its file were read and repaired: lines of text, and the sam
 > flask.mesh_report.unit_source  --> format
 > flask.mesh_report.flipped  --> false)"},
     {"restitution", getter<[](const Entity& x) { return x->restitution; }>, R"(
-How it bounces: speed after a blow by that before, from 0 to 1. Of two bodies the larger counts, unless set_friction says
-what holds for their materials.
+Restitution: ratio of the speeds after and before an impact, from 0 to 1. The larger value of two bodies is used, unless set_friction has
+a value for their materials.
 @type number
 > flask.restitution  --> 0.0
 > flask.restitution = 2  --> error: restitution)",
@@ -251,7 +251,7 @@ against that point's velocity, and a torque against its turning.
 > flask.free_damping = -1  --> error: free damping)",
      setter<[](const Entity& x, double value) { x.world->set_free_damping(x.id, value); }>},
     {"free_friction", getter<[](const Entity& x) { return x->free_friction; }>, R"(
-Dry resistance of an object that moves freely, or of the base of a robot that floats: at most this force on the origin of
+Dry resistance of a free object, or of a floating robot base: at most this force on the origin of
 its frame along each axis of the world, and at most this torque about each axis of its own.
 @type number  [N and N m]
 > flask.free_friction  --> 0.0)",
@@ -281,7 +281,7 @@ Height of the soft layer of an elastic body.
 > flask.soft_layer = 0  --> error: expected a number from 1e-09 to 1e+09 [m], got 0)",
      setter<[](const Entity& x, double value) { x.world->set_soft_layer(x.id, value); }>},
     {"poisson_ratio", getter<[](const Entity& x) { return x->poisson_ratio; }>, R"(
-Poisson's ratio of an elastic body, below 0.5: its layer gives way by modulus / (1 - ratio^2).
+Poisson's ratio of an elastic body, below 0.5: its layer deforms by modulus / (1 - ratio^2).
 @type number
 > flask.poisson_ratio  --> 0.0
 > flask.poisson_ratio = 0.5  --> error: expected a number from 0 to 0.499999, got 0.5)",
@@ -307,7 +307,7 @@ From 0, opaque, to 1, invisible.
 const Class entity_class{
     .name = "entity",
     .variable = "entity",
-    .doc = "What bodies and robots have in common; a robot has what its base has.",
+    .doc = "Properties common to bodies and robots; a robot has those of its base.",
     .fields = entity_fields};
 
 }  // namespace clench

@@ -38,7 +38,7 @@ static int set_eigengrasps(lua_State* L) {
   return 0;
 }
 
-// the posture that amplitudes stand for, each DOF brought to its nearest limit
+// the posture of the amplitudes, each DOF clamped to its limits
 struct Expected {
   VectorXd dofs;
   std::vector<int> clamped;
@@ -49,7 +49,7 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
   VectorXd amplitudes = check_amplitudes(L, 2, grasps);
   const bool keep = options.boolean("keep", false);
   if (options.has("fixed")) {
-    // these stay as they are, whatever is asked for
+    // fixed amplitudes keep their present values
     const VectorXd now = grasps.amplitudes(robot.world->dofs(robot.id));
     for (const double x : options.numbers("fixed")) {
       if (!(x >= 1 && x <= grasps.size() && x == std::floor(x)))
@@ -65,7 +65,7 @@ static Expected expected_posture(lua_State* L, const RobotHandle& robot, Table& 
   for (int d = 0; d < out.dofs.size(); ++d) {
     const auto [low, high] = range_around(*robot, d, out.dofs[d]);
     const double inside = std::clamp(out.dofs[d], low, high);
-    // rounding is no limit in the way
+    // rounding errors do not count as limits
     if (std::abs(inside - out.dofs[d]) > 1e-12 * std::max(1.0, std::abs(inside)))
       out.clamped.push_back(d + 1);
     out.dofs[d] = inside;
@@ -113,7 +113,7 @@ static std::string source_stem(const Robot& robot) {
   return std::filesystem::path(robot.source).stem().string();
 }
 
-// tells when contacts were made for a hand of another file than this one
+// warns if contacts were made for a hand of another file
 static void warn_of_other_hand(lua_State* L, const RobotHandle& robot,
                                const std::string& made_for) {
   if (made_for.empty() || made_for == robot->name || made_for == source_stem(*robot)) return;
@@ -140,7 +140,7 @@ static int set_virtual_contacts(lua_State* L) {
   };
   each_item(L, 2, {L, {}, "virtual_contacts"}, "a list of virtual contacts", read, "robot");
   lua_pushstring(L, "robot");
-  const bool told = lua_rawget(L, 2) == LUA_TSTRING;  // as lists from files say it
+  const bool told = lua_rawget(L, 2) == LUA_TSTRING;  // in the format of lists from files
   const std::string made_for = told ? std::string(string_at(L, -1)) : other_hand;
   lua_pop(L, 1);
   give(robot, std::move(contacts));
@@ -197,10 +197,10 @@ static int push(lua_State* L, const TrackerSpec& tracker) {
   return push_record(L, {{"number", tracker.number}, {"pose", tracker.X_BS}});
 }
 
-// --- parts that are kept as their file describes them ---
+// --- parts that are stored as their file describes them ---
 
-// a list of what push_part(part, link) makes of each of the robot's, with the base or link that a
-// number stands for
+// a list of the results of push_part(part, link) for all parts of the robot, with the base or link
+// of each
 template <class Part, class PushPart>
 static int push_parts(lua_State* L, std::vector<Part> PassiveParts::*list, PushPart push_part) {
   const auto& robot = self<RobotHandle>(L);
@@ -304,7 +304,7 @@ static const Entry hand_fields[] = {
        return EigengraspsHandle{x, nullptr};
      }>,
      R"(
-Its eigengrasps, as they are at any time: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
+Its present eigengrasps: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
 @type eigengrasps
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand.eigengrasps  --> 1 eigengrasp of 12 DOFs
@@ -320,8 +320,8 @@ Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting
 > math.abs(hand.amplitudes[1] - 0.25) < 1e-12  --> true)",
      guarded<set_amplitudes_field>},
     {"virtual_contacts", guarded<get_virtual_contacts>, R"(
-Where it would like to touch: those of its file, those it was given, or, when there are none of either, those that
-find_virtual_contacts finds, anew each time. Set to a list of virtual contacts, contacts, or tables as of
+Its desired contact points: those of its file, those set by a script, or, if there are neither, those that
+find_virtual_contacts computes, at each access. Set to a list of virtual contacts, contacts, or tables as of
 add_virtual_contact; to {} for none, to nil for those that are found.
 @type virtual_contact[]
 > hand.virtual_contacts = {{link = "chain0_link2", point = {0, 0, 0}, normal = {0, 0, 1}, mu = 0.5}}
@@ -341,35 +341,35 @@ Do its virtual contacts come from a file or a script? Otherwise they are found f
      }>,
      R"(
 Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
-DOF = intercept + slopes * raw. nil when there is none.
+DOF = intercept + slopes * raw. nil if there is none.
 @type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
 > hand.glove  --> nil)"},
     {"tracker", getter<[](const RobotHandle& x) { return x->tracker; }>, R"(
-Position sensor on it: its `number` and its mounting `pose` in the base. nil when there is none.
+Position sensor on it: its `number` and its mounting `pose` in the base. nil if there is none.
 @type {number: integer, pose: pose}?
 > hand.tracker  --> nil)"},
     {"tendons", guarded<get_tendons>, R"(
-Tendons of its file, as they are there; they exert no force. Points are in the frame of their link.
+Tendons of its file, unchanged; they exert no force. Points are in the frame of their link.
 @type {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[]  [N/m, m]
 > #hand.tendons  --> 0)"},
     {"tendon_wrappers", guarded<get_tendon_wrappers>, R"(
-Posts that tendons wrap around, each an endless cylinder; `exempt` names the tendons that pass it by, `sides` say on which
+Posts that tendons wrap around, each an infinite cylinder; `exempt` names the tendons that ignore it, `sides` say on which
 side of it the others lie. They have no effect.
 @type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
 > #hand.tendon_wrappers  --> 0)"},
     {"joint_tendons", guarded<get_joint_tendons>, R"(
 Fixed tendons of an MJCF file that have a range, a spring or friction: `length` is the sum of `arms` times `dofs`. In
-simulations the length stays in `range`, a spring acts where it is outside `slack`, and each DOF feels its arm times the
-force of the tendon. What sets DOFs without a simulation does not look at them, nor does the engine "ode".
+simulations the length stays in `range`, a spring acts if it is outside `slack`, and each DOF receives its moment arm times the
+force of the tendon. They are ignored by methods that set DOFs without a simulation, and by the engine "ode".
 @type {name: string, dofs: integer[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[]
 > #hand.joint_tendons  --> 0)"},
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon` with the joints that it `pulls`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity. Where the file says so: `gain_slopes`, which times length and velocity add to the gain; `activation_range`, of what the
+bias[2] * length + bias[3] * velocity. If the file defines them: `gain_slopes`, which multiplied by length and velocity are added to the gain; `activation_range`, of what the
 law takes in place of the control; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false
-of one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. Of
-them the motors take which DOFs are driven, the largest efforts, and, as kp and kd, what bias[2] and bias[3] say of DOFs
+of one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. From
+them the motors take the driven DOFs, the maximum efforts, and, as kp and kd, the values of bias[2] and bias[3] for DOFs
 and of tendons; a script that sets forces may follow their laws.
 @type table[]
 > #hand.actuators  --> 0)"},
@@ -382,7 +382,7 @@ no effect.
 
 static const Entry hand_methods[] = {
     {"set_amplitudes", guarded<set_amplitudes>, R"(
-Takes the posture that amplitudes of its eigengrasps stand for, whatever is in the way. DOFs stop at their limits.
+Sets the posture given by amplitudes of its eigengrasps, without collision checks. DOFs stop at their limits.
 @param amplitudes number[]  one amplitude per eigengrasp
 @param options? {keep?: boolean, fixed?: integer[]}  keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
 @return integer[] clamped  numbers of the DOFs whose limit was in the way
@@ -399,7 +399,7 @@ Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact s
 @return table result  as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
 > hand:move_amplitudes(hand.amplitudes, {keep = true}).moved  --> false)"},
     {"add_virtual_contact", guarded<add_virtual_contact>, R"(
-Marks a place: where it touches now (a contact), or one in the frame of a link (a body or its name).
+Adds a virtual contact: at a present contact, or in the frame of a link (a body or its name).
 @param contact contact|virtual_contact|{link: body|string, point?: vec3, normal?: vec3, frame?: pose, mu?: number, torsion_radius?: number, edges?: number[][]}  normal: out of the link; mu 1 by default
 @return virtual_contact
 > hand.virtual_contacts = {}
@@ -414,7 +414,7 @@ Takes one out of its list.
 > #hand.virtual_contacts == count - 1  --> true
 > hand:remove_virtual_contact(1000)  --> error: number: expected one of)"},
     {"find_virtual_contacts", guarded<find_sites>, R"(
-Places on its surface where it moves forward when the hand closes: the center of what each link sweeps, by area and
+Contact points on its surface where that moves forward when the hand closes: the center of the volume that each link sweeps, by area and
 speed along its normal, and one on the palm. Sets nothing.
 @param options? table  where they are, and of what is grasped
 @option count_per_link? integer [1 to 100] = 1  number of contacts per link, along its length
@@ -432,7 +432,7 @@ Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contac
 const Class hand_class{.name = "hand",
                        .variable = "hand",
                        .doc =
-                           "What every robot has for grasping: eigengrasps, virtual contacts, a "
+                           "Parts of a robot used for grasping: eigengrasps, virtual contacts, a "
                            "glove, a position sensor.",
                        .fields = hand_fields,
                        .methods = hand_methods,

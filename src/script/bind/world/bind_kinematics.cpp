@@ -74,8 +74,8 @@ static int random_posture(lua_State* L) {
 
 static const Entry kinematics_methods[] = {
     {"ik", guarded<ik>, R"(
-Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. Where none are
-found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
+Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. If none are
+found, the nearest ones, with a turn by 1 rad weighted like a displacement of 0.1 m.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param pose pose  where it is to be, in the world
 @param options? table  what is reached, and how it is searched for
@@ -94,10 +94,10 @@ found, those that come nearest, a turn by 1 rad counted as a way of 0.1 m.
 > hand.dofs = result.dofs
 > (hand:link("chain0_link2").pose.position - target):norm() < 1e-6  --> true
 > hand:ik("chain0_link2", {xyz = {9, 0, 0}}).reached  --> false
-> hand:ik(flask, {})  --> error: no DOF that may move moves 'flask')"},
+> hand:ik(flask, {})  --> error: none of the selected DOFs moves 'flask')"},
     {"jacobian", guarded<jacobian>, R"(
-How its DOFs move a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world
-axes, and a column for each DOF, with those of its joints that follow it.
+Jacobian of a point: a row for each of vx, vy, vz [m per unit of the DOF], wx, wy, wz [rad per unit], in world
+axes, and a column for each DOF, including those of its joints that follow it.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param point? vec3  in its frame, its origin by default [m]
 @return number[][]
@@ -105,8 +105,8 @@ axes, and a column for each DOF, with those of its joints that follow it.
 > {#J, #J[1]}  --> {6, 12}
 > J[1][12]  --> 0.0)"},
     {"random_posture", guarded<random_posture>, R"(
-Values for all its DOFs, any within the limits as likely as any other; an endless DOF gets one
-within dof_limits, about where it is. Moves nothing.
+Values for all its DOFs, uniformly distributed within the limits; an endless DOF gets a value
+within dof_limits around its present value. Moves nothing.
 @param random random  source of the random numbers
 @return number[]  [rad or m]
 > hand.dofs = hand:random_posture(clench.random(1))
@@ -115,9 +115,7 @@ within dof_limits, about where it is. Moves nothing.
 
 const Class kinematics_class{.name = "kinematics",
                              .variable = "hand",
-                             .doc =
-                                 "What every robot knows of where its DOFs take its links: inverse "
-                                 "kinematics and Jacobians.",
+                             .doc = "Kinematics of a robot: inverse kinematics and Jacobians.",
                              .methods = kinematics_methods,
                              .parent = &hand_class};
 

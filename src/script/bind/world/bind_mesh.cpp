@@ -56,7 +56,7 @@ static int sample(lua_State* L) {
   constexpr int most = 1'000'000;
   if (count < 0 || count > most)
     fail("{}: count: expected 0 to {}, got {}", subject(L), most, count);
-  // of each triangle, the area of all up to its end
+  // cumulative area of the triangles, including each
   std::vector<double> areas;
   double sum = 0;
   for (int t = 0; t < std::ssize(shape.mesh().triangles); ++t) {
@@ -96,12 +96,12 @@ static const Entry mesh_fields[] = {
     {"triangle_count",
      getter<[](const ShapePtr& x) { return static_cast<int>(x->mesh().triangles.size()); }>,
      R"(
-How many triangles it has.
+Number of triangles.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.triangle_count  --> 12)"},
     {"vertex_count",
      getter<[](const ShapePtr& x) { return static_cast<int>(x->mesh().vertices.size()); }>, R"(
-How many vertices it has.
+Number of vertices.
 @type integer
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh.vertex_count  --> 8)"},
     {"bounds", getter<[](const ShapePtr& x) { return x->bounds(); }>, R"(

@@ -20,7 +20,7 @@ const char* modulus_name(ModulusRule rule) { return word_of(rule, modulus_rules)
 
 static const SoftPatch& patch_of(lua_State* L) { return *self<PatchHandle>(L).patch; }
 
-// {body = ..., other = ...}: what push_one(side) leaves of each
+// {body = ..., other = ...}: the values that push_one(side) pushes for each
 template <class PushOne>
 static int push_sides(lua_State* L, PushOne push_one) {
   const bool body_is_b = self<PatchHandle>(L).body_is_b;
@@ -92,12 +92,12 @@ static std::string patch_text(const PatchHandle& x) {
 static const Entry patch_fields[] = {
     {"relative_radii", getter<[](const PatchHandle& x) { return x.patch->relative_radii; }>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
-Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm stands
+Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm is used
 for them, or the first radius when that is larger; between 1 m and 2 m the two are blended.
 @type number[]  [m]
 > patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
     {"flat", guarded<get_flat>, R"(
-Is a relative radius the one that stands for a flat direction?
+Is a relative radius the limit used for a flat direction?
 @type boolean[]
 > patch.flat[1]  --> false)"},
     {"curvatures", guarded<get_curvatures>, R"(
@@ -106,11 +106,11 @@ body, as a ball's, negative where it rises, as a socket's.
 @type {body: number[], other: number[]}  [1/m]
 > patch.curvatures.body[1] >= patch.curvatures.body[2]  --> true)"},
     {"radii", guarded<get_radii>, R"(
-The principal radii of both, 1 over the curvatures: negative where a surface is hollow; as large as you like where it is flat.
+The principal radii of both, 1 over the curvatures: negative if a surface is concave; arbitrarily large if it is flat.
 @type {body: number[], other: number[]}  [m]
 > math.abs(patch.radii.body[1] * patch.curvatures.body[1] - 1) < 1e-9  --> true)"},
     {"directions", guarded<get_directions>, R"(
-Of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
+Directions of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
 @type vec3[]
 > math.abs(patch.directions[1]:dot(patch.directions[2])) < 1e-12  --> true)"},
     {"point",
@@ -119,19 +119,19 @@ The middle of the patch, in the world frame: the contact's point, or the mean of
 @type vec3  [m]
 > (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},
     {"points", guarded<get_patch_points>, R"(
-What was fitted: points of both surfaces, in the world frame.
+The fitted points of both surfaces, in the world frame.
 @type {body: vec3[], other: vec3[]}  [m]
 > #patch.points.other > 100  --> true)"},
     {"radius", getter<[](const PatchHandle& x) { return x.patch->radius; }>, R"(
-How far around the contact the surfaces were looked at.
+Radius of the neighborhood in which the surfaces were sampled.
 @type number  [m]
 > ("%.5f"):format(patch.radius)  --> 0.00349)"},
     {"residual", getter<[](const PatchHandle& x) { return x.patch->residual; }>, R"(
-How far the points lie from the fit, root of the mean square; of the worse surface.
+Root mean square distance of the points from the fit, of the worse surface.
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
     {"at_edge", getter<[](const PatchHandle& x) { return x.patch->at_edge; }>, R"(
-Is there a corner or an edge, where curvature means little? Then only the part of the ellipse counts that certainly
+Is there a corner or an edge, at which curvature is not meaningful? Then only that part of the ellipse is used that certainly
 touches.
 @type boolean
 > patch.at_edge  --> false)"},
@@ -139,12 +139,12 @@ touches.
 
 static const Entry patch_methods[] = {
     {"ellipse", guarded<ellipse>, R"(
-Where the bodies press on each other, after the bed-of-springs model (Winkler foundation): its semi-axes along
+Contact ellipse of the bodies under load, by the bed-of-springs model (Winkler foundation): its semi-axes along
 `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric
-mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of what certainly
-touches, where the gap is no wider than the indentation of flat surfaces; the indentation is the depth at which the
-springs under the actual gap add up to the force, within the neighborhood. `exceeds_layer` says that it exceeds the
-thickness of the soft layers, where the model no longer holds.
+mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of the area that certainly
+touches, in which the gap is at most the indentation of flat surfaces; the indentation is the depth at which the
+springs under the actual gap add up to the force, within the neighborhood. `exceeds_layer`: does it exceed the
+thickness of the soft layers, beyond which the model is invalid?
 @param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
 @return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean}  [m], [m], [Pa], [m]
 > e = patch:ellipse{force = 5}

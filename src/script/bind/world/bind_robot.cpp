@@ -102,7 +102,7 @@ static int get_files(lua_State* L) {
   return 1;
 }
 
-// --- verbs ---
+// --- methods ---
 
 static int link(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
@@ -181,7 +181,7 @@ Identity by content: equal for robots of the same links, joints, limits and moto
        return fingerprint_text(mechanism_fingerprint(*x.world, x.id, shapes));
      }>,
      R"(
-Identity of what a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
+Fingerprint of everything that a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
 differences of frames below 1e-9 m. Grasps keep it, and `grasp:apply` compares it.
 @type string  16 hexadecimal digits
 > hand.mechanism_fingerprint == grasp.hand_fingerprint  --> true)"},
@@ -190,7 +190,7 @@ Unique in its world.
 @type string
 > world:robot(hand.name) == hand  --> true)"},
     {"pose", getter<[](const RobotHandle& robot) { return robot.world->pose(robot->base); }>, R"(
-Where its base is, in the world frame. Setting it moves the robot at once, with all that it carries; see move_to.
+The pose of its base, in the world frame. Setting it moves the robot at once, with everything that it carries; see move_to.
 @type pose
 > hand.pose = {xyz = {0, 0, 1}}
 > hand.base.pose.position  --> (0, 0, 1))",
@@ -201,9 +201,9 @@ Its links, chain by chain, without the base.
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
 Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
-where that is fixed, `links`, and `joints` as they stand (name, where its file names it, kind, dof, ratio, min, max,
+where that is fixed, `links`, and `joints` with their present values (name, if its file names it, kind, dof, ratio, min, max,
 value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
-m/rad or N/m] and rest, the value where it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg
+m/rad or N/m] and rest, the value at which it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg
 m^2 or kg], of joints that have them).
 @type table[]
 > #hand.chains  --> 4
@@ -220,8 +220,8 @@ Base, links, and mount if it has one.
 @type body[]
 > #hand.bodies  --> 13)"},
     {"approach", guarded<get_approach>, R"(
-How it approaches what it grasps, in the world frame: `point` that goes there, on the palm or where it would hold a
-small object, `direction`, `frame` with +z along it. From its file, or a guess, which `clench check` tells.
+Its approach to objects, in the world frame: `point`, on the palm or at the position where it would hold a
+small object, `direction`, `frame` with +z along it. From its file, or inferred, which `clench check` reports.
 @type {point: vec3, direction: vec3, frame: pose}
 > math.abs(hand.approach.direction:norm() - 1) < 1e-12  --> true)"},
     {"parent", getter<carrier_of>, R"(
@@ -229,7 +229,7 @@ The robot that carries it; nil when none does.
 @type robot?
 > hand.parent  --> nil)"},
     {"class_name", getter<[](const RobotHandle& x) { return x->class_name; }>, R"(
-What its file calls its kind.
+Name of its kind in its file.
 @type string
 > hand.class_name  --> Hand)"},
     {"source", getter<[](const RobotHandle& x) { return x->source; }>, R"(
@@ -242,7 +242,7 @@ Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration
 > type(hand.files)  --> table)"},
 };
 
-// the robot of that id in a clone of its world
+// the robot with that id in a clone of its world
 static int robot_in_world(lua_State* L) {
   const RobotHandle& robot = self<RobotHandle>(L);
   const WorldPtr world = check_object<WorldHandle>(L, 2, "world").world;
@@ -260,13 +260,13 @@ The same robot in a clone of its world, or in the world of which its own is a cl
 > copy = world:clone()
 > hand:in_world(copy).world == copy, hand:in_world(copy) == hand  --> true, false)"},
     {"link", guarded<link>, R"(
-A link, or the base, by its name, whole or without the robot's.
+A link, or the base, by its name, with or without the robot's.
 @param name string  name of the link
 @return body
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
     {"move_to", guarded<robot_move_to>, R"(
-Moves the whole robot until it first touches something, as a body's move_to.
+Moves the robot by its base until it first touches something, as a body's move_to.
 @param pose pose  target pose of the base in the world
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:move_to(hand.pose).fraction  --> 1.0)"},
@@ -277,8 +277,8 @@ Moves the hand along its approach direction until it touches something.
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"place_approach", guarded<place_approach>, R"(
-Places the hand so that its approach point stands before a target and its approach direction leads there, whatever is in
-the way. See `approach`.
+Places the hand so that its approach point is in front of a target and its approach direction points there, without collision
+checks. See `approach`.
 @param target pose|vec3  of the approach frame, +z along the direction, or its point
 @param direction? vec3  of approach, with a point: then the hand's turn about it follows from the world's x axis
 @param standoff? number  how far before the target, 0 by default [m]
@@ -291,7 +291,7 @@ Fixes the robot to a link of another one: that of a name, or the last of a chain
 @param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
 > hand:mount_on(hand)  --> error: which it carries itself)"},
     {"dismount", method<[](const RobotHandle& x) { x.world->unmount(x.id); }>, R"(
-Takes the robot off the one that carries it: it stays where it is, without its adapter.
+Detaches the robot from the one that carries it: it keeps its pose, without its adapter.
 > hand:dismount()  --> error: is carried by nobody)"},
 };
 

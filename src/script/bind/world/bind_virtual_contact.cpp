@@ -49,7 +49,7 @@ static int read_link(lua_State* L, Table& table, const RobotHandle& robot) {
   } else if (type == LUA_TSTRING) {
     link = robot.world->body(find_link(robot, read_string(L, -1, what), what.text())).link;
   } else if (type == LUA_TNUMBER && table.has("chain")) {
-    // numbers as lists from files have them
+    // numbers in the format of lists from files
     const int chain = table.integer("chain", 0), number = read_int(L, -1, what);
     if (chain < 0) fail("{}: chain: expected 0 or more, got {}", what.text(), chain);
     link = number_on(robot, {chain - 1, std::max(number, 0) - 1}, what);
@@ -95,7 +95,7 @@ VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
   Table table(L, i, what.text());
   VirtualContactSpec contact;
   contact.link = read_link(L, table, robot);
-  table.integer("chain", 0);  // known, though a link given otherwise does not ask for it
+  table.integer("chain", 0);  // a valid key, even if read_link does not read it
   contact.X_LC = read_frame(table);
   contact.mu = table.number("mu", 1);
   contact.edges = read_friction_edges(table);
@@ -147,12 +147,12 @@ Number of the link's chain; 0 for the base.
 @type integer
 > hand:find_virtual_contacts()[1].chain  --> 1)"},
     {"point", getter<[](const VirtualContactHandle& x) { return frame_of(x).position; }>, R"(
-Where it is, in the world frame; it moves with its link.
+Its position in the world frame; it moves with its link.
 @type vec3  [m]
 > c = hand.virtual_contacts[1]
 > (c.point - c.link.pose * c.frame_in_link.position):norm() < 1e-12  --> true)"},
     {"normal", getter<normal_of>, R"(
-Unit normal out of the link, in the world frame: into what it is to touch.
+Unit normal out of the link, in the world frame: into the body to be touched.
 @type vec3
 > math.abs(hand.virtual_contacts[1].normal:norm() - 1) < 1e-12  --> true)"},
     {"frame", getter<frame_of>, R"(
@@ -173,7 +173,7 @@ Coulomb coefficient that it counts with.
        return Eigen::MatrixXd(x.contact.edges.transpose());
      }>,
      R"(
-What friction a unit normal force carries, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
+Friction supported by a unit normal force, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame.
 @type number[][]  torques [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}
 > #hand.virtual_contacts[#hand.virtual_contacts].edges  --> 8)"},
@@ -196,12 +196,13 @@ static const Entry virtual_contact_operators[] = {
     {"__tostring", method<virtual_contact_text>, ""},
 };
 
-const Class virtual_contact_class{.name = "virtual_contact",
-                                  .variable = "virtual_contact",
-                                  .doc =
-                                      "A place on a link where a hand would like to touch what it "
-                                      "grasps; it moves with the link.",
-                                  .fields = virtual_contact_fields,
-                                  .operators = virtual_contact_operators};
+const Class virtual_contact_class{
+    .name = "virtual_contact",
+    .variable = "virtual_contact",
+    .doc =
+        "A desired contact point on a link of a hand; it moves with the "
+        "link.",
+    .fields = virtual_contact_fields,
+    .operators = virtual_contact_operators};
 
 }  // namespace clench

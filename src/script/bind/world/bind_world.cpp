@@ -20,7 +20,7 @@
 
 namespace clench {
 
-// --- making ---
+// --- construction ---
 
 static int new_world(lua_State* L) {
   Table options(L, 1);
@@ -42,7 +42,7 @@ static int add_body(lua_State* L, BodyKind kind) {
   const BodySpec spec = check_body_spec(L, 2, options, reading);
   const std::string file = std::filesystem::path(spec.file).filename().string();
   const Place place = file.empty() ? Place("", 0, subject(L)).of("mesh") : Place(file);
-  // a script knows what it leaves open
+  // no notes: a script knows which values it omits
   const Diagnostics told = file.empty() ? reading.diagnostics.without_notes() : reading.diagnostics;
   if (const std::string doubt =
           options.has("elastic_modulus") ? doubt_modulus(*spec.elastic_modulus) : "";
@@ -116,7 +116,7 @@ static int get_robots(lua_State* L) {
   return set_finder(L, "world:robot", robot_class);
 }
 
-// the one of a name that `find` found, or an error that tells the names of all
+// the result of `find` for a name, or an error that lists all names
 template <class Handle, class Thing>
 static int push_found(lua_State* L, const char* kind,
                       Id<Thing> (World::*find)(std::string_view) const,
@@ -137,11 +137,11 @@ static int robot(lua_State* L) {
   return push_found<RobotHandle>(L, "robot", &World::find_robot, world_of(L).robots());
 }
 
-// --- time machine ---
+// --- saved states ---
 
 static int clone(lua_State* L) { return push_world(L, std::make_shared<World>(world_of(L))); }
 
-// bodies and robots that were removed since are back under their old handles
+// bodies and robots removed since then are restored with their old handles
 static int become(lua_State* L) {
   const WorldPtr& world = self<WorldHandle>(L).world;
   const WorldPtr other = check_object<WorldHandle>(L, 2, "clone").world;
@@ -179,13 +179,13 @@ An empty world.
 @return world
 > #clench.world().bodies  --> 0)"},
     {"load", guarded<load_world>, R"(
-A world from a file. Names in it are looked up beside the file, then below the root. A .lua file is run, with a table
-that holds the root and with the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
-files are read, nothing is read that does not lie below that folder, links followed, and no .lua file is run.
-A scene of MuJoCo becomes one, too: every tree of joints a robot, free bodies objects, what is fixed obstacles. From the file
-of a robot or a body comes a world with that one thing in it.
+A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run, with a table
+with the root and the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
+files are read, only files below that folder are read, after resolving links, and no .lua file is run.
+A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. From the file
+of a robot or a body, the result is a world with only that robot or body.
 @param path string  .wld, .xml, .lua or .mjcf; or any file of a robot or a body
-@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: what would be warned of is an error; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
+@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: treat warnings as errors; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
 @return world
 > #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
 > #clench.load("models/objects/flask.iv", {root = "."}).objects  --> 1
@@ -203,7 +203,7 @@ The bodies that can be grasped.
 @type body[]
 > world.objects[1] == flask  --> true)"},
     {"obstacles", guarded<get_obstacles>, R"(
-The bodies that only stand in the way.
+The bodies that are only to be avoided.
 @type body[]
 > #world.obstacles  --> 0)"},
     {"robots", guarded<get_robots>, R"(
@@ -239,7 +239,7 @@ give overrides the file.
 > math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
-Adds a body that only stands in the way; as add_object.
+Adds a body that is only to be avoided; as add_object.
 @param body string|mesh|table  file name, mesh, or vertices and triangles, as world:add_object takes them
 @param options? table  options of world:add_object, apart from those of moving bodies
 @return body
@@ -251,7 +251,7 @@ Adds a robot from a file.
 @return robot
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
-Removes an object, an obstacle or a whole robot. Using it afterwards is an error that names it.
+Removes an object, an obstacle or a complete robot. Using it afterwards is an error that names it.
 @param entity body|robot  body or robot to remove
 > world:remove(flask)
 > flask.pose  --> error: was removed)"},
@@ -262,7 +262,7 @@ An independent copy that shares the meshes. Its bodies and robots are found by n
 > copy == world  --> false
 > copy:hash() == world:hash()  --> true)"},
     {"become", guarded<become>, R"(
-Makes the world what a clone of it is: state, bodies, robots and settings. Bodies and robots that were removed after the clone was made are back under their old handles.
+Copies everything from a clone of the world: state, bodies, robots and settings. Bodies and robots removed since the clone was made are restored with their old handles.
 @param clone world  clone of this world whose state is taken
 > before = world:clone()
 > world:remove(flask)
@@ -271,21 +271,21 @@ Makes the world what a clone of it is: state, bodies, robots and settings. Bodie
 > world:become(clench.world())  --> error: expected a clone of the world, or of one of its clones, got another world)"},
     {"snapshot", method<[](const WorldHandle& x) { return SnapshotHandle{x.world->snapshot()}; }>,
      R"(
-The state of the world now, exact to the bit.
+The present state of the world, bit-exactly.
 @return snapshot
 > world:snapshot() ~= nil  --> true)"},
     {"restore", guarded<restore>, R"(
-Goes back to a snapshot of this world, of a clone of it, or of one that it is a clone of: what was removed since is
-back, what was added since is gone.
+Restores a snapshot of this world, of a clone of it, or of its original: bodies removed since then are
+restored, those added since then are removed.
 @param snapshot snapshot  result of world:snapshot
 > before, moment = world:hash(), world:snapshot()
 > hand:open()
 > world:restore(moment)
 > world:hash() == before  --> true)"},
     {"save", guarded<save_world>, R"(
-Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder beside it, and its state now as the reference posture
-and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that holds everything. The old file
-stays until the new one has been read again; what the format cannot hold is told in a warning.
+Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder next to it, and its present state as the reference posture
+and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that stores everything. The old file
+is kept until the new one has been read back; a warning names everything that the format cannot represent.
 @param path string  .xml, .mjcf, .wld or .lua
 @param options? {format?: string, root?: string, confine?: string}  format: of an .xml "mjcf" or "graspit"; default: "mjcf", unless a robot carries another one, as a scene read again has one robot in place of the two; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
 > path = os.tmpname()
@@ -316,16 +316,15 @@ const Library world_library{.name = "clench", .doc = "", .functions = world_func
 const Class world_class{
     .name = "world",
     .variable = "world",
-    .doc = "Bodies and robots, what may collide with what, friction. Lists are in creation order.",
+    .doc = "Bodies and robots, collision filters, friction. Lists are in creation order.",
     .fields = world_fields,
     .methods = world_methods,
     .operators = world_operators,
     .parent = &world_queries_class};
 
-const Class snapshot_class{
-    .name = "snapshot",
-    .variable = "snapshot",
-    .doc = "The state of a world at a moment; `world:restore` goes back to it.",
-    .operators = snapshot_operators};
+const Class snapshot_class{.name = "snapshot",
+                           .variable = "snapshot",
+                           .doc = "A saved state of a world, restored by `world:restore`.",
+                           .operators = snapshot_operators};
 
 }  // namespace clench

@@ -15,7 +15,7 @@
 
 namespace clench {
 
-// --- who touches whom ---
+// --- contacts ---
 
 static int cast(lua_State* L) {
   const WorldPtr& world = self<WorldHandle>(L).world;
@@ -103,7 +103,7 @@ static int find_contacts(lua_State* L) {
 
 static const Entry world_queries_methods[] = {
     {"raycast", guarded<cast>, R"(
-What a ray meets first: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil when it meets nothing.
+The first hit of a ray: `body`, `point`, `normal` out of its surface, `distance` [m] and `triangle`; nil if it hits nothing.
 @param origin vec3 [m]  first point of the ray in the world
 @param direction vec3  of any length
 @param reach? number  how far it goes [m]; as far as there is something by default
@@ -136,8 +136,8 @@ Least distance of two things, 0 when they collide, with the closest points in th
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
     {"penetration", guarded<measure_penetration>, R"(
 Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the
-world frame. It is at most 1 um + 0.1 % below the true one, and 0 only where the two do not overlap or just touch. Nothing is
-inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite where they cross.
+world frame. It is at most 1 um + 0.1 % below the true one, and 0 only if the two do not overlap or just touch. Nothing is
+inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite if they intersect.
 @param a body|robot  one of two
 @param b body|robot  the other
 @return number depth  [m]
@@ -147,7 +147,7 @@ inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if 
 > math.abs(world:penetration(ball, box) - 0.05) < 1e-4  --> true
 > world:penetration(hand, flask)  --> 0.0)"},
     {"contacts", guarded<find_contacts>, R"(
-Where surfaces touch: everywhere, on one entity, or of `a` on `b`. After a step all that pressed in it are among them; a ball touches
+Contacts: all, those on one entity, or those of `a` on `b`. After a step they include all that carried force in it; a ball touches
 as a sphere, outside its facets.
 @param a? body|robot  only contacts of this one
 @param b? body|robot  only contacts between both
@@ -155,12 +155,11 @@ as a sphere, outside its facets.
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
 };
 
-const Class world_queries_class{.name = "world_queries",
-                                .variable = "world",
-                                .doc =
-                                    "What every world answers: what collides, how far things are "
-                                    "apart, where they touch, what a ray meets.",
-                                .methods = world_queries_methods,
-                                .parent = &world_dynamics_class};
+const Class world_queries_class{
+    .name = "world_queries",
+    .variable = "world",
+    .doc = "Queries of a world: collisions, distances, contacts, ray casts.",
+    .methods = world_queries_methods,
+    .parent = &world_dynamics_class};
 
 }  // namespace clench

@@ -18,7 +18,7 @@
 
 namespace clench {
 
-// --- what may collide ---
+// --- collision filters ---
 
 static int set_collision(lua_State* L) {
   const auto& world = self<WorldHandle>(L).world;
@@ -39,7 +39,7 @@ static int set_collision(lua_State* L) {
   return 0;
 }
 
-// bodies of the argument, or all bodies of the world without it
+// bodies of the argument, or all bodies of the world without one
 static std::vector<Id<Body>> bodies_or_all(lua_State* L, int index, const char* name,
                                            const WorldPtr& world) {
   return given(L, index) ? check_bodies(L, index, name, world) : world->bodies();
@@ -71,7 +71,7 @@ static int set_collision_bits(lua_State* L) {
 
 // --- friction ---
 
-// a slip makes a new material, too; numbered ones are meant
+// a misspelt name would create a new material; numbered ones are intended
 static void tell_near_material(lua_State* L, const std::string& name) {
   static const char told = 0;
   const std::vector<std::string>& known = world_of(L).materials().names();
@@ -143,7 +143,7 @@ static int set_keyframe(lua_State* L) {
   return 0;
 }
 
-// of the list's table on top of the stack
+// reads state i of a list from its table on top of the stack
 static void read_state(lua_State* L, int i, const WorldPtr& world, Keyframe& into) {
   const std::string what = fmt::format("{}: state {}", subject(L), i);
   if (!lua_istable(L, -1)) fail("{}: expected a table, got {}", what, described(L, -1));
@@ -224,7 +224,7 @@ It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_dis
 > world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
      guarded<set_camera>},
     {"gravity", getter<[](const WorldHandle& x) { return x.world->gravity(); }>, R"(
-Acceleration of everything that is free to fall, in the world frame: what weighs on joints and objects.
+Gravitational acceleration of joints and objects, in the world frame.
 @type vec3  [m/s^2]
 > world.gravity  --> (0, 0, -9.81)
 > world.gravity = {0, 0, -1.62}
@@ -232,7 +232,7 @@ Acceleration of everything that is free to fall, in the world frame: what weighs
 > world.gravity = {0, 0, 1e9}  --> error: gravity: expected a number from -1e+06 to 1e+06 [m/s^2])",
      guarded<set_gravity>},
     {"keyframes", getter<keyframe_names>, R"(
-Names of its named states, those of its file first; `set_keyframe` goes there.
+Names of its saved states, those of its file first; `set_keyframe` restores them.
 @type string[]
 > #world.keyframes  --> 0)"},
 };
@@ -281,7 +281,7 @@ The coefficients of a pair of materials.
 @return number? restitution  where the pair has one of its own
 > world:friction("rubber", "stone")  --> 1.5, 1.4)"},
     {"add_keyframe", guarded<add_keyframe>, R"(
-Gives a name to a state: to that of now, or to one that a list tells. A keyframe of the same name gives way.
+Gives a name to the present state, or to one given by a list. It replaces a keyframe of the same name.
 @param name string  name of the keyframe
 @param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 > world:add_keyframe "closed"
@@ -293,7 +293,7 @@ Gives a name to a state: to that of now, or to one that a list tells. A keyframe
 > world:add_keyframe("away", {1})  --> error: state 1: expected a table, got 1
 > world:add_keyframe("away", {robot = hand, dofs = hand.dofs})  --> error: expected a list of states)"},
     {"set_keyframe", guarded<set_keyframe>, R"(
-Moves everything that a keyframe names to where it says, whatever is in the way. What was removed since stays out, and a
+Restores the poses and postures of a keyframe, without collision checks. Removed bodies stay removed, and a
 robot that is carried stays on its carrier.
 @param name string  name of the keyframe
 > world:add_keyframe "closed"
@@ -303,12 +303,13 @@ robot that is carried stays on its carrier.
 > world:set_keyframe "clsed"  --> error: no keyframe 'clsed' in this world, expected one of closed)"},
 };
 
-const Class world_settings_class{.name = "world_settings",
-                                 .variable = "world",
-                                 .doc =
-                                     "What holds for all of a world: friction of materials, what "
-                                     "may collide, gravity, its camera, its named states.",
-                                 .fields = world_settings_fields,
-                                 .methods = world_settings_methods};
+const Class world_settings_class{
+    .name = "world_settings",
+    .variable = "world",
+    .doc =
+        "Settings of a world: friction of materials, collision filters, "
+        "gravity, its camera, its named states.",
+    .fields = world_settings_fields,
+    .methods = world_settings_methods};
 
 }  // namespace clench

@@ -18,7 +18,7 @@ namespace clench {
 struct PatchHandle {
   std::shared_ptr<const SoftPatch> patch;
   Pose X_WA;
-  bool body_is_b = false;  ///< of the contact that was asked: its body is the patch's b
+  bool body_is_b = false;  ///< of the contact that created it: its body is the patch's b
   double mu = 0;
 };
 
@@ -34,15 +34,15 @@ inline size_t owned_bytes(const PatchHandle& handle) {
 
 /// "series" or "larger" of an option `modulus`
 ModulusRule read_modulus_rule(Table& options);
-/// as that takes it
+/// the name of a rule, as in that option
 const char* modulus_name(ModulusRule rule);
 
-// --- contact: a point where one body touches another, as it was when it was asked for. ---
+// --- contact: a point where one body touches another, as it was when queried. ---
 
 struct ContactHandle {
   WorldPtr world;
   Contact contact;
-  std::shared_ptr<const SoftPatch> patch = nullptr;  ///< once it was asked for
+  std::shared_ptr<const SoftPatch> patch = nullptr;  ///< after the first request
 };
 
 extern const Class contact_class;

@@ -1,4 +1,5 @@
-// What bindings of bodies and robots share: motions, DOFs, eigengrasps, virtual contacts.
+// Declarations shared by the bindings of bodies and robots: motions, DOFs, eigengrasps, virtual
+// contacts.
 #pragma once
 #include <memory>
 #include <optional>
@@ -17,17 +18,17 @@ namespace clench {
 
 extern const Library eigengrasps_library;
 
-// --- What bodies and robots have in common: material, mass, surface, color; a robot has those of
-// its base. ---
+// --- Fields common to bodies and robots: material, mass, surface, color; a robot has those of its
+// base. ---
 
 extern const Class entity_class;
 
 // --- body: an object, an obstacle or a part of a robot. ---
 
-/// What a move came to: {fraction, touched, stopped_by, queries}.
+/// Result of a move: {fraction, touched, stopped_by, queries}.
 int push_move(lua_State* L, const WorldPtr& world, const MoveResult& result);
 
-// --- hand: what a robot has for grasping: eigengrasps, virtual contacts, a glove, sensors,
+// --- hand: parts of a robot used for grasping: eigengrasps, virtual contacts, a glove, sensors,
 // tendons. ---
 
 /// fields and methods of every robot
@@ -36,37 +37,37 @@ extern const Class hand_class;
 /// {slopes, intercepts}
 int push(lua_State* L, const GloveCalibration& glove);
 
-/// What a drive came to: {moved, stops, stopped_by, queries, events}.
+/// Result of a drive: {moved, stops, stopped_by, queries, events}.
 int push_drive(lua_State* L, const WorldPtr& world, const DriveResult& result);
 
-// --- What every robot can do with its DOFs, and where they take its links. ---
+// --- Methods of every robot for its DOFs and the poses of its links. ---
 
 extern const Class dofs_class, kinematics_class;
 
-/// The number, from 0, of the DOF of a name.
-/// throws  Error that tells the names
+/// The index, from 0, of the DOF with a name.
+/// throws  Error that lists the names
 int dof_named(const std::string& name, const RobotHandle& robot, const What& what);
-/// Names of DOFs in a table by names, sorted; empty: it is a list, or begins as one.
-/// throws  Error for keys that are no names
+/// Sorted names of DOFs in a table indexed by names; empty if it is a list, or begins as one.
+/// throws  Error for keys that are not names
 std::vector<std::string> read_dof_names(lua_State* L, int i, const What& what);
-/// A number for each DOF: a list of all, or a table by names; none for those that it leaves out.
+/// A number for each DOF: a list of all, or a table indexed by names; empty for those left out.
 std::vector<std::optional<double>> check_some_dofs(lua_State* L, int i, const RobotHandle& robot);
-/// Values of all DOFs: the same, those that are left out as they are.
+/// Values of all DOFs, in the same form; those left out keep their values.
 Eigen::VectorXd check_dofs(lua_State* L, int i, const RobotHandle& robot);
-/// The same of a value that is no argument.
+/// The same for a value that is not an argument.
 Eigen::VectorXd read_dofs(lua_State* L, int i, const What& what, const RobotHandle& robot);
-/// Numbers, from 0, of DOFs in a list of numbers, from 1, and names.
+/// Indices, from 0, of DOFs in a list of numbers, from 1, and names.
 std::vector<int> read_dof_numbers(lua_State* L, int i, const What& what, const RobotHandle& robot);
 
-// --- eigengrasps: a hand's posture by a few amplitudes; of a hand, or of none yet. ---
+// --- eigengrasps: a hand's posture by a few amplitudes; of a hand, or independent. ---
 
-/// A hand's own set as it is at any time, or a set by itself.
+/// A view of a hand's current set, or an independent set.
 struct EigengraspsHandle {
-  RobotHandle robot;  ///< without a world: none
+  RobotHandle robot;  ///< null if independent
   std::shared_ptr<const EigengraspSet> set;
 
   Eigengrasps ready() const { return robot.world ? Eigengrasps(*robot) : Eigengrasps(*set, {}); }
-  /// the hand's own, which may be the identity, or the set
+  /// the hand's own, which may be the identity, or the independent set
   EigengraspSet value() const;
 };
 
@@ -81,11 +82,11 @@ inline size_t owned_bytes(const EigengraspsHandle& handle) {
   return handle.set->grasps.size() * sizeof(EigengraspSpec) + numbers * sizeof(double);
 }
 
-/// Amplitudes of an argument.
+/// Amplitudes in an argument.
 /// throws  Error "hand:set_amplitudes: expected 2 amplitudes, got 3"
 Eigen::VectorXd check_amplitudes(lua_State* L, int i, const Eigengrasps& grasps);
 
-// --- virtual_contact: a place on a link where a hand would like to touch. ---
+// --- virtual_contact: a desired contact point on a link. ---
 
 struct VirtualContactHandle {
   RobotHandle robot;
@@ -105,10 +106,10 @@ inline size_t owned_bytes(const VirtualContactHandle& handle) {
 int push_virtual_contacts(lua_State* L, const RobotHandle& robot,
                           const std::vector<VirtualContactSpec>& contacts);
 
-/// The virtual contact that a value stands for: one of any hand's, a contact of the robot, or a
-/// table {link = body | name | number, chain = number, frame = pose | point = , normal = , mu = ,
-/// edges = }.
-/// throws  Error that names what is wrong
+/// The virtual contact given by a value: one of any hand's, a contact of the robot, or a table
+/// {link = body | name | number, chain = number, frame = pose | point = , normal = , mu = , edges =
+/// }.
+/// throws  Error that names the fault
 VirtualContactSpec read_virtual_contact(lua_State* L, int i, const What& what,
                                         const RobotHandle& robot);
 

@@ -32,10 +32,10 @@ static bool is_script(const fs::path& path) {
 
 namespace {
 
-// its address names the table of the scripts that are being run
+// its address is the registry key of the table of running scripts
 const char running_key = 0;
 
-/// A script that is run, marked as such as long as this lives.
+/// Marks a script as running during its lifetime.
 class Running {
  public:
   Running(lua_State* L, const fs::path& path)
@@ -65,8 +65,8 @@ class Running {
 
 }  // namespace
 
-// Leaves the world that a script returns on the stack. It is given a table with the root, and the
-// folder that it lies in.
+// Pushes the world that a script returns. The script receives a table with the root and its own
+// folder.
 static WorldPtr run_script(lua_State* L, const fs::path& path, const fs::path& root) {
   const std::string file = path.filename().string();
   if (!lua_checkstack(L, 12)) fail(ErrorKind::limit, "too many values on the stack");
@@ -116,7 +116,7 @@ int load_world(lua_State* L) {
 
 namespace {
 
-/// Nothing is told as long as it lives.
+/// Suppresses messages during its lifetime.
 class Silence {
  public:
   explicit Silence(lua_State* L) : L_(L), before_(log_level(L)) {
@@ -145,7 +145,7 @@ static World read_again(lua_State* L, const fs::path& path, const SavingOptions&
   return world;
 }
 
-// tells what the file that was written does not hold
+// reports contents that the written file cannot represent
 static void warn_of_losses(lua_State* L, const World& world, const World& again,
                            const std::string& file) {
   const auto lost = differences(world, again);
@@ -191,7 +191,7 @@ WorldSpec scene_spec(const World& world) {
   return out;
 }
 
-// settings of dynamics that no scene holds
+// settings of dynamics that scenes cannot represent
 static void warn_of_settings(lua_State* L, const World& world) {
   const DynamicSettings& set = world.dynamic_settings();
   const DynamicSettings plain;
@@ -204,7 +204,7 @@ static void warn_of_settings(lua_State* L, const World& world) {
     if (!world.alive(id) || !world.robot(id).passive || world.robot(id).passive->actuators.empty())
       continue;
     if (!robot.gains.empty() || robot.max_effort)
-      lost.push_back(fmt::format("gains and max_effort of '{}', which has actuators of its own",
+      lost.push_back(fmt::format("gains and max_effort of '{}', which has separate actuators",
                                  world.robot(id).name));
   }
   if (!lost.empty())
@@ -219,7 +219,7 @@ SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path&
     const Friction both = table.friction(table.index(a), table.index(b));
     return std::array{both.statics, both.kinetic};
   };
-  // readers call a lone robot after the model
+  // readers name a single robot after the model
   out.name = spec.robots.size() == 1 ? spec.robots[0].robot.name : path.stem().string();
   out.time_step = world.dynamic_settings().step;
   for (size_t r = 0; r < world.robots().size(); ++r)
@@ -251,7 +251,7 @@ static void save_as_scene(lua_State* L, const World& world, const fs::path& path
   request.keys.push_back(present_key(spec, "start"));
   for (const KeyframeSpec& keyframe : spec.keyframes) {
     WrittenKey key = key_of(spec, keyframe);
-    // the key of the state now takes the place of an older one
+    // the key of the present state replaces an older one
     if (key.name != "start") request.keys.push_back(std::move(key));
   }
   save_scene(L, world, path, saving, request);
@@ -272,8 +272,8 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
     if (is_script(written) || lies_within(written, saving.confine))
       warn_of_losses(L, world, read_again(L, written, saving), file);
     else
-      log_warning(L, fmt::format("{} lies outside of {}, to which reading is confined: what it "
-                                 "does not hold is not told",
+      log_warning(L, fmt::format("{} lies outside of {}, to which reading is confined: contents "
+                                 "that it cannot represent are not reported",
                                  file, saving.confine.generic_string()));
   };
   DynamicSettings kept;
@@ -282,7 +282,7 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
   for (const auto id : world.robots())
     if (script && world.dynamic_settings().robot(id).floating) kept.robots[id].floating = true;
   if (world.dynamic_settings() != kept)
-    log_warning(L, fmt::format("{}: settings of dynamics beside the time step{} are not saved: "
+    log_warning(L, fmt::format("{}: settings of dynamics other than the time step{} are not saved: "
                                "engine, friction cone, gains, max_effort, {}breakaway, gravity "
                                "compensation, belts, welds",
                                subject(L), script ? " and floating bases" : "",

@@ -8,21 +8,22 @@
 
 namespace clench {
 
-/// The world in a file, a script or not, left on the stack. `path` as find_file gives it.
+/// Loads the world of a file, which may be a script, and pushes it. `path` as find_file gives it.
 WorldPtr push_world_of(lua_State* L, const std::filesystem::path& path, const ReadOptions& reading);
 struct SavingOptions {
   std::filesystem::path root, confine;  ///< as in WriteOptions
   std::string format = {};              ///< "mjcf", "graspit" or "lua"; empty: by the extension
 };
-/// Writes it, reads it again, and warns of what the file does not hold.
+/// Writes it, reads it again, and warns of contents that the file cannot represent.
 void save_world(lua_State* L, const World& world, const std::filesystem::path& path,
                 const SavingOptions& saving);
 
-/// Writes a scene of MuJoCo, and warns of properties that it does not hold. The request's world,
+/// Writes a scene of MuJoCo, and warns of properties that it cannot represent. The request's world,
 /// friction and time step are those of the world.
 void save_scene(lua_State* L, const World& world, const std::filesystem::path& path,
                 const SavingOptions& saving, SceneRequest& request);
-/// The description of a world for a scene, with the gains and limits that scripts give to motors.
+/// The description of a world for a scene, including the gains and limits that scripts give to
+/// motors.
 WorldSpec scene_spec(const World& world);
 /// spec  as scene_spec gives it
 SceneRequest scene_of(const World& world, const WorldSpec& spec, const std::filesystem::path& path);

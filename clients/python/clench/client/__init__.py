@@ -1,0 +1,18 @@
+"""Commands a Clench server (`clench serve`) from Python, with the names of its Lua API.
+
+    import clench.client
+    with clench.client.connect() as c:
+        hand = c.world.robot("barrett")
+        hand.autograsp()
+        print(hand.dofs, hand.quality())
+
+`connect_async` returns a client whose calls are awaited. Only the standard library is needed.
+"""
+from .asynchronous import AsyncClient, AsyncJob, connect_async
+from .errors import (ClenchError, ConnectionLost, Failed, InternalError, InvalidParams, InvalidRequest,
+                     MethodNotFound, ParseError, Refused, Unauthorized)
+from .synchronous import Client, Job, connect
+
+__all__ = ["connect", "connect_async", "Client", "AsyncClient", "Job", "AsyncJob", "ClenchError", "ConnectionLost",
+           "Failed", "InternalError", "InvalidParams", "InvalidRequest", "MethodNotFound", "ParseError", "Refused",
+           "Unauthorized"]

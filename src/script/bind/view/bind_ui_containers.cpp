@@ -1,0 +1,245 @@
+#include "clench/script/bind/view/ui_frame.h"
+#include "clench/script/lua/entry.h"
+#include "clench/script/lua/getter.h"
+#include "clench/script/lua/push.h"
+
+namespace clench {
+
+namespace {
+
+// --- containers ---
+
+int ui_window(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string name = check_string(L, 2, "name");
+  Table options(L, 3);
+  WindowOptions window;
+  window.rect = {options.number("x", 0), options.number("y", 0), options.number("width", 0),
+                 options.number("height", 0)};
+  window.title = options.boolean("title", true);
+  window.resizable = options.boolean("resizable", false);
+  window.movable = options.boolean("movable", false);
+  window.scroll = options.boolean("scroll", true);
+  window.background = options.boolean("background", true);
+  window.modal = options.boolean("modal", false);
+  window.can_close = options.boolean("can_close", false);
+  options.done();
+  return push(L, gui.window(name, window, BodyOf(L, 4)));
+}
+
+int ui_child(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string name = check_string(L, 2, "id");
+  Table options(L, 3);
+  const double width = options.number("width", 0), height = options.number("height", 0);
+  const bool border = options.boolean("border", false);
+  options.done();
+  gui.child(name, width, height, border, BodyOf(L, 4));
+  return 0;
+}
+
+int ui_menu_bar(lua_State* L) { return framed_gui(L).menu_bar(BodyOf(L, 2)), 0; }
+
+int ui_menu(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string label = check_string(L, 2, "label");
+  gui.menu(label, true, BodyOf(L, 3));
+  return 0;
+}
+
+int ui_menu_item(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string label = check_string(L, 2, "label");
+  Table options(L, 3);
+  const std::string shortcut = options.string("shortcut", "");
+  const bool selected = options.boolean("selected", false),
+             enabled = options.boolean("enabled", true);
+  options.done();
+  return push(L, gui.menu_item(label, shortcut, selected, enabled));
+}
+
+int ui_popup(lua_State* L) {
+  return framed_gui(L).popup(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
+}
+int ui_context_menu(lua_State* L) {
+  return framed_gui(L).context_menu(check_string(L, 2, "id"), BodyOf(L, 3)), 0;
+}
+int ui_open_popup(lua_State* L) { return framed_gui(L).open_popup(check_string(L, 2, "id")), 0; }
+int ui_close_popup(lua_State* L) { return framed_gui(L).close_popup(), 0; }
+int ui_disabled(lua_State* L) {
+  return framed_gui(L).disabled(check_boolean(L, 2, "disabled"), BodyOf(L, 3)), 0;
+}
+int ui_id(lua_State* L) { return framed_gui(L).id(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
+int ui_group(lua_State* L) { return framed_gui(L).group(BodyOf(L, 2)), 0; }
+
+int ui_tabs(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string name = check_string(L, 2, "id");
+  const std::vector<std::string> names = check_names(L, 3, "names");
+  const BodyOf checked(L, 4);
+  (void)checked;
+  gui.tabs(name, names, [&](size_t i) {
+    lua_pushvalue(L, 4);
+    lua_pushvalue(L, 1);
+    lua_pushstring(L, names[i].c_str());
+    call_script(L, 2, 0, "ui:tabs");
+  });
+  return 0;
+}
+
+int ui_tree(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string label = check_string(L, 2, "label");
+  Table options(L, 3);
+  Gui::TreeOptions tree;
+  tree.open = options.boolean("open", false);
+  tree.leaf = options.boolean("leaf", false);
+  tree.selected = options.boolean("selected", false);
+  options.done();
+  const int clicked =
+      lua_isnoneornil(L, 4) ? gui.tree(label, tree, [] {}) : gui.tree(label, tree, BodyOf(L, 4));
+  push(L, clicked > 0);
+  push(L, clicked > 1);
+  return 2;
+}
+
+int ui_collapsing(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string label = check_string(L, 2, "label");
+  return push(L, gui.collapsing(label, check_boolean(L, 3, "open"), BodyOf(L, 4)));
+}
+
+int ui_table(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string name = check_string(L, 2, "id");
+  const std::vector<std::string> columns = check_names(L, 3, "columns");
+  if (columns.empty() || columns.size() > 64)
+    fail("{}: expected 1 to 64 columns, got {}", subject(L), columns.size());
+  Table options(L, 4);
+  const double height = options.number("height", 0);
+  options.done();
+  gui.table(name, columns, height, BodyOf(L, 5));
+  return 0;
+}
+
+int ui_next_column(lua_State* L) { return framed_gui(L).next_column(), 0; }
+
+}  // namespace
+
+static const Entry ui_container_methods[] = {
+    {"window", guarded<ui_window>, R"(
+A window with contents.
+@param name string  title, and after "##" more that makes it unique
+@param options {x?: number, y?: number, width?: number, height?: number, title?: boolean, resizable?: boolean, movable?: boolean, scroll?: boolean, background?: boolean, modal?: boolean, can_close?: boolean}  without a width it fits its contents
+@param draw fun(ui: ui)  describes the contents
+@return boolean open  false: the user has closed it
+> ui:frame(0.01, function(ui) open = ui:window("w", {can_close = true}, function() end) end)
+> open  --> true)"},
+    {"child", guarded<ui_child>, R"(
+A part of a window that scrolls by itself.
+@param id string  unique name
+@param options {width?: number, height?: number, border?: boolean}  0: all that is left; below 0: less than that
+@param draw fun(ui: ui)  describes the contents
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:child("part", {height = 20}, function() inside = true end) end) end)
+> inside  --> true)"},
+    {"menu_bar", guarded<ui_menu_bar>, R"(
+The menu bar at the top of the screen.
+@param draw fun(ui: ui)  describes the menus
+> ui:frame(0.01, function(ui) ui:menu_bar(function() ui:menu("File", function() end) end) end)
+> ui.items[1].label  --> File)"},
+    {"menu", guarded<ui_menu>, R"(
+A menu.
+@param label string  title
+@param draw fun(ui: ui)  describes the entries
+> ui:frame(0.01, function(ui) ui:menu_bar(function() ui:menu("File", function() end) end) end)
+> ui.items[1].kind  --> menu)"},
+    {"menu_item", guarded<ui_menu_item>, R"(
+An entry of a menu.
+@param label string  text
+@param options? {shortcut?: string, selected?: boolean, enabled?: boolean}  shortcut: shown beside the text
+@return boolean clicked
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:menu_item("Open", {shortcut = "Ctrl+O"}) end) end)
+> clicked  --> false)"},
+    {"popup", guarded<ui_popup>, R"(
+A popup that open_popup opens.
+@param id string  unique name
+@param draw fun(ui: ui)  describes the contents
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:popup("more", function() shown = true end) end) end)
+> shown  --> nil)"},
+    {"context_menu", guarded<ui_context_menu>, R"(
+A popup that a right click on the last widget opens.
+@param id string  unique name
+@param draw fun(ui: ui)  describes the contents
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:button "go" ui:context_menu("more", function() shown = true end) end) end)
+> shown  --> nil)"},
+    {"open_popup", guarded<ui_open_popup>, R"(
+Opens a popup.
+@param id string  its name
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() shown = true end) end) end)
+> shown  --> true)"},
+    {"close_popup", guarded<ui_close_popup>, R"(
+Closes the popup that is being described.
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() ui:close_popup() end) end) end)
+> #ui.items  --> 1)"},
+    {"disabled", guarded<ui_disabled>, R"(
+Widgets that are gray if `disabled` is true.
+@param disabled boolean  are they?
+@param draw fun(ui: ui)  describes the widgets
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:disabled(true, function() ui:button "go" end) end) end)
+> ui.items[#ui.items].enabled  --> false)"},
+    {"id", guarded<ui_id>, R"(
+Widgets whose labels may equal others'.
+@param id string  unique name
+@param draw fun(ui: ui)  describes the widgets
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:id("a", function() ui:button "go" end) ui:id("b", function() ui:button "go" end) end) end)
+> #ui.items  --> 3)"},
+    {"group", guarded<ui_group>, R"(
+Widgets that are laid out as one.
+@param draw fun(ui: ui)  describes the widgets
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:group(function() ui:text "a" ui:text "b" end) end) end)
+> #ui.items  --> 3)"},
+    {"tabs", guarded<ui_tabs>, R"(
+Tabs.
+@param id string  unique name
+@param names string[]  of the tabs
+@param draw fun(ui: ui, name: string)  describes the open one
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:tabs("t", {"one", "two"}, function(ui, name) chosen = name end) end) end)
+> chosen  --> one)"},
+    {"tree", guarded<ui_tree>, R"(
+A node of a tree.
+@param label string  text
+@param options {open?: boolean, leaf?: boolean, selected?: boolean}  open: at first
+@param draw? fun(ui: ui)  describes what is below it
+@return boolean clicked
+@return boolean double_clicked
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:tree("node", {leaf = true}) end) end)
+> clicked  --> false)"},
+    {"collapsing", guarded<ui_collapsing>, R"(
+A section with a title that folds it.
+@param label string  title
+@param open boolean  at first
+@param draw fun(ui: ui)  describes the contents
+@return boolean open
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() open = ui:collapsing("more", true, function() end) end) end)
+> open  --> true)"},
+    {"table", guarded<ui_table>, R"(
+A table, filled cell by cell after next_column.
+@param id string  unique name
+@param columns string[]  titles
+@param options {height?: number}  0: as high as its rows [pixels]
+@param draw fun(ui: ui)  describes the cells
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() ui:next_column() ui:text "1" end) end) end)
+> ui:table("t", {"a"}, {}, print)  --> error: expected a call within ui:frame)"},
+    {"next_column", guarded<ui_next_column>, R"(
+Goes on to the next cell of a table.
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() for i = 1, 4 do ui:next_column() ui:text(tostring(i)) end end) end) end)
+> ui:next_column()  --> error: expected a call within ui:frame)"},
+};
+
+const Class ui_containers_class{
+    .name = "ui_containers",
+    .variable = "ui",
+    .doc = "Windows, menus, trees, tables and other parts of a user interface that hold widgets.",
+    .methods = ui_container_methods};
+
+}  // namespace clench

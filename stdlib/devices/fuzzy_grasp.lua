@@ -1,0 +1,115 @@
+local new_options = require "clench.options"
+
+local subject = "devices.fuzzy_grasp"
+local max_openings = 100  -- of a chain by one step
+local bisections = 30
+
+-- does one of these bodies collide with something that is not of the hand?
+local function collides(world, hand, bodies)
+  for _, body in ipairs(bodies) do
+    for _, pair in ipairs(world:colliding(body)) do
+      if pair[1].robot ~= hand or pair[2].robot ~= hand then return true end
+    end
+  end
+  return false
+end
+
+-- Between a free value, 0, and one that collides, 1: sets the last free value of set(t).
+local function bisect(set, is_free)
+  local free, blocked = 0, 1
+  for _ = 1, bisections do
+    local middle = (free + blocked) / 2
+    set(middle)
+    if is_free() then free = middle else blocked = middle end
+  end
+  set(free)
+end
+
+-- Places the palm: "free", "contact" once it was backed off, or "failed".
+local function place_palm(world, hand, pose, step, tries)
+  local function is_free() return not collides(world, hand, {hand.base}) end
+  hand.pose = pose
+  if is_free() then return "free" end
+  local back = hand.approach.direction * -step
+  for i = 1, tries do
+    local function set(t) hand.pose = clench.pose {xyz = back * (i - t)} * pose end
+    set(0)
+    if is_free() then
+      bisect(set, is_free)
+      return "contact"
+    end
+  end
+  return "failed"
+end
+
+-- the DOFs by which a chain opens, each with the sense of it
+local function openings_of(hand, chain)
+  local out, seen, info = {}, {}, hand.dof_info
+  for _, joint in ipairs(chain.joints) do
+    local d = joint.dof
+    if d and not seen[d] and info[d].default_velocity ~= 0 then
+      seen[d] = true
+      out[#out + 1] = {dof = d, sense = info[d].default_velocity > 0 and -1 or 1}
+    end
+  end
+  return out
+end
+
+-- DOFs with those of a chain opened by an angle, as far as their limits allow
+local function opened(dofs, limits, openings, angle)
+  local out = {table.unpack(dofs)}
+  for _, opening in ipairs(openings) do
+    local d = opening.dof
+    out[d] = math.max(limits[d][1], math.min(limits[d][2], dofs[d] + opening.sense * angle))
+  end
+  return out
+end
+
+-- Opens a chain that collides until it just touches: "free", "contact" or "failed".
+local function open_chain(world, hand, chain, step)
+  local function is_free() return not collides(world, hand, chain.links) end
+  if is_free() then return "free" end
+  local start, limits, openings = hand.dofs, hand.dof_limits, openings_of(hand, chain)
+  for i = 1, #openings > 0 and max_openings or 0 do
+    local function set(t) hand:set_dofs(opened(start, limits, openings, step * (i - t))) end
+    set(0)
+    if is_free() then
+      bisect(set, is_free)
+      return "contact"
+    end
+  end
+  return "failed"
+end
+
+--- Brings a hand to the readings of a tracker and a glove, which agree with the world only roughly: a palm that collides is backed off against
+--- the approach direction until it touches, and each finger that collides is opened until it touches. If that fails, the hand stays where it was.
+---@param options table
+---@option hand robot
+---@option pose pose  of the base, as `clench.devices.tracker_map` gives it
+---@option dofs? number[]  as `clench.devices.glove_map` gives them; as they are by default. They are clamped to their limits [rad or m]
+---@option back_off? number [m, > 0] = 0.01  step against the approach direction
+---@option tries? integer [1 to 1000] = 3  such steps
+---@option opening? number [rad or m, > 0] = 0.1  step by which fingers open
+---@return {ok: boolean, palm: string, chains: string[]} # "free", "contact" or "failed" of the palm and of each chain; no chains after a palm that failed
+--- > clench.devices.fuzzy_grasp {hand = hand, pose = hand.pose}.palm  --> free
+return function(options)
+  local o = new_options(subject, options)
+  local hand, pose, dofs = o:get "hand", o:get "pose", o:get "dofs"
+  local back_off, tries, opening = o:get "back_off", o:get "tries", o:get "opening"
+  o:done()
+  local world, old_pose, old_dofs = hand.world, hand.pose, hand.dofs
+  local function back(result)
+    hand:set_posture(old_pose, old_dofs)
+    result.ok = false
+    return result
+  end
+  -- wrong numbers are an error before anything moves
+  hand:set_posture(old_pose, dofs or old_dofs)
+  local result = {ok = true, palm = place_palm(world, hand, pose, back_off, tries), chains = {}}
+  if result.palm == "failed" then return back(result) end
+  for i, chain in ipairs(hand.chains) do
+    result.chains[i] = open_chain(world, hand, chain, opening)
+    result.ok = result.ok and result.chains[i] ~= "failed"
+  end
+  return result.ok and result or back(result)
+end

@@ -1,0 +1,139 @@
+--- The session's script, kept while it is unsaved, so that a crash loses at most seconds of work; the next start offers what is left.
+--- Each viewer writes a file of its own, whose first line says which process wrote it.
+local error_text = require "clench.error_text"
+local history = require "clench.session.history"
+local user_files = require "clench.view.user_files"
+local autosave = {}
+
+local quiet_time, longest_time = 5, 60  -- after the last and the first change that are not kept yet [s]
+local max_files = 20
+local mark = "-- autosave "
+
+-- number and start of a process: a number alone is given to another process later
+local function process(id)
+  local text = user_files.read(("/proc/%s/stat"):format(id))
+  if not text then return nil end
+  local words = {}
+  for word in text:match "%)(.*)$":gmatch "%S+" do words[#words + 1] = word end
+  return {id = text:match "^%d+", start = words[20]}
+end
+
+local function name_of(folder, i) return ("%s/autosave-%d.lua"):format(folder, i) end
+
+--- Scripts that processes have left which are no longer there.
+---@param folder string
+---@return {file: string, path?: string, folder?: string, time: string, lines: string}[]
+function autosave.left(folder)
+  local list = {}
+  for i = 1, max_files do
+    local file = name_of(folder, i)
+    local text = user_files.read(file)
+    local head, lines = (text or ""):match("^" .. mark:gsub("%-", "%%-") .. "([^\n]*)\n[^\n]*\n[^\n]*\n(.*)$")
+    local ok, said = pcall(clench.json.decode, head or "")
+    if ok and type(said) == "table" then
+      local owner = process(said.id)
+      if not owner or owner.start ~= said.start then
+        list[#list + 1] = {file = file, path = said.path, folder = said.folder, time = said.time, lines = lines}
+      end
+    end
+  end
+  return list
+end
+
+local function restore(session, lines)
+  local world = assert(load('local clench = require "clench"\nlocal world\n' .. lines .. "\nreturn world", "=autosave", "t"))()
+  history.take(session, world)
+  session.path = nil
+end
+
+local function add_command(session)
+  if session.commands["world.restore"] then return end
+  session:command {name = "world.restore", label = "Restore", parameters = {{name = "lines", type = "string", text = "of a session's script"}},
+                   run = function(self, args) restore(self, args.lines) end, script = function(_, args) return args.lines end}
+end
+
+-- the script with the line that says whose it is
+local function text_of(session)
+  local own = process "self" or {}
+  return ("%s%s\n%s\n"):format(mark, clench.json.encode {id = own.id, start = own.start, path = session.path, folder = os.getenv "PWD",
+                                                         time = os.date "%Y-%m-%d %H:%M"}, session:script())
+end
+
+--- Follows a view: keeps its session's script in a folder while it is unsaved, and offers what earlier viewers have left there.
+---@param folder? string  nil: nothing is kept
+---@return {tick: fun(now: number), flush: fun(), finish: fun()}
+function autosave.keep(view, folder)
+  local session = view.session
+  local file, first, last, failed
+  if folder then
+    add_command(session)
+    view.left = autosave.left(folder)
+  end
+  local changed = false
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function() changed = true end)
+  local function free_name()
+    for i = 1, max_files do
+      if not user_files.read(name_of(folder, i)) then return name_of(folder, i) end
+    end
+    error(("autosave: %s is full; delete what is not needed"):format(folder), 0)
+  end
+  local function write()
+    file = file or free_name()
+    user_files.save(file, text_of(session))
+  end
+  local function forget()
+    if file then os.remove(file) end
+    file = nil
+  end
+  local function flush()
+    changed, first, last = false, nil, nil
+    if not folder then return end
+    if not session:is_modified() then return forget() end
+    local ok, problem = pcall(write)
+    if not ok and not failed then view:print("autosave: " .. error_text(problem), "error") end
+    failed = not ok
+  end
+  local function tick(now)
+    if changed then changed, first, last = false, first or now, now end
+    if first and (now - last >= quiet_time or now - first >= longest_time or not session:is_modified()) then flush() end
+    if file and not session:is_modified() then forget() end
+  end
+  return {tick = tick, flush = flush, finish = forget}
+end
+
+local function take(view, offer)
+  local ok, problem = pcall(view.session.run, view.session, "world.restore", {lines = offer.lines})
+  if not ok then
+    view.restore_error = error_text(problem)
+    return
+  end
+  view.session.path = offer.path
+  for _, kept in ipairs(view.kept) do
+    if kept.flush then kept.flush() end
+  end
+  os.remove(offer.file)
+  table.remove(view.left, 1)
+end
+
+--- Draws the offer to restore what an earlier viewer has left, if there is any.
+function autosave.draw(view, ui)
+  local offer = view.left and view.left[1]
+  if not offer then return end
+  ui:window("Restore", {width = 0, modal = true}, function(ui)
+    ui:text(("The viewer ended before %s was saved (%s, in %s)."):format(offer.path or "the world", offer.time, offer.folder or "/"))
+    if view.restore_error then ui:text(view.restore_error, {color = {0.84, 0.37, 0}}) end
+    local restores = ui:button "Restore##left"
+    ui:same_line()
+    local discards = ui:button "Discard"
+    ui:same_line()
+    local waits = ui:button "Later"
+    if restores then return take(view, offer) end
+    if discards then os.remove(offer.file) end
+    if discards or waits then
+      view.restore_error = nil
+      table.remove(view.left, 1)
+    end
+  end)
+end
+
+return autosave

@@ -1,0 +1,150 @@
+--- Drags of bodies and robots: the pose that the mouse asks for, and the motion there, which contact stops.
+local camera = require "clench.view.camera"
+local manipulator = require "clench.view.manipulator"
+local drags = {}
+
+local rotate_speed = math.pi / 300  -- [rad per pixel]
+local step, angle_step = 0.01, math.pi / 12  -- of snapping [m, rad]
+local edge_on = 0.15  -- least sine of the angle between the view and the plane of a ring
+
+local function snapped(value, by, snaps) return snaps and math.floor(value / by + 0.5) * by or value end
+
+local function about(center, axis, angle)
+  return clench.pose {xyz = center} * clench.pose {axis = axis, angle = angle} * clench.pose {xyz = center * -1}
+end
+
+--- Where the ray of a pixel passes nearest to a line: the distance along its axis from a point [m]; nil of a line along the view.
+function drags.along(view, point, axis, x, y)
+  local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
+  local cosine = axis:dot(direction)
+  local square = 1 - cosine * cosine
+  if square < 1e-4 then return nil end
+  local between = point - origin
+  return (cosine * direction:dot(between) - axis:dot(between)) / square
+end
+
+-- where the ray of a pixel meets a plane; nil of a plane seen edge on
+local function on_plane(view, point, normal, x, y, least)
+  local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
+  local cosine = direction:dot(normal)
+  if math.abs(cosine) < (least or 1e-9) then return nil end
+  return origin + direction * ((point - origin):dot(normal) / cosine)
+end
+
+--- Measures how far the mouse goes round an axis: each call returns the angle since the start, beyond a turn, too [rad].
+---@return fun(x: number, y: number): number
+function drags.turning(view, center, axis, x, y)
+  local start = on_plane(view, center, axis, x, y, edge_on)
+  if not start then
+    -- seen edge on: along the line that the ring has on the screen
+    local radius = manipulator.length
+    local right, up, back = camera.axes(view.camera)
+    local tangent = axis:cross(back):unit()
+    return function(to_x, to_y) return ((to_x - x) * tangent:dot(right) - (to_y - y) * tangent:dot(up)) / radius end
+  end
+  local last, total = start - center, 0
+  return function(to_x, to_y)
+    local point = on_plane(view, center, axis, to_x, to_y, edge_on)
+    local now = point and point - center
+    if now and now:norm() > 0 then
+      total = total + math.atan(axis:dot(last:cross(now)), last:dot(now))
+      last = now
+    end
+    return total
+  end
+end
+
+-- each of these returns a function from pixel and modifiers to the pose and a text that describes it
+local kinds = {}
+
+function kinds.arrow(view, drag, handle)
+  local start = drags.along(view, handle.center, handle.axis, drag.x, drag.y)
+  return function(x, y, snaps)
+    local now = drags.along(view, handle.center, handle.axis, x, y)
+    local distance = start and now and snapped(now - start, step, snaps) or 0
+    return clench.pose {xyz = handle.axis * distance} * drag.pose, ("%s %+.1f mm"):format(handle.name, distance * 1000)
+  end
+end
+
+function kinds.ring(view, drag, handle)
+  local angle_at = drags.turning(view, handle.center, handle.axis, drag.x, drag.y)
+  return function(x, y, snaps)
+    local angle = snapped(angle_at(x, y), angle_step, snaps)
+    return about(handle.center, handle.axis, angle) * drag.pose, ("%s %+.1f°"):format(handle.name, math.deg(angle))
+  end
+end
+
+-- the axis of the world with the largest part of a displacement, and this part alone
+local function along_one_axis(shift)
+  local best = 1
+  for i = 2, 3 do
+    if math.abs(shift[i]) > math.abs(shift[best]) then best = i end
+  end
+  return clench.vec3(best == 1 and shift.x or 0, best == 2 and shift.y or 0, best == 3 and shift.z or 0)
+end
+
+function kinds.plane(view, drag)
+  return function(x, y, snaps, constrains)
+    local _, _, back = camera.axes(view.camera)
+    local from, to = on_plane(view, drag.point, back, drag.x, drag.y), on_plane(view, drag.point, back, x, y)
+    local shift = to - from
+    if constrains then shift = along_one_axis(shift) end
+    shift = clench.vec3(snapped(shift.x, step, snaps), snapped(shift.y, step, snaps), snapped(shift.z, step, snaps))
+    return clench.pose {xyz = shift} * drag.pose, ("%+.1f %+.1f %+.1f mm"):format(shift.x * 1000, shift.y * 1000, shift.z * 1000)
+  end
+end
+
+function kinds.ball(view, drag)
+  return function(x, y, snaps, constrains)
+    local right, up = camera.axes(view.camera)
+    local yaw, pitch = (x - drag.x) * rotate_speed, (y - drag.y) * rotate_speed
+    if constrains then
+      if math.abs(yaw) >= math.abs(pitch) then pitch = 0 else yaw = 0 end
+    end
+    yaw, pitch = snapped(yaw, angle_step, snaps), snapped(pitch, angle_step, snaps)
+    local center = drag.center
+    return about(center, up, yaw) * about(center, right, pitch) * drag.pose, ("turn %+.1f° %+.1f°"):format(math.deg(yaw), math.deg(pitch))
+  end
+end
+
+--- Begins a drag of a body or robot.
+---@param target body|robot
+---@param handle? table  of the manipulator; nil: freely, from the picked point
+---@return table drag
+function drags.begin(view, target, handle, point, x, y)
+  local drag = {target = target, pose = target.pose, center = manipulator.center(target), point = point, x = x, y = y, handle = handle and handle.name}
+  local kind = handle and handle.kind or view.current_tool == "Rotate" and "ball" or "plane"
+  drag.pose_at = kinds[kind](view, drag, handle)
+  view.session:begin_gesture(view.current_tool .. " " .. target.name)
+  return drag
+end
+
+-- a robot on an arm is brought there by the arm, from where it stands
+local function move_mounted(robot, pose)
+  local arm = robot.parent
+  local found = arm:ik(robot.base, pose, {starts = 1})
+  local result = arm:move_dofs(found.dofs, {stop_at_contact = true})
+  return result, not found.reached and ("%.1f mm and %.1f° out of reach"):format(found.distance * 1000, math.deg(found.angle)) or nil
+end
+
+local function touched(result)
+  local pair = result.stopped_by and result.stopped_by[1]
+  return pair and ("%s touches %s"):format(pair[1].name, pair[2].name) or nil
+end
+drags.touched = touched
+
+--- Moves the target of a drag towards the pose that the mouse asks for.
+function drags.move(view, drag, x, y, snaps, constrains)
+  local pose, text = drag.pose_at(x, y, snaps, constrains)
+  local target, result, miss = drag.target, nil, nil
+  if clench.type(target) == "robot" and target.parent then
+    result, miss = move_mounted(target, pose)
+  else
+    result = target:move_to(pose)
+  end
+  local contact = touched(result)
+  view.status = text .. (miss and "; " .. miss or "") .. (contact and "; " .. contact or "")
+  view.session:emit("changed", {gesture = true})
+end
+
+return drags

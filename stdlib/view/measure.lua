@@ -1,0 +1,58 @@
+--- The measuring tool: two clicks measure the distance of two points, a third one the angle at the second.
+local camera = require "clench.view.camera"
+local measure = {}
+
+local color = {0.45, 0.1, 0.5, 1}
+
+--- Distance of the last two points, and angle at the second of three; nil where there are too few.
+---@return number? distance [m]
+---@return number? angle [rad]
+function measure.values(points)
+  local n = #points
+  if n < 2 then return nil end
+  local distance = (points[n] - points[n - 1]):norm()
+  if n < 3 then return distance end
+  local a, b = points[1] - points[2], points[3] - points[2]
+  return distance, math.atan(a:cross(b):norm(), a:dot(b))
+end
+
+local function shown(view, distance)
+  return view.units.length == "mm" and ("%.2f mm"):format(distance * 1000) or ("%.5f m"):format(distance)
+end
+
+--- Adds the point under a pixel; after three points it begins anew, beside everything it ends.
+function measure.click(view, x, y)
+  local hit = view:pick(x, y)
+  local points = view.measured
+  if not hit or #points == 3 then points = {} end
+  if hit then points[#points + 1] = hit.point end
+  view.measured = points
+  local distance, angle = measure.values(points)
+  if angle then
+    view.status = ("Angle %.2f°, distance %s"):format(math.deg(angle), shown(view, distance))
+  elseif distance then
+    view.status = "Distance " .. shown(view, distance)
+  else
+    view.status = hit and "Measure: click on a second point" or "Measure: click on a point"
+  end
+end
+
+--- Draws the points, the lines between them and their values.
+function measure.draw(view, ui)
+  local points, pixels = view.measured, {}
+  for i, point in ipairs(points) do
+    local x, y = camera.project(view.camera, ui.size, point)
+    if not x then return end
+    pixels[i] = {x, y}
+    ui:circle(x, y, 5, {color = color, filled = true})
+  end
+  for i = 2, #points do
+    local a, b = pixels[i - 1], pixels[i]
+    ui:line({a[1], a[2], b[1], b[2]}, {color = color, width = 2})
+    ui:label((a[1] + b[1]) / 2 + 8, (a[2] + b[2]) / 2 - 8, shown(view, (points[i] - points[i - 1]):norm()), {color = color})
+  end
+  local _, angle = measure.values(points)
+  if angle then ui:label(pixels[2][1] + 12, pixels[2][2] + 8, ("%.2f°"):format(math.deg(angle)), {color = color}) end
+end
+
+return measure

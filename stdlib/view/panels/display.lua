@@ -1,0 +1,18 @@
+--- What the picture shows beside the bodies.
+local switches = {
+  {"contacts", "friction cones", true}, {"transparent_objects", "transparent objects", true}, {"approach", "approach directions", false},
+  {"patches", "patches of soft contacts", false}, {"ground", "floor", true},
+}
+
+local function draw(ui, view)
+  for _, switch in ipairs(switches) do
+    local key, label, default = switch[1], switch[2], switch[3]
+    local value = view.display[key]
+    if value == nil then value = default end
+    local on, changed = ui:checkbox(label, value)
+    if changed then view.display[key] = on end
+  end
+  ui:tooltip "A floor lies under the lowest point."
+end
+
+return {name = "Display", place = "right", tab = true, draw = draw}

@@ -1,0 +1,108 @@
+--- What the viewer keeps of a user's choices from one run to the next: theme, units, hidden panels, size of the window, recent files.
+local error_text = require "clench.error_text"
+local leave = require "clench.view.leave"
+local user_files = require "clench.view.user_files"
+local preferences = {}
+
+local max_recent = 10
+local interval = 1  -- between two looks at what has changed [s]
+
+local function sorted_keys(set)
+  local list = {}
+  for key in pairs(set) do list[#list + 1] = key end
+  table.sort(list)
+  return list
+end
+
+-- lists stay lists in JSON when they are empty
+local function text_of(view)
+  local size = view.ui.size
+  return clench.json.encode({dark = view.dark, units = view.units, hidden = table.concat(sorted_keys(view.hidden), "\n"),
+                             size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = table.concat(view.recent, "\n")}, {indent = 2}) .. "\n"
+end
+
+local function lines_of(text)
+  local lines = {}
+  for line in tostring(text or ""):gmatch "[^\n]+" do lines[#lines + 1] = line end
+  return lines
+end
+
+--- Reads the settings of a file; an empty table if there is none. Raises an error where it is damaged.
+function preferences.read(path)
+  local text = path and user_files.read(path)
+  if not text then return {} end
+  local ok, said = pcall(clench.json.decode, text)
+  if not ok or type(said) ~= "table" then
+    error(("%s: %s; the viewer starts with its defaults"):format(path, ok and "expected settings" or error_text(said)), 0)
+  end
+  return said
+end
+
+--- Size of the window when it was closed last; nil if that is not known.
+function preferences.size()
+  local folder = user_files.settings()
+  local ok, said = pcall(preferences.read, folder and folder .. "/viewer.json")
+  local size = ok and type(said.size) == "table" and said.size or {}
+  for i = 1, 2 do
+    if math.type(size[i]) ~= "integer" or size[i] < 320 or size[i] > 8192 then return nil end
+  end
+  return size
+end
+
+local function apply(view, said)
+  if type(said.dark) == "boolean" and not view.has_theme then view:set_theme(said.dark) end
+  local units = type(said.units) == "table" and said.units or {}
+  if units.length == "m" or units.length == "mm" then view.units.length = units.length end
+  for _, name in ipairs(lines_of(said.hidden)) do view.hidden[name] = true end
+  view.recent = lines_of(said.recent)
+end
+
+--- Notes a file that was opened.
+function preferences.add_recent(view, path)
+  path = user_files.absolute(path)
+  local list = {path}
+  for _, other in ipairs(view.recent) do
+    if other ~= path and #list < max_recent then list[#list + 1] = other end
+  end
+  view.recent = list
+end
+
+--- Opens a recent file; one that has vanished leaves the list.
+function preferences.open_recent(view, path)
+  leave.ask(view, "open", function()
+    if view:run("world.open", {path = path}) or view.session.path == path then return end
+    for i, other in ipairs(view.recent) do
+      if other == path then table.remove(view.recent, i) break end
+    end
+  end)
+end
+
+--- Follows a view: applies the settings of a file to it, and keeps them there as they change.
+---@param path? string  nil: nothing is kept
+---@return {tick: fun(now: number), finish: fun()}
+function preferences.keep(view, path)
+  local ok, said = pcall(preferences.read, path)
+  if not ok then view:print(said, "error") end
+  apply(view, ok and said or {})
+  if view.session.path then preferences.add_recent(view, view.session.path) end
+  view.subscriptions[#view.subscriptions + 1] = view.session:subscribe("changed", function(event)
+    if event.command == "world.open" and view.session.path then preferences.add_recent(view, view.session.path) end
+  end)
+  local saved, looked, failed
+  local function save()
+    local text = text_of(view)
+    if not path or text == saved then return end
+    local done, problem = pcall(user_files.save, path, text)
+    if done then saved, failed = text, nil return end
+    if not failed then view:print("settings: " .. error_text(problem), "error") end
+    failed = true
+  end
+  local function tick(now)
+    if looked and now - looked < interval then return end
+    looked = now
+    save()
+  end
+  return {tick = tick, finish = save}
+end
+
+return preferences

@@ -1,0 +1,43 @@
+--- Folders of the user in which the viewer keeps files: settings, and work that was not saved.
+local user_files = {}
+
+local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
+
+-- <variable>/clench, else <home>/<otherwise>/clench; nil without a home
+local function folder(variable, otherwise)
+  local given, home = os.getenv(variable), os.getenv "HOME"
+  if given and given:sub(1, 1) == "/" then return given .. "/clench" end
+  return home and home ~= "" and ("%s/%s/clench"):format(home, otherwise) or nil
+end
+
+--- Where settings are kept: $XDG_CONFIG_HOME/clench, else ~/.config/clench.
+---@return string? folder
+function user_files.settings() return folder("XDG_CONFIG_HOME", ".config") end
+
+--- Where unsaved work is kept: $XDG_STATE_HOME/clench, else ~/.local/state/clench.
+---@return string? folder
+function user_files.state() return folder("XDG_STATE_HOME", ".local/state") end
+
+--- Writes a file, and makes its folder if there is none.
+---@param path string
+---@param text string
+function user_files.save(path, text)
+  if pcall(clench.files.save_text, path, text) then return end
+  os.execute(("mkdir -p -m 700 %s 2>/dev/null"):format(quoted(path:match "^(.*)/")))
+  clench.files.save_text(path, text)
+end
+
+--- The text of a file; nil if there is none.
+function user_files.read(path)
+  local file <close> = io.open(path, "rb")
+  return file and file:read "a"
+end
+
+--- The path from the root, so that it can be opened from any folder.
+function user_files.absolute(path)
+  local here = os.getenv "PWD"
+  if path:sub(1, 1) == "/" or not here then return path end
+  return here .. "/" .. path:gsub("^%./", "")
+end
+
+return user_files

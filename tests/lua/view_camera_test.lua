@@ -1,0 +1,127 @@
+-- The camera of the viewer and its measuring tool.
+local test, clench = require "test", require "clench"
+local camera = require "clench.view.camera"
+local measure = require "clench.view.measure"
+
+local function open()
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {640, 480}}
+  view.panels_visible = false
+  view:home()
+  view:frame()
+  return session, view
+end
+
+local function same(a, b) return a.eye == b.eye and a.target == b.target end
+
+-- two clicks within a frame or two of each other, as a double click is
+local function double_click(view, x, y)
+  view.ui:input {kind = "move", x = x, y = y}
+  view:frame()
+  for _ = 1, 2 do
+    view.ui:input {kind = "button", code = 0, down = true}
+    view:frame()
+    view.ui:input {kind = "button", code = 0, down = false}
+    view:frame()
+  end
+end
+
+test("a double click, F and View/Seek make the point under the mouse the center of rotation", function(t)
+  local _, view = open()
+  local first = view.camera
+  local point = view:pick(320, 160).point
+  double_click(view, 320, 160)
+  t.close((view.camera.target - point):norm(), 0, 1e-9)
+  local x, y = view:project(point)
+  t.close(x, 320, 1e-6)
+  t.close(y, 240, 1e-6)
+  view.camera = first
+  view.ui:input {kind = "move", x = 320, y = 160}
+  view:frame()
+  view:key "f"
+  t.close((view.camera.target - point):norm(), 0, 1e-9)
+  view.camera = first
+  view.panels_visible = true
+  view:menu "View/Seek"
+  view.panels_visible = false
+  view:frame()
+  view:click(320, 160)
+  t.close((view.camera.target - point):norm(), 0, 1e-9)
+  view:click(320, 160)
+  t.equal(view.seeks, nil)
+  view:close()
+end)
+
+test("bookmarks and home bring the camera back", function(t)
+  local _, view = open()
+  local first = view.camera
+  view:key "shift+f2"
+  view:orbit(40, 10)
+  local second = view.camera
+  view:key "f3"
+  t.ok(view.status:find "Bookmark 3 is empty", view.status)
+  t.equal(same(view.camera, second), true)
+  view:key "f2"
+  t.equal(same(view.camera, first), true)
+  view:orbit(-20, 0)
+  require("clench.view.navigation").set_home(view)
+  local home = view.camera
+  view:orbit(30, 0)
+  view:key "home"
+  t.equal(same(view.camera, home), true)
+  view:close()
+end)
+
+test("the middle button pans in the original's manner and turns in Blender's, where Shift pans and Ctrl zooms", function(t)
+  local _, view = open()
+  local function drag(code)
+    local before = view.camera
+    if code then view.ui:input {kind = "key", code = code, down = true} end
+    view:drag(300, 200, 330, 220, {button = 2})
+    if code then view.ui:input {kind = "key", code = code, down = false} end
+    local after = view.camera
+    view.camera = before
+    local function length(c) return (c.eye - c.target):norm() end
+    if (after.target - before.target):norm() > 1e-9 then return "pan" end
+    if math.abs(length(after) - length(before)) > 1e-9 then return "zoom" end
+    return same(after, before) and "none" or "orbit"
+  end
+  t.equal(drag(), "pan")
+  view.navigation = "Blender"
+  t.equal(drag(), "orbit")
+  t.equal(drag(340), "pan")
+  t.equal(drag(341), "zoom")
+  view:close()
+end)
+
+test("an orthographic camera projects and picks alike", function(t)
+  local _, view = open()
+  view:toggle_orthographic()
+  view:frame()
+  local hit = view:pick(320, 160)
+  local x, y = camera.project(view.camera, {640, 480}, hit.point)
+  t.close(x, 320, 1e-6)
+  t.close(y, 160, 1e-6)
+  view:close()
+end)
+
+test("two clicks measure a distance, three an angle", function(t)
+  local _, view = open()
+  view:key "5"
+  t.equal(view.current_tool, "Measure")
+  local a, b, c = view:pick(300, 120).point, view:pick(330, 120).point, view:pick(320, 160).point
+  view:click(300, 120)
+  view:click(330, 120)
+  t.close(measure.values(view.measured), (a - b):norm(), 1e-9)
+  t.ok(view.status:find "^Distance 0%.", view.status)
+  view:click(320, 160)
+  local _, angle = measure.values(view.measured)
+  t.close(math.cos(angle), (a - b):unit():dot((c - b):unit()), 1e-6)
+  t.ok(view.status:find "^Angle", view.status)
+  view:click(300, 120)
+  t.equal(#view.measured, 1)
+  view:click(3, 3)
+  t.equal(#view.measured, view:pick(3, 3) and 2 or 0)
+  view:close()
+end)

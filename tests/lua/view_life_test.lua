@@ -1,0 +1,238 @@
+-- The life of a view: the question about unsaved changes, and what is kept from one run to the next.
+local test, clench = require "test", require "clench"
+
+-- a small world of a file of its own
+local function open()
+  local path = os.tmpname() .. ".wld"
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  world:save(path)
+  local session = clench.session()
+  session:open(path)
+  return session, clench.view.offscreen {session = session, size = {640, 480}}, path
+end
+
+local function change(session) session.object.pose = session.object.pose * clench.pose {xyz = {0, 0, 0.01}} end
+
+local function move(session)
+  session:begin_gesture "Move"
+  change(session)
+  session:end_gesture()
+end
+
+local function is_shown(view, label)
+  view:frame()
+  view:frame()
+  for _, item in ipairs(view:items()) do
+    if tostring(item.label):find(label, 1, true) then return true end
+  end
+  return false
+end
+
+test("New asks about unsaved changes only", function(t)
+  local session, view, path = open()
+  local world = session.world
+  move(session)
+  view:menu "File/New"
+  t.ok(is_shown(view, "Don't Save"))
+  t.ok(session.world == world)
+  view:click_label "Cancel"
+  t.ok(session.world == world and not is_shown(view, "Don't Save"))
+  view:menu "File/New"
+  view:click_label "Don't Save"
+  t.ok(session.world ~= world)
+  t.equal(#session.world.bodies, 0)
+  view:menu "File/New"
+  t.ok(not is_shown(view, "Don't Save"))
+  view:close()
+  os.remove(path)
+end)
+
+test("Save before New writes the file", function(t)
+  local session, view, path = open()
+  move(session)
+  local pose = session.object.pose
+  view:key "ctrl+n"
+  view:click_label "Save"
+  t.equal(#session.world.bodies, 0)
+  t.close((clench.load(path).objects[1].pose.position - pose.position):norm(), 0, 1e-9)
+  view:close()
+  os.remove(path)
+end)
+
+test("a file that cannot be written is named, and the world stays", function(t)
+  local session, view, path = open()
+  local world = session.world
+  move(session)
+  session.path = "no/such/folder/a.wld"
+  view:key "ctrl+n"
+  view:click_label "Save"
+  t.ok(is_shown(view, "no such folder: no/such/folder"))
+  t.ok(session.world == world and session:is_modified())
+  view:close()
+  os.remove(path)
+end)
+
+test("a selection is no change, and undo leads back to an unchanged world", function(t)
+  local session, view, path = open()
+  session:run("world.select", {addresses = {session.object.name}})
+  t.equal(session:is_modified(), false)
+  move(session)
+  t.equal(session:is_modified(), true)
+  session:undo()
+  t.equal(session:is_modified(), false)
+  view:close()
+  os.remove(path)
+end)
+
+-- a folder that does not exist yet
+local function new_folder()
+  local name = os.tmpname()
+  os.remove(name)
+  return name
+end
+
+local function text_at(path)
+  local file <close> = io.open(path)
+  return file and file:read "a"
+end
+
+local autosave, preferences = require "clench.view.autosave", require "clench.view.preferences"
+
+test("unsaved work is kept after five seconds of rest, and forgotten when it is saved", function(t)
+  local session, view, path = open()
+  local folder = new_folder()
+  local kept = autosave.keep(view, folder)
+  kept.tick(0)
+  move(session)
+  kept.tick(1)
+  kept.tick(5.9)
+  t.equal(text_at(folder .. "/autosave-1.lua"), nil)
+  kept.tick(6.1)
+  t.ok(text_at(folder .. "/autosave-1.lua"):find("clench.load", 1, true))
+  t.equal(#autosave.left(folder), 0)  -- its process lives
+  session:save()
+  kept.tick(7)
+  t.equal(text_at(folder .. "/autosave-1.lua"), nil)
+  -- changes without rest are kept once a minute
+  for i = 10, 69 do
+    move(session)
+    kept.tick(i)
+  end
+  t.equal(text_at(folder .. "/autosave-1.lua"), nil)
+  move(session)
+  kept.tick(70)
+  t.ok(text_at(folder .. "/autosave-1.lua"))
+  kept.finish()
+  t.equal(text_at(folder .. "/autosave-1.lua"), nil)
+  view:close()
+  os.remove(path)
+  os.remove(folder)
+end)
+
+test("work that a process has left is offered and restored", function(t)
+  local session, view, path = open()
+  local folder = new_folder()
+  view.kept = {autosave.keep(view, folder)}
+  move(session)
+  view:flush()
+  local hash = session.world:hash()
+  local name = folder .. "/autosave-1.lua"
+  local text = text_at(name)
+  view:close()
+  -- another start of the same number is another process
+  clench.files.save_text(name, (text:gsub('"start":"%d+"', '"start":"1"')))
+  local other = clench.session()
+  other:run "world.new"
+  local next_view = clench.view.offscreen {session = other, size = {640, 480}}
+  next_view.kept = {autosave.keep(next_view, folder)}
+  t.ok(is_shown(next_view, "The viewer ended before " .. path .. " was saved"))
+  next_view:click_label "Restore"
+  t.equal(other.world:hash(), hash)
+  t.equal(other.path, path)
+  t.ok(other:is_modified() and not is_shown(next_view, "Discard"))
+  t.equal(text_at(name), nil)
+  t.ok(text_at(folder .. "/autosave-2.lua"))
+  local again = load(other:script() .. "\nreturn world")()
+  t.equal(again:hash(), hash)
+  next_view:close()
+  os.remove(path)
+  os.remove(folder)
+end)
+
+test("a full disk is told once in the console", function(t)
+  local session, view, path = open()
+  local kept = autosave.keep(view, "/dev/full")
+  for _ = 1, 2 do
+    move(session)
+    kept.flush()
+  end
+  local told = 0
+  for _, line in ipairs(view.lines) do
+    if line.text:find("autosave: ", 1, true) then told = told + 1 end
+  end
+  t.equal(told, 1)
+  view:close()
+  os.remove(path)
+end)
+
+test("settings and recent files are kept", function(t)
+  local session, view, path = open()
+  local folder = new_folder()
+  local file = folder .. "/viewer.json"
+  local kept = preferences.keep(view, file)
+  view:menu "View/Dark Theme"
+  view:menu "View/Millimeters"
+  view.hidden.Plots = true
+  kept.tick(0)
+  view:close()
+  local other = clench.view.offscreen {session = session, size = {640, 480}}
+  preferences.keep(other, file)
+  t.equal(other.dark, true)
+  t.equal(other.units.length, "mm")
+  t.equal(other.hidden.Plots, true)
+  t.equal(other.recent, {path})
+  session:run "world.new"
+  other:frame()
+  for _, label in ipairs {"File", "Open Recent", path} do other:click_label(label) end
+  t.equal(session.path, path)
+  os.remove(path)
+  session:run "world.new"
+  for _, label in ipairs {"File", "Open Recent", path} do other:click_label(label) end
+  t.ok(is_shown(other, "no such file: " .. path))
+  t.equal(#other.recent, 0)
+  other:close()
+  os.remove(file)
+  os.remove(folder)
+end)
+
+test("damaged settings are named, and the defaults hold", function(t)
+  local _, view, path = open()
+  local file = os.tmpname()
+  clench.files.save_text(file, "{")
+  preferences.keep(view, file)
+  t.ok(view.lines[1].text:find(file, 1, true) and view.lines[1].text:find("starts with its defaults", 1, true))
+  t.equal(view.dark, false)
+  view:close()
+  os.remove(file)
+  os.remove(path)
+end)
+
+test("dropped files are opened or imported, others refused", function(t)
+  local session, view, path = open()
+  local function drop(file)
+    view.ui:input {kind = "drop", text = file}
+    view:frame()
+    view:frame()
+  end
+  drop "models/objects/flask.iv"
+  t.equal(#session.world.objects, 2)
+  session:undo()
+  drop "README.md"
+  t.ok(view.status:find("expected a model, a world", 1, true))
+  drop "no_such.wld"
+  t.ok(view.status:find("no such file: no_such.wld", 1, true))
+  drop(path)
+  t.equal(session.path, path)
+  view:close()
+  os.remove(path)
+end)

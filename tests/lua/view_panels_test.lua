@@ -1,0 +1,189 @@
+-- Panels of the viewer, driven by synthetic input and compared with the commands that they stand for.
+local test, clench = require "test", require "clench"
+
+local function open(world)
+  local session = clench.session()
+  session:open(("worlds/%s.wld"):format(world or "barrett_mug"), {root = "."})
+  local view = clench.view.offscreen {session = session, size = {1070, 937}}
+  view:frame()
+  return session, view
+end
+
+local function texts_of(view)
+  local texts = {}
+  for _, item in ipairs(view:items()) do texts[#texts + 1] = item.label end
+  return "\n" .. table.concat(texts, "\n") .. "\n"
+end
+
+local function console_of(view)
+  local lines = {}
+  for i, line in ipairs(view.lines) do lines[i] = line.text end
+  return table.concat(lines, "\n")
+end
+
+local function item(view, pattern)
+  view:frame()
+  for _, found in ipairs(view:items()) do
+    if found.label:find(pattern) then return found end
+  end
+  error("no widget matches " .. pattern)
+end
+
+-- the first widget on the line of a text, right of it
+local function beside(view, text)
+  local left = item(view, "^" .. text .. "$")
+  for _, found in ipairs(view:items()) do
+    if found.kind ~= "text" and found.x > left.x and found.x < left.x + 260 and found.y < left.y + left.height and found.y + found.height > left.y then return found end
+  end
+  error("nothing is beside " .. text)
+end
+
+test("every panel draws on the mug and on the flask without an error", function(t)
+  for _, world in ipairs {"barrett_mug", "dlr_flask"} do
+    local session, view = open(world)
+    session:run "grasp.autograsp"
+    view:select(session.hand.name)
+    for _, panel in ipairs(view.panels) do
+      if panel.tab or panel.place == "bottom" then view:click_label(panel.name) end
+      t.equal(texts_of(view):find "%.lua:%d+:", nil)
+    end
+    view:close()
+  end
+end)
+
+test("the console shows the Lua of each command, of undo, and results with names", function(t)
+  local session, view = open()
+  view:menu "Grasp/Auto Grasp"
+  view:menu "Edit/Undo"
+  view:run("grasp.quality", {measure = "volume"})
+  local text = console_of(view)
+  t.ok(text:find('world:robot("barrett"):autograsp()', 1, true), text)
+  t.ok(text:find("stopped by: .*barrett_chain0_link2"), text)
+  t.ok(text:find("session:undo()  -- Auto Grasp", 1, true), text)
+  t.ok(text:find('session:run("grasp.quality", {measure = "volume"})', 1, true), text)
+  view:close()
+end)
+
+test("units of the inspector are the user's choice", function(t)
+  local session, view = open()
+  view:select "mug"
+  t.ok(item(view, "^x %[m%]$"))
+  view:menu "View/Millimeters"
+  view:menu "View/Degrees"
+  t.ok(item(view, "^x %[mm%]$"))
+  local yaw = item(view, "^yaw %[°%]$")
+  local before = session.object.pose
+  view:drag(yaw.x + 60, yaw.y + yaw.height / 2, yaw.x + 100, yaw.y + yaw.height / 2)
+  t.ok(session.object.pose ~= before)
+  t.equal(#session.history.done, 2)
+  view:key "ctrl+z"
+  t.equal(session.object.pose == before, true)
+  view:close()
+end)
+
+test("material, collisions and transparency act on all that is selected", function(t)
+  local session, view = open()
+  local link = session.hand.links[1]
+  session:run("world.select", {addresses = {"mug", view:address(link)}})
+  view:frame()
+  view:click_label "material"
+  view:click_label "rubber"
+  t.equal(session.object.material, "rubber")
+  t.equal(link.material, "rubber")
+  view:click_label "collide with each other"
+  t.equal(session.world:may_collide(session.object, link), false)
+  local slider = item(view, "^transp")
+  view:drag(slider.x + 12, slider.y + 8, slider.x + 70, slider.y + 8)
+  t.ok(session.object.transparency > 0.1)
+  t.equal(session.object.transparency, link.transparency)
+  local other = load(session:script():gsub('"worlds/barrett_mug.wld"%)', '"worlds/barrett_mug.wld")') .. " return world")()
+  t.equal(other:hash(), session.world:hash())
+  view:close()
+end)
+
+test("measures are chosen from all that the engine knows, and follow the hand", function(t)
+  local session, view = open()
+  view:menu "Grasp/Auto Grasp"
+  view:click_label "more"
+  view:click_label "epsilon_force"
+  t.equal(view.measures, {"epsilon", "volume", "epsilon_force"})
+  t.close(view.quality.measures.epsilon_force, clench.grasp(session.hand, session.object):quality "epsilon_force", 1e-12)
+  local drop = beside(view, "volume")
+  view:click(drop.x + 6, drop.y + 6)
+  t.equal(view.measures, {"epsilon", "epsilon_force"})
+  view:menu "Grasp/Auto Open"
+  view:frame()
+  t.equal(#view.quality.contacts, 0)
+  view:close()
+end)
+
+test("an edit of the friction table is one command", function(t)
+  local session, view = open()
+  view:click_label "Friction"
+  local cell = beside(view, "frictionless")
+  local before = session.world:friction("frictionless", "frictionless")
+  view:drag(cell.x + 20, cell.y + 8, cell.x + 60, cell.y + 8)
+  local after = session.world:friction("frictionless", "frictionless")
+  t.ok(after > before)
+  view:key "ctrl+z"
+  t.close(session.world:friction("frictionless", "frictionless"), before, 1e-12)
+  view:close()
+end)
+
+test("an eigengrasp slider moves the hand, a fixed one does not, and the posture can become the origin", function(t)
+  local session, view = open "dlr_flask"
+  view:click_label "EigenGrasps"
+  local slider = item(view, "^EG 1")
+  local before = session.hand.amplitudes[1]
+  view:drag(slider.x + 10, slider.y + 8, slider.x + 60, slider.y + 8)
+  local moved = session.hand.amplitudes[1]
+  t.ok(moved ~= before)
+  local fixed = item(view, "^fixed$")
+  view:click(fixed.x + 8, fixed.y + 8)
+  view:drag(slider.x + 60, slider.y + 8, slider.x + 20, slider.y + 8)
+  t.equal(session.hand.amplitudes[1], moved)
+  view:click_label "Set Origin"
+  for _, amplitude in ipairs(session.hand.amplitudes) do t.close(amplitude, 0, 1e-9) end
+  view:close()
+end)
+
+test("virtual contacts are found, marked, saved, loaded and cleared", function(t)
+  local session, view = open()
+  session:run "grasp.autograsp"
+  view:click_label "Virtual Contacts"
+  view:click_label "Clear"
+  t.equal(#session.hand.virtual_contacts, 0)
+  view:click_label "Mark Contacts"
+  t.equal(#session.hand.virtual_contacts, #session.world:contacts(session.hand, session.object))
+  local path = os.tmpname() .. ".vgr"
+  session:run("grasp.save_virtual", {path = path})
+  local count = #session.hand.virtual_contacts
+  view:click_label "Find"
+  t.ok(#session.hand.virtual_contacts ~= count)
+  session:run("grasp.load_virtual", {path = path})
+  t.equal(#session.hand.virtual_contacts, count)
+  os.remove(path)
+  session:run "grasp.open"
+  t.fails(function() session:run "grasp.mark_virtual" end, "the hand does not touch the object")
+  view:close()
+end)
+
+test("an arch is built from the menu, stands on its supports, and refuses bad radii", function(t)
+  local session, view = open()
+  view:run "world.new"
+  view:menu "Misc./Arch Builder…"
+  view:click_label "OK"
+  t.equal(#session.world.objects, 9)
+  t.equal(#session.world.obstacles, 2)
+  local key = session.world:body "block5"
+  local before = key.com.z
+  session:run("dynamics.run", {seconds = 0.2})
+  t.close((key.pose * key.com).z, before, 0.005)
+  t.fails(function() clench.build_arch(clench.world(), {outer_radius = 0.5}) end, "outer_radius must exceed inner_radius, 0.9, got 0.5")
+  t.fails(function() clench.build_arch(clench.world(), {blocks = 2.5}) end, "blocks: expected an integer from 3 to 200, got 2.5")
+  t.fails(function() clench.build_arch(clench.world(), {block = 2}) end, "unknown key 'block'")
+  t.fails(function() clench.build_arch(clench.world(), {thickness = "x"}) end, "thickness: expected a number, got 'x'")
+  t.fails(function() clench.build_arch(clench.world(), {thickness = 0}) end, "thickness must be positive, got 0")
+  t.fails(function() clench.build_arch "x" end, "expected a world, got 'x'")
+  view:close()
+end)

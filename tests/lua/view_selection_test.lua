@@ -1,0 +1,78 @@
+-- Selection in the picture, the tree and the tool bar of the viewer.
+local test, clench = require "test", require "clench"
+local outline = require "clench.view.outline"
+
+local function open()
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session}
+  view:frame()
+  return session, view
+end
+
+local function shift(view, down) view.ui:input {kind = "key", code = 340, down = down} end
+
+test("clicks select a link, then its robot; Shift adds and takes away; a click beside everything selects nothing", function(t)
+  local session, view = open()
+  view:tool "Select"
+  local link = session.world:robot("barrett").base
+  local x, y = 560, 200
+  view:click(x, y)
+  t.equal(session.selection[1] == link, true)
+  view:click(x, y)
+  t.equal(session.selection[1] == link.robot, true)
+  shift(view, true)
+  view:click(560, 650)
+  t.equal(#session.selection, 2)
+  t.equal(session.selection[2] == session.world:body "mug", true)
+  view:click(560, 650)
+  t.equal(#session.selection, 1)
+  view:click(800, 100)
+  t.equal(#session.selection, 1)
+  view:click_label "mug"
+  t.equal(#session.selection, 2)
+  shift(view, false)
+  view:click(800, 100)
+  t.equal(#session.selection, 0)
+  view:close()
+end)
+
+test("Delete removes bodies but no links, and undo brings them back", function(t)
+  local session, view = open()
+  local before = session.world:hash()
+  view:select "mug"
+  view:key "delete"
+  t.equal(#session.world.objects, 0)
+  view:frame()
+  view:key "ctrl+z"
+  t.equal(session.world:hash(), before)
+  view:select "barrett/barrett_chain0_link1"
+  view:key "delete"
+  t.equal(session.world:hash(), before)
+  t.ok(view.status:find "barrett", view.status)
+  view:close()
+end)
+
+test("the switch of collisions and the material of the tool bar act on the selection", function(t)
+  local session, view = open()
+  local world = session.world
+  local mug, hand = world:body "mug", world:robot "barrett"
+  view:select "mug"
+  view:click_label "Collisions"
+  t.equal(world:may_collide(mug), false)
+  t.equal(world:may_collide(hand), true)
+  view:click_label "Collisions"
+  t.equal(world:may_collide(mug), true)
+  t.ok(session:script():find("set_collision(", 1, true))
+  session:run("body.material", {body = "mug", material = world.materials[3]})
+  t.equal(require("clench.view.selection").material(view), world.materials[3])
+  session:run("world.select", {addresses = {"mug", "barrett"}})
+  t.equal(require("clench.view.selection").material(view), nil)
+  view:close()
+end)
+
+test("the outline is the convex hull of what is seen", function(t)
+  local hull = outline.hull {{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 0}}
+  t.equal(#hull, 4)
+  t.equal(hull[1][1] + hull[1][2], 0)
+end)

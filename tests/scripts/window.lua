@@ -1,0 +1,20 @@
+-- Run by `clench view --script` in window_test.sh: writes what happens in the window, and where its widgets are.
+local folder = os.getenv "WINDOW_TEST"
+local function write(name, text)
+  local file <close> = assert(io.open(folder .. "/" .. name .. ".new", "w"))
+  file:write(text)
+  file:close()
+  assert(os.rename(folder .. "/" .. name .. ".new", folder .. "/" .. name))
+end
+
+clench.loop.every(0.1, function()
+  if view.is_closed then return end
+  local lines = {}
+  for _, item in ipairs(view.ui.items) do
+    lines[#lines + 1] = ("%d %d %s"):format(item.x + math.min(item.width, 24) // 2, item.y + item.height // 2, item.label)
+  end
+  write("items.txt", table.concat(lines, "\n") .. "\n")
+  local eye = view.camera.eye
+  write("state.txt", ("hash %s\neye %.4f %.4f %.4f\nframes %d\nmodified %s\n"):format(
+    session.world:hash(), eye.x, eye.y, eye.z, view.frames, tostring(session:is_modified())))
+end)

@@ -1,0 +1,98 @@
+#!/bin/bash
+# The viewer's window on a display without a screen, with mouse and keys as a user has them: orbit, autograsp, undo, and leaving with the question.
+# window_test.sh COMMAND: exits with 77 where Xvfb or xdotool is missing
+clench=$1
+for program in Xvfb xdotool; do
+  command -v $program >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
+done
+folder=$(mktemp -d)
+export WINDOW_TEST=$folder XDG_STATE_HOME=$folder/state XDG_CONFIG_HOME=$folder/config HOME=$folder
+children=()
+finish() {
+  for child in "${children[@]}"; do kill "$child" 2>/dev/null; done
+  wait 2>/dev/null
+  rm -rf "$folder"
+}
+trap finish EXIT
+fail() { echo "FAILED: $1"; cat "$folder/state.txt" "$folder/said" 2>/dev/null; exit 1; }
+
+Xvfb -displayfd 3 -screen 0 1280x1000x24 3>"$folder/display" >/dev/null 2>&1 &
+children+=($!)
+for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
+[ -s "$folder/display" ] || { echo "skipped: Xvfb does not start"; exit 77; }
+export DISPLAY=:$(cat "$folder/display")
+
+"$clench" view worlds/barrett_mug.wld --root . --script tests/scripts/window.lua >"$folder/said" 2>&1 &
+viewer=$!
+children+=($viewer)
+
+value() { sed -n "s/^$1 //p" "$folder/state.txt" 2>/dev/null; }
+# until VALUE is, or is not, a text; at most a minute
+until_value() {
+  for _ in $(seq 600); do
+    now=$(value "$1")
+    if [ -n "$now" ]; then
+      if [ "$2" = is ] && [ "$now" = "$3" ]; then return; fi
+      if [ "$2" = is_not ] && [ "$now" != "$3" ]; then return; fi
+    fi
+    kill -0 $viewer 2>/dev/null || fail "the window closed while it was waited that '$1' $2 '$3'"
+    sleep 0.1
+  done
+  fail "waited that '$1' $2 '$3', got '$now'"
+}
+click() {
+  for _ in $(seq 600); do
+    at=$(sed -n "s/ $1\$//p" "$folder/items.txt" | tail -1)
+    [ -n "$at" ] && break
+    sleep 0.1
+  done
+  [ -n "$at" ] || fail "there is no '$1' on screen"
+  xdotool mousemove $at && sleep 0.3 && xdotool mousedown 1 && sleep 0.1 && xdotool mouseup 1
+}
+
+# the title names the file
+until_value hash is_not ""
+first=$(value hash)
+xdotool search --sync --onlyvisible --name '^barrett_mug.wld - Clench$' >/dev/null || fail "the title names the file"
+
+# a drag with the left button turns the camera, the wheel brings it nearer
+eye=$(value eye)
+xdotool mousemove 500 400 && sleep 0.3 && xdotool mousedown 1 && sleep 0.1 && xdotool mousemove 580 420 && sleep 0.3 && xdotool mouseup 1
+until_value eye is_not "$eye"
+eye=$(value eye)
+xdotool click 4
+until_value eye is_not "$eye"
+
+# while nothing happens no frame is drawn, and the window costs little
+sleep 1
+frames=$(value frames)
+ticks() { awk '{print $14 + $15}' /proc/$viewer/stat; }
+before=$(ticks)
+sleep 3
+spent=$(($(ticks) - before))
+[ "$(value frames)" = "$frames" ] || fail "an idle window drew frames: $frames, then $(value frames)"
+
+# a key closes the hand, another takes it back
+xdotool key ctrl+g
+until_value hash is_not "$first"
+until_value modified is true
+closed=$(value hash)
+xdotool key ctrl+z
+until_value hash is "$first"
+xdotool key ctrl+shift+z
+until_value hash is "$closed"
+
+# what is unsaved is asked about: the window stays, then leaves
+xdotool key ctrl+q
+click Cancel
+sleep 0.5
+kill -0 $viewer 2>/dev/null || fail "Cancel closed the window"
+xdotool key ctrl+q
+click "Don't Save"
+for _ in $(seq 100); do kill -0 $viewer 2>/dev/null || break; sleep 0.1; done
+kill -0 $viewer 2>/dev/null && fail "the window stays after Don't Save"
+wait $viewer
+code=$?
+[ $code = 0 ] || fail "exit code $code"
+[ -s "$folder/said" ] && fail "the window printed something"
+echo "the window was opened, used and left; idle it took $spent hundredths of a second in 3 s"
