@@ -73,7 +73,10 @@ TEST_CASE("an unknown element is warned of, and what stands nowhere is at the or
   Warnings warnings;
   std::vector<std::string> notes;
   ReadOptions options = warnings.options();
-  options.diagnostics = test::Listening{.note = [&](const std::string& s) { notes.push_back(s); }};
+  options.diagnostics =
+      test::Listening{.warn = [before = options.diagnostics](
+                                  const std::string& text) { before.warn(Diagnostic(text)); },
+                      .note = [&](const std::string& s) { notes.push_back(s); }};
   const WorldSpec w = xml_world_of(
       "<grspableBody/>\n<graspableBody><filename>models/box.iv</filename></graspableBody>\n"
       "<robot><filename>models/robots/hand.cfg</filename></robot>\n",
