@@ -1,17 +1,17 @@
---- A log sink that collects messages as values: {severity =, text =, file =, line =, about =, count =}. Equal messages are merged and counted.
----@return fun(level: string, text: string, about: string?) sink, table[] list
+--- A log sink that collects messages as values: {severity =, file =, line =, subject =, text =, about =, count =}. Equal messages of one file are merged
+--- and counted.
+---@return fun(level: string, text: string, about: string?, diagnostic: table?) sink, table[] list
 return function()
   local list, seen = {}, {}
-  local function sink(level, text, about)
-    local file, line, rest = text:match "^([^%s:][^:\n]*):(%d+): (.*)$"
-    if not file then file, rest = text:match "^([^%s:][^:\n]*%.%w+): (.*)$" end
-    local key = ("%s\n%s"):format(level, text)
+  local function sink(level, text, about, diagnostic)
+    local one = diagnostic or {severity = level == "info" and "note" or level, text = text, about = about, count = 1}
+    local key = table.concat({one.severity, one.file or "", one.subject or "", one.text}, "\n")
     if seen[key] then
-      seen[key].count = seen[key].count + 1
+      seen[key].count = seen[key].count + one.count
       return
     end
-    seen[key] = {severity = level == "info" and "note" or level, text = rest or text, file = file, line = math.tointeger(tonumber(line)), about = about, count = 1}
-    list[#list + 1] = seen[key]
+    seen[key] = one
+    list[#list + 1] = one
   end
   return sink, list
 end

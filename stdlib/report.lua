@@ -1,5 +1,6 @@
 --- The content of a file as tables, which `clench check` prints or writes as JSON.
 local blamed = require "clench.blamed"
+local collected_log = require "clench.collected_log"
 local drives = require "clench.drives"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
@@ -23,8 +24,10 @@ end
 
 -- messages logged while a file is read, by their subject; messages of scripts by their level
 local function listen(run)
-  local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}}
-  clench.log.sink(function(level, text, about)
+  local collect, diagnostics = collected_log()
+  local heard = {inferred = {}, ignored = {}, repaired = {}, suspicious = {}, diagnostics = diagnostics}
+  clench.log.sink(function(level, text, about, diagnostic)
+    collect(level, text, about, diagnostic)
     local list = heard[about] or level == "info" and heard.inferred or level == "warning" and heard.ignored
     if list then list[#list + 1] = text end
   end)
@@ -297,10 +300,10 @@ local readers = {
 
 --- Parses one file and returns the content of the report of `clench check`. Available by require "clench.report" or as clench.report. `parsed` is a table of
 --- the content, which depends on the kind of file, in meters, kilograms and radians; if it is absent, `error` states the reason. With `strict`, `error` is the
---- first sentence about repaired, ignored or suspicious content, if there is any.
+--- first sentence about repaired, ignored or suspicious content, if there is any. `diagnostics` contains all messages as values, like `clench.log.collect`.
 ---@param path string  file to check
 ---@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  options that do not apply to the kind of file are ignored
----@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], error: string?}
+---@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], diagnostics: table[], error: string?}
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
 --- > r.kind, #r.parsed.dofs, r.parsed.dofs[2].unit  --> robot, 4, rad
 --- > clench.report.of("no/such.urdf").error  --> no such file: no/such.urdf
@@ -321,7 +324,7 @@ function report.of(path, options)
   local fault = ok and options.strict and (heard.repaired[1] or heard.ignored[1] or heard.suspicious[1])
   if fault then ok, result = false, fault end
   return {file = path, kind = kind, parsed = ok and result or nil, inferred = heard.inferred, repaired = heard.repaired,
-          ignored = heard.ignored, suspicious = heard.suspicious,
+          ignored = heard.ignored, suspicious = heard.suspicious, diagnostics = heard.diagnostics,
           error = not ok and (blamed(result) or error_text(result)) or nil}
 end
 

@@ -184,7 +184,7 @@ std::string in_quotes(std::string_view text) {
 Line::Line(const std::string* file, int number, std::string_view text)
     : file_(file), number_(number), text_(trim(text)) {}
 
-std::string Line::place() const { return fmt::format("{}:{}", file_ ? *file_ : "", number_); }
+Place Line::place() const { return Place(file_ ? *file_ : "", number_); }
 
 std::string_view Line::word(int i) const {
   if (i < last_ || last_ < 0) last_ = 0, last_word_ = word_behind(text_, "");
@@ -208,8 +208,8 @@ Line Line::before(char mark) const {
 std::string Line::surplus(int used) const {
   const int more = before('#').size() - used;
   if (more <= 0) return "";
-  return fmt::format("{}: {} not used", place(),
-                     more == 1 ? "1 surplus word is" : fmt::format("{} surplus words are", more));
+  return more == 1 ? "1 surplus word is not used"
+                   : fmt::format("{} surplus words are not used", more);
 }
 
 double Line::number(int i, std::string_view what) const {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clench/base/error.h"
+#include "clench/base/placed_error.h"
 
 namespace clench {
 
@@ -70,7 +70,7 @@ class Line {
   Line(const std::string* file, int number, std::string_view text);
 
   int number() const { return number_; }           ///< from 1
-  std::string place() const;                       ///< "Barrett.cfg:31"
+  Place place() const;                             ///< Barrett.cfg:31
   std::string_view text() const { return text_; }  ///< without leading and trailing blanks
   bool blank() const { return text_.empty(); }
   int size() const;  ///< number of words
@@ -78,8 +78,8 @@ class Line {
   std::string_view word(int i) const;
   /// The same line up to the first word that begins with `mark`.
   Line before(char mark) const;
-  /// Warning if there are more than the first `used` words: "Barrett.cfg:31: 2 surplus words are
-  /// not used"; empty if there are none, except a comment that begins with '#'.
+  /// Warning if there are more than the first `used` words: "2 surplus words are not used"; empty
+  /// if there are none, except a comment that begins with '#'.
   std::string surplus(int used) const;
 
   /// throws Error  "Barrett.cfg:31: Kp: expected a number, got 'x'"
@@ -90,7 +90,7 @@ class Line {
   /// throws Error  "Barrett.cfg:31: joint 2: min 144 exceeds max 0 [deg]"
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+    throw PlacedError(place(), fmt::format(format, std::forward<Args>(args)...));
   }
 
  private:

@@ -44,7 +44,7 @@ void convert_file(FileKind kind, const fs::path& from, const fs::path& to,
       assert(!"worlds are built and saved");
       break;
     case FileKind::eigengrasps:
-      return write_eigengrasps(read_eigengrasps(from, reading), to, writing.warn);
+      return write_eigengrasps(read_eigengrasps(from, reading), to, writing.diagnostics);
     case FileKind::virtual_contacts:
       return write_virtual_contacts(read_virtual_contacts(from, reading), to);
     case FileKind::grasps:

@@ -208,8 +208,8 @@ void write_grasp_file(const std::vector<GraspSpec>& grasps, const fs::path& path
   const GraspFormat of = grasp_format_to_write(path, format);
   if (options.compress && of != GraspFormat::npz)
     fail("{}: compress: only .npz is compressed, got {}", file, grasp_format_name(of));
-  if (of != GraspFormat::lines && !options.notes.empty() && options.warn)
-    options.warn(fmt::format("{}: {} does not hold notes", file, grasp_format_name(of)));
+  if (of != GraspFormat::lines && !options.notes.empty())
+    options.diagnostics.warn(Place(file), "{} does not hold notes", grasp_format_name(of));
   const std::string bytes = contents_of(grasps, of, file, options);
   check_reads_back(grasps, of, file, bytes);
   write_file(path, bytes);

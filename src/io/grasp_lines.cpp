@@ -440,18 +440,17 @@ void read_grasps(const std::string& file, std::string text, const GraspSink& sin
       // a killed program or a full disk leaves an incomplete line
       if (!head || !lines.done() || has_last_end)
         line.fail("expected a line of JSON, got {}", in_quotes(line.text()));
-      if (options.warn)
-        options.warn(fmt::format("{}: the last line is cut short and is skipped, got {}",
-                                 line.place(), in_quotes(line.text())));
+      options.diagnostics.warn(line.place(), "the last line is cut short and is skipped, got {}",
+                               in_quotes(line.text()));
       break;
     }
     if (!head) {
-      check_head(*value, line.place());
+      check_head(*value, line.place().text());
       head = true;
       continue;
     }
     if (++count > max_grasps) line.fail("expected at most {} grasps", max_grasps);
-    list.add(read_line(*value, line.place()));
+    list.add(read_line(*value, line.place().text()));
   }
   if (!head) fail("{}: expected a list of grasps, got an empty file", file);
 }

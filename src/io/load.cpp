@@ -38,12 +38,13 @@ static BodySpec load_body(const fs::path& path, FileCache& cache) {
     body.appearance = std::move(geometry.appearance);
     body.mesh_report = std::move(geometry.report);
     if (geometry.mesh.triangles.empty())
-      options.suspected(file + ": no surface: the body is a frame, which touches nothing");
+      options.diagnostics.suspected(Place(file),
+                                    "no surface: the body is a frame, which touches nothing");
     else
       body.shape = Shape::make(std::move(geometry.mesh), file, cache.options().progress);
   }
   body.name = path.stem().string();
-  repair_names(body, file, options);
+  repair_names(body, Place(file), options);
   body.source = path.generic_string();
   body.file = absolute_name(path);
   return body;
@@ -52,17 +53,18 @@ static BodySpec load_body(const fs::path& path, FileCache& cache) {
 void finish_robot(RobotSpec& robot, const fs::path& path, FileCache& cache) {
   robot.file = absolute_name(path);
   const ReadOptions& options = cache.options();
-  check_plausible(robot, path.filename().string(), options.listeners());
+  const Place file(path.filename().string());
+  check_plausible(robot, file, options.diagnostics);
   std::vector<const BodySpec*> parts = {&robot.base};
   for (const LinkSpec& link : robot.links) parts.push_back(&link.body);
-  tell_assumed(parts, path.filename().string(), options.listeners());
+  tell_assumed(parts, file, options.diagnostics);
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
-  if (!robot.X_BA && options.note) {
+  if (!robot.X_BA) {
     // of a scene one of several
-    const std::string who =
-        is_scene(path) ? fmt::format(": {}", in_quotes(robot.name)) : std::string();
-    options.note(path.filename().string() + who +
-                 ": no approach direction is given; it is the z axis of its base, from its origin");
+    const Place robot_place = is_scene(path) ? file.of(in_quotes(robot.name)) : file;
+    options.diagnostics.note(
+        robot_place,
+        "no approach direction is given; it is the z axis of its base, from its origin");
   }
   if (!options.folder.empty()) robot.files.folder = absolute_name(options.folder);
   for (const auto& [name, folder] : options.packages)

@@ -105,12 +105,11 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
       } else {
         objects.push_back(&placed.body);
         check_plausible_object(
-            placed.body,
-            fmt::format("{}: '{}'", found.filename().string(), excerpt(placed.body.name)),
-            options.listeners());
+            placed.body, Place(found.filename().string()).of("'{}'", excerpt(placed.body.name)),
+            options.diagnostics);
       }
     }
-    tell_assumed(objects, found.filename().string(), options.listeners(), obstacles);
+    tell_assumed(objects, Place(found.filename().string()), options.diagnostics, obstacles);
     world.source = path.generic_string();
     return world;
   });

@@ -41,7 +41,7 @@ RobotFolder::RobotFolder(const fs::path& path, const WriteOptions& options)
       file_(path.filename().string()),
       stem_(own_stem(path.stem().string())),
       own_(stem_ + '_' + plain(path.extension().string().substr(1))),
-      warn_(options.warn),
+      diagnostics_(options.diagnostics),
       confine_(options.confine) {}
 
 std::string RobotFolder::add(const std::string& folder, const std::string& part,

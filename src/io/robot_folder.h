@@ -18,11 +18,9 @@ class RobotFolder {
 
   const std::string& file() const { return file_; }  ///< name shown in sentences
   const std::filesystem::path& path() const { return path_; }
-  void warn(const std::string& sentence) const {
-    if (warn_) warn_(sentence);
-  }
+  const Diagnostics& diagnostics() const { return diagnostics_; }
   /// "hand.urdf does not hold ..."
-  void lost(const std::string& what) const { warn(file_ + " does not hold " + what); }
+  void lost(const std::string& what) const { diagnostics_.lost(file_, what); }
 
   /// Triangles as HAND_files/PART.obj, in meters, with their colors when these differ. Equal ones
   /// share a file.
@@ -48,7 +46,7 @@ class RobotFolder {
   std::filesystem::path path_;
   std::string file_;
   std::string stem_, own_;  // of its name; the same with its ending
-  std::function<void(const std::string&)> warn_;
+  Diagnostics diagnostics_;
   std::filesystem::path confine_;
   std::map<std::string, std::string> texts_;  // name in the folder, from the robot's on, to text
   std::map<std::string, std::string> names_;  // by folder, ending and text

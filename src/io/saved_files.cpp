@@ -31,7 +31,7 @@ SavedFiles::SavedFiles(const fs::path& path, const WriteOptions& options)
       root_(absolute_folder(options.root)),
       reading_{.root = root_, .confine = options.confine},
       cache_(reading_, all_formats),
-      warn_(options.warn) {}
+      diagnostics_(options.diagnostics) {}
 
 // --- names ---
 
@@ -93,8 +93,8 @@ const BodySpec* SavedFiles::again(const BodySpec& body) {
     reason = error.what();
   }
   if (warned_.insert(body.name).second)
-    warn(fmt::format("{}: '{}' is saved with its triangles, for {}", path_.filename().string(),
-                     excerpt(body.name), reason));
+    diagnostics_.warn(Place(path_.filename().string()), "'{}' is saved with its triangles, for {}",
+                      excerpt(body.name), reason);
   return nullptr;
 }
 
@@ -129,12 +129,12 @@ const RobotSpec& SavedFiles::again(const RobotSpec& robot) {
 void SavedFiles::warn_of_folders(const RobotSpec& robot) const {
   const bool folder = !robot.files.folder.empty(), packages = !robot.files.packages.empty();
   if (!folder && !packages) return;
-  warn(fmt::format("{} does not hold {} that robot '{}' was read with; .lua does",
-                   path_.filename().string(),
-                   folder && packages ? "the options 'folder' and 'package'"
-                   : folder           ? "the option 'folder'"
-                                      : "the option 'package'",
-                   excerpt(robot.name)));
+  const char* options = folder && packages ? "the options 'folder' and 'package'"
+                        : folder           ? "the option 'folder'"
+                                           : "the option 'package'";
+  diagnostics_.lost(
+      path_.filename().string(),
+      fmt::format("{} that robot '{}' was read with; .lua does", options, excerpt(robot.name)));
 }
 
 // --- what is written beside ---

@@ -44,9 +44,7 @@ class SavedFiles {
   /// Else nothing of what was written beside stays: for a world that cannot be saved.
   void keep() { beside_.keep(); }
 
-  void warn(const std::string& sentence) const {
-    if (warn_) warn_(sentence);
-  }
+  const Diagnostics& diagnostics() const { return diagnostics_; }
   /// Warns of the folders that the robot was read with, if there are any: only .lua holds them.
   void warn_of_folders(const RobotSpec& robot) const;
 
@@ -57,7 +55,7 @@ class SavedFiles {
   std::filesystem::path path_, folder_, root_;
   ReadOptions reading_;  // of what is read again
   FileCache cache_;
-  std::function<void(const std::string&)> warn_;
+  Diagnostics diagnostics_;
   std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name
   std::set<std::string> warned_;
   FileSet beside_;

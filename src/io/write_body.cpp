@@ -135,26 +135,26 @@ int too_small(const Mesh& mesh) {
 
 void tell(const BodySpec& body, const fs::path& path, const std::string& ending,
           const WriteOptions& options) {
-  if (!options.warn) return;
+  if (!options.diagnostics) return;
   const std::string file = path.filename().string();
   if (const auto list = lost(body, ending); !list.empty())
-    options.warn(fmt::format("{} does not hold {}", file, name_list(list)));
+    options.diagnostics.lost(file, name_list(list));
   if (!body.shape) return;
   if (ending == ".iv" || ending == ".stl") {
     const int small = too_small(body.shape->mesh());
-    options.warn(fmt::format("{}: coordinates keep 32 bits, as {} holds them{}", file, ending,
+    options.diagnostics.warn(Place(file), "coordinates keep 32 bits, as {} holds them{}", ending,
                              small == 0   ? ""
                              : small == 1 ? "; a triangle is too small for them, and vanishes"
                                           : fmt::format("; {} triangles are too small for them, "
                                                         "and vanish",
-                                                        small)));
+                                                        small));
   }
   const double largest = body.shape->mesh().bounds().size().maxCoeff();
   if (is_mesh_ending(ending) && guess_mesh_unit(largest) != 1)
-    options.warn(
-        fmt::format("{}: it is {:.4g} m large, and {} names no unit: read it with the option unit "
-                    "= \"m\", or it is taken for millimeters",
-                    file, largest, ending));
+    options.diagnostics.warn(Place(file),
+                             "it is {:.4g} m large, and {} names no unit: read it with the option "
+                             "unit = \"m\", or it is taken for millimeters",
+                             largest, ending);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace clench {
 
 /// By the ending: .xml as GraspIt! has it, its surface beside as NAME_files/1a2b3c4d/BODY.off; .iv
-/// with its '#' lines; or the bare triangles as .obj .off .ply .stl, in meters. options.warn is
+/// with its '#' lines; or the bare triangles as .obj .off .ply .stl, in meters. options.diagnostics is
 /// told what the format cannot hold.
 /// throws Error when the ending is another one, a bare mesh is expected of a body without a
 /// surface, or the file cannot be written

@@ -209,13 +209,14 @@ void LuaWriter::add_body(const PlacedBody& placed) {
   else
     made = file(files_.write_body(body).generic_string());
   if (!read && body.appearance.visual)
-    files_.warn(
+    files_.diagnostics().warn(
         fmt::format("the surface that pictures show of '{}' is not saved", excerpt(body.name)));
   if (!read && !body.appearance.triangle_colors.empty())
-    files_.warn(
+    files_.diagnostics().warn(
         fmt::format("the colors of the triangles of '{}' are not saved", excerpt(body.name)));
   if (!read && body.appearance.skin)
-    files_.warn(fmt::format("the textures of '{}' are not saved", excerpt(body.name)));
+    files_.diagnostics().warn(
+        fmt::format("the textures of '{}' are not saved", excerpt(body.name)));
   std::string options =
       fmt::format("name = {}, pose = {}{}", as_lua(body.name), pose(placed.X_WB), root_option());
   std::string after;

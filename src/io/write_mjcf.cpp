@@ -31,8 +31,7 @@ void write_mjcf(const SceneRequest& request, const fs::path& path, const WriteOp
   if (options.check) options.check(Draft(path, scene.text).path());
   write_file(path, scene.text);
   written.keep();
-  for (const std::string& loss : scene.losses)
-    if (options.warn) options.warn(file + ": " + loss);
+  for (const std::string& loss : scene.losses) options.diagnostics.warn(Place(file), "{}", loss);
 }
 
 }  // namespace clench

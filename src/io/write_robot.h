@@ -10,7 +10,7 @@ namespace clench {
 /// <clench>, which names these files. Read again, a robot has the same DOFs in the same ranges,
 /// closes as before, and every surface stands in the same place for all their values. Links' frames
 /// stand on the axes: where ours is not on its axis, surfaces, inertias and contacts stand in that
-/// one. options.warn is told, a sentence each, of all that the format cannot hold. throws Error,
+/// one. options.diagnostics is told, a sentence each, of all that the format cannot hold. throws Error,
 /// having written nothing, when the ending is another one or a number is out of order; and when a
 /// file cannot be written: an older one of the robot stays then
 void write_robot(const RobotSpec& robot, const std::filesystem::path& path,

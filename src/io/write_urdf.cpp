@@ -164,16 +164,18 @@ std::string UrdfText::text() {
   out_ += clench_element(robot_, plan_, beside_);
   add("", "</robot>");
   tell_moved_frames();
-  for (const std::string& sentence : plan_.renamed) folder_.warn(folder_.file() + ": " + sentence);
+  for (const std::string& sentence : plan_.renamed)
+    folder_.diagnostics().warn(Place(folder_.file()), "{}", sentence);
   for (const UrdfLink& link : plan_.links)
     if (!link.body)
-      folder_.warn(fmt::format("{}: '{}' is a frame without mass between two joints of one link",
-                               folder_.file(), excerpt(link.name)));
+      folder_.diagnostics().warn(Place(folder_.file()),
+                                 "'{}' is a frame without mass between two joints of one link",
+                                 excerpt(link.name));
   for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d)
     if (plan_.leader_of[d] >= 0 && scale_of(d) != 1)
-      folder_.warn(fmt::format("{}: DOF {} counts {} times as far in it, as its joint '{}' does",
-                               folder_.file(), d, scale_of(d),
-                               excerpt(plan_.joints[plan_.leader_of[d]].name)));
+      folder_.diagnostics().warn(Place(folder_.file()),
+                                 "DOF {} counts {} times as far in it, as its joint '{}' does", d,
+                                 scale_of(d), excerpt(plan_.joints[plan_.leader_of[d]].name));
   return out_;
 }
 
@@ -185,10 +187,10 @@ void UrdfText::tell_moved_frames() const {
   for (const UrdfLink& link : plan_.links)
     if (link.body && !(link.X_UB == Pose{})) moved.push_back(link.name);
   if (!moved.empty())
-    folder_.warn(
-        fmt::format("{}: the frames of these links are others in it, on the axes of their "
-                    "joints: {}",
-                    folder_.file(), some_names(moved)));
+    folder_.diagnostics().warn(
+        Place(folder_.file()),
+        "the frames of these links are others in it, on the axes of their joints: {}",
+        some_names(moved));
 }
 
 bool UrdfText::has_all_dofs(const char* what) const {

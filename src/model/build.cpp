@@ -11,12 +11,16 @@ namespace clench {
 // world files have six digits of a meter and of a radian
 static constexpr double file_digits = 1e-5;
 
+static Place robot_place(const std::string& name) {
+  return Place("", 0, fmt::format("robot '{}'", excerpt(name)));
+}
+
 // within its limits a joint of a compliant DOF may have any position, and a joint has broken away
 // if its breakaway DOF has moved on beyond it; any other follows its DOF
 static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
                                                           const Eigen::VectorXd& q,
                                                           const std::vector<JointPosition>& given,
-                                                          const Listeners& listeners) {
+                                                          const Diagnostics& diagnostics) {
   auto out = given;
   if (out.size() != robot.joints.size())
     fail("robot '{}': expected the states of {} joints, got {}", excerpt(robot.name),
@@ -29,19 +33,19 @@ static std::vector<JointPosition> checked_joint_positions(const Robot& robot,
     const bool inside =
         joint.endless || (*out[j] >= joint.min - file_digits && *out[j] <= joint.max + file_digits);
     if (beyond && inside) continue;
-    if (listeners.warn && beyond)
-      listeners.warn(fmt::format(
-          "robot '{}': joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",
-          excerpt(robot.name), number_in_chain(robot, static_cast<int>(j)) + 1,
-          place_of(robot.chains, joint.link).chain + 1, sprung ? "stands" : "broke away", *out[j],
-          joint.min, joint.max));
+    if (beyond)
+      diagnostics.warn(robot_place(robot.name),
+                       "joint {} of chain {} {} at {}, outside [{}, {}]; it follows its DOF",
+                       number_in_chain(robot, static_cast<int>(j)) + 1,
+                       place_of(robot.chains, joint.link).chain + 1,
+                       sprung ? "stands" : "broke away", *out[j], joint.min, joint.max);
     out[j].reset();
   }
   return out;
 }
 
 static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed,
-                           const Listeners& listeners) {
+                           const Diagnostics& diagnostics) {
   const Robot& robot = world.robot(id);
   if (placed.dofs.empty()) return;
   if (placed.dofs.size() != robot.dofs.size())
@@ -52,18 +56,18 @@ static void set_start_dofs(World& world, Id<Robot> id, const PlacedRobot& placed
     const auto [low, high] = range_around(robot, i, placed.dofs[i]);
     q[i] = std::clamp(placed.dofs[i], low, high);
     if (std::abs(q[i] - placed.dofs[i]) > file_digits)
-      tell(listeners.repair, listeners.warn,
-           fmt::format("robot '{}': DOF {} starts at {}, outside [{}, {}]; moved to the limit",
-                       excerpt(robot.name), i + 1, placed.dofs[i], low, high));
+      diagnostics.repaired(robot_place(robot.name),
+                           "DOF {} starts at {}, outside [{}, {}]; moved to the limit", i + 1,
+                           placed.dofs[i], low, high);
   }
   world.set_dofs(id, q);
   if (!placed.joint_positions.empty())
-    world.set_dofs_unchecked(id, q,
-                             checked_joint_positions(robot, q, placed.joint_positions, listeners));
+    world.set_dofs_unchecked(
+        id, q, checked_joint_positions(robot, q, placed.joint_positions, diagnostics));
 }
 
 static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robot> child,
-                    const Listeners& listeners) {
+                    const Diagnostics& diagnostics) {
   const Robot& parent_robot = world.robot(parent);
   Pose X_LB = c.X_LB;
   if (c.link >= 0 && c.link < static_cast<int>(parent_robot.links.size())) {
@@ -74,12 +78,11 @@ static void connect(World& world, const Connection& c, Id<Robot> parent, Id<Robo
     if (off.position.norm() < file_digits && off.angle() < file_digits)
       // both as given if they agree bit-exactly
       X_LB = X_WL * X_LB == X_WB ? X_LB : as_written;
-    else if (listeners.warn)
-      listeners.warn(
-          fmt::format("robot '{}': its pose and its connection to '{}' differ by {:.3g} m and "
-                      "{:.3g} rad; the connection is used",
-                      excerpt(world.robot(child).name), excerpt(parent_robot.name),
-                      off.position.norm(), off.angle()));
+    else
+      diagnostics.warn(robot_place(world.robot(child).name),
+                       "its pose and its connection to '{}' differ by {:.3g} m and "
+                       "{:.3g} rad; the connection is used",
+                       excerpt(parent_robot.name), off.position.norm(), off.angle());
   }
   world.mount(child, parent, c.link, X_LB, c.mount ? &*c.mount : nullptr);
 }
@@ -102,14 +105,14 @@ std::vector<BodyPair> switch_off_overlaps(World& world, Id<Robot> robot, double 
 }
 
 Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const std::string& name,
-                    const Listeners& listeners) {
+                    const Diagnostics& diagnostics) {
   const auto id = world.add_robot(spec, X_WB, name);
   const bool near = spec.collision_rules.near_pairs_off;
   const auto pairs = switch_off_overlaps(world, id, near ? world.contact_threshold() : 0);
-  if (listeners.note && !pairs.empty())
-    listeners.note(fmt::format(
-        "robot '{}': these of its bodies overlap{} as it is loaded, and may from now on: {}",
-        excerpt(world.robot(id).name), near ? " or touch" : "", describe(world, pairs)));
+  if (!pairs.empty())
+    diagnostics.note(robot_place(world.robot(id).name),
+                     "these of its bodies overlap{} as it is loaded, and may from now on: {}",
+                     near ? " or touch" : "", describe(world, pairs));
   return id;
 }
 
@@ -118,9 +121,9 @@ namespace {
 /// Builds the world of a spec, entry by entry.
 class Builder {
  public:
-  Builder(const WorldSpec& spec, const Listeners& listeners)
+  Builder(const WorldSpec& spec, const Diagnostics& diagnostics)
       : spec_(spec),
-        listeners_(listeners),
+        diagnostics_(diagnostics),
         bodies_(spec.bodies.size()),
         robots_(spec.robots.size()),
         connected_(spec.connections.size()) {}
@@ -135,7 +138,7 @@ class Builder {
   Id<Body> part(const PartRef& ref) const;
 
   const WorldSpec& spec_;
-  const Listeners& listeners_;
+  const Diagnostics& diagnostics_;
   World world_;
   std::vector<Id<Body>> bodies_;
   std::vector<Id<Robot>> robots_;
@@ -147,8 +150,8 @@ void Builder::add_robot(int index) {
   // with all collisions off there is no need to search for overlaps
   robots_[index] = spec_.collision
                        ? world_.add_robot(placed.robot, placed.X_WB)
-                       : clench::add_robot(world_, placed.robot, placed.X_WB, "", listeners_);
-  set_start_dofs(world_, robots_[index], placed, listeners_);
+                       : clench::add_robot(world_, placed.robot, placed.X_WB, "", diagnostics_);
+  set_start_dofs(world_, robots_[index], placed, diagnostics_);
   if (!placed.floating) return;
   DynamicSettings settings = world_.dynamic_settings();
   settings.robots[robots_[index]].floating = true;
@@ -160,7 +163,7 @@ void Builder::add_connection(int index) {
   const int count = static_cast<int>(robots_.size());
   if (c.parent < 0 || c.parent >= count || c.child < 0 || c.child >= count)
     fail("a connection names robots {} and {}, but the world has {}", c.parent, c.child, count);
-  connect(world_, c, robots_[c.parent], robots_[c.child], listeners_);
+  connect(world_, c, robots_[c.parent], robots_[c.child], diagnostics_);
   if (spec_.collision && c.mount)
     world_.set_name(*world_.robot(robots_[c.child]).mounting->piece, c.mount->name);
   connected_[index] = true;
@@ -237,8 +240,8 @@ World Builder::build() {
 
 }  // namespace
 
-World build_world(const WorldSpec& spec, const Listeners& listeners) {
-  return Builder(spec, listeners).build();
+World build_world(const WorldSpec& spec, const Diagnostics& diagnostics) {
+  return Builder(spec, diagnostics).build();
 }
 
 }  // namespace clench

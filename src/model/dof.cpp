@@ -78,12 +78,12 @@ static std::array<std::string, 3> limit_texts(const std::array<double, 2>& range
   return {text(range[0]), text(range[1]), text(value)};
 }
 
-static void warn_of_excess(const std::string& place, const std::array<double, 2>& range,
-                           double value, bool slides, const Listener& warn) {
-  if (!warn) return;
+static void warn_of_excess(const Place& place, const std::array<double, 2>& range, double value,
+                           bool slides, const Diagnostics& diagnostics) {
+  if (!diagnostics) return;
   const auto texts = limit_texts(range, value);
-  warn(fmt::format("{}: {} exceeds the limit {} {}; the limit is used", place, texts[2],
-                   value < range[0] ? texts[0] : texts[1], slides ? "m" : "rad"));
+  diagnostics.warn(place, "{} exceeds the limit {} {}; the limit is used", texts[2],
+                   value < range[0] ? texts[0] : texts[1], slides ? "m" : "rad");
 }
 
 [[noreturn]] static void refuse_limits(const std::string& place, const std::array<double, 2>& range,
@@ -101,29 +101,29 @@ double within_limits(const Robot& robot, int dof, double value, std::string_view
                 dof_slides(robot, dof));
 }
 
-double near_limits(const Robot& robot, int dof, double value, std::string_view subject,
-                   const Listener& warn) {
+double near_limits(const Robot& robot, int dof, double value, const Place& place,
+                   const Diagnostics& diagnostics) {
   const auto range = range_around(robot, dof, value);
   const bool slides = dof_slides(robot, dof);
   if (nearly_within(range, value, rounding_of(range)) ||
       !nearly_within(range, value, soft_excess(slides)))
-    return within_limits(robot, dof, value, subject);
-  warn_of_excess(limits_place(robot, "DOF", dof, robot.dofs[dof].name, subject), range, value,
-                 slides, warn);
+    return within_limits(robot, dof, value, place.before("robot"));
+  warn_of_excess(place.of(limits_place(robot, "DOF", dof, robot.dofs[dof].name, "robot")), range,
+                 value, slides, diagnostics);
   return std::clamp(value, range[0], range[1]);
 }
 
-double joint_near_limits(const Robot& robot, int joint, double position, std::string_view subject,
-                         const Listener& warn) {
+double joint_near_limits(const Robot& robot, int joint, double position, const Place& place,
+                         const Diagnostics& diagnostics) {
   const Joint& j = robot.joints[joint];
   const std::array<double, 2> range = {j.min, j.max};
   if (std::isfinite(position) && (j.endless || nearly_within(range, position, rounding_of(range))))
     return position;
   const bool slides = j.kind == JointKind::prismatic;
-  const std::string place = limits_place(robot, "joint", joint, j.name, subject);
+  const Place at = place.of(limits_place(robot, "joint", joint, j.name, "robot"));
   if (!nearly_within(range, position, soft_excess(slides)))
-    refuse_limits(place, range, position, slides);
-  warn_of_excess(place, range, position, slides, warn);
+    refuse_limits(at.text(), range, position, slides);
+  warn_of_excess(at, range, position, slides, diagnostics);
   return std::clamp(position, j.min, j.max);
 }
 

@@ -1,6 +1,6 @@
 // Degrees of freedom in messages, and their limits.
 #pragma once
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/model/robot.h"
 
 namespace clench {
@@ -30,15 +30,15 @@ constexpr double soft_excess_angle = 0.02;     ///< [rad]
 constexpr double soft_excess_distance = 1e-3;  ///< [m]
 
 /// As within_limits, for values of other programs: a value that exceeds a limit by at most
-/// soft_excess_angle or soft_excess_distance is set to the limit as well, and `warn` is called:
+/// soft_excess_angle or soft_excess_distance is set to the limit as well, which is warned of:
 /// "robot 'dlr': DOF 3 'thumb_1': 1.5702 exceeds the limit 1.57 rad; the limit is used"
 /// throws  Error as within_limits for values farther beyond
-double near_limits(const Robot& robot, int dof, double value, std::string_view subject,
-                   const Listener& warn);
+double near_limits(const Robot& robot, int dof, double value, const Place& place,
+                   const Diagnostics& diagnostics);
 
 /// The same rule for a joint's position. A position that exceeds a limit by rounding is kept.
-double joint_near_limits(const Robot& robot, int joint, double position, std::string_view subject,
-                         const Listener& warn);
+double joint_near_limits(const Robot& robot, int joint, double position, const Place& place,
+                         const Diagnostics& diagnostics);
 
 /// subject  "autograsp": beginning of the sentence
 /// throws  Error "autograsp of 'dlr': expected DOFs from 1 to 12, got 13" for a number, from 0,

@@ -7,8 +7,8 @@
 
 namespace clench {
 
-void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& place,
-                  const Listeners& listeners, std::span<const BodySpec* const> obstacles) {
+void tell_assumed(std::span<const BodySpec* const> bodies, const Place& place,
+                  const Diagnostics& diagnostics, std::span<const BodySpec* const> obstacles) {
   std::vector<std::string> neither, weightless, of_nothing, balls, uniform;
   const auto look = [&](const BodySpec* body) {
     if (!body->shape || body->assumptions_told) return;
@@ -36,8 +36,7 @@ void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& pl
     return bodies.size() + obstacles.size() > 1 ? ": " + some_names(names) : "";
   };
   const auto note = [&](const std::vector<std::string>& names, const std::string& what) {
-    if (!names.empty() && listeners.note)
-      listeners.note(fmt::format("{}: {}{}", place, what, those(names)));
+    if (!names.empty()) diagnostics.note(place, "{}{}", what, those(names));
   };
   note(neither, fmt::format("no mass and no material is given; {} kg of {} is assumed",
                             assumed.mass, assumed.material));
@@ -45,10 +44,10 @@ void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& pl
   note(of_nothing, fmt::format("no material is given; {} is assumed", assumed.material));
   note(uniform, "no inertia is given; that of a solid of one density is assumed");
   if (!balls.empty())
-    tell(listeners.suspect, listeners.warn,
-         fmt::format("{}: no inertia is given, and the surface bounds no solid; it is that of a "
-                     "ball around it{}",
-                     place, those(balls)));
+    diagnostics.suspected(
+        place,
+        "no inertia is given, and the surface bounds no solid; it is that of a ball around it{}",
+        those(balls));
 }
 
 }  // namespace clench

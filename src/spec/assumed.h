@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/spec/body_spec.h"
 
 namespace clench {
@@ -11,7 +11,7 @@ namespace clench {
 /// the surface bounds no solid. Bodies without a surface are frames, and left out.
 /// place      what the sentences begin with, "w.wld"
 /// obstacles  stand beside the bodies; of their inertia nothing is told, for they never move
-void tell_assumed(std::span<const BodySpec* const> bodies, const std::string& place,
-                  const Listeners& listeners, std::span<const BodySpec* const> obstacles = {});
+void tell_assumed(std::span<const BodySpec* const> bodies, const Place& place,
+                  const Diagnostics& diagnostics, std::span<const BodySpec* const> obstacles = {});
 
 }  // namespace clench

@@ -68,20 +68,15 @@ Inertial repair_inertia(Eigen::Matrix3d& per_mass) {
   }
 }
 
-std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
-                                               const std::string& place,
-                                               const Listeners& listeners) {
+std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows, const Place& place,
+                                               const Diagnostics& diagnostics) {
   if (rows != rows.transpose())
-    tell(listeners.repair, listeners.warn,
-         place + ": inertia_matrix is not symmetric; its symmetric part is used");
+    diagnostics.repaired(place, "inertia_matrix is not symmetric; its symmetric part is used");
   Eigen::Matrix3d symmetric = 0.5 * (rows + rows.transpose());
   const Inertial fault = repair_inertia(symmetric);
-  if (fault == Inertial::no_body)
-    tell(listeners.repair, listeners.warn, place + ": " + raised_moments);
+  if (fault == Inertial::no_body) diagnostics.repaired(place, "{}", raised_moments);
   if (fault != Inertial::not_definite) return symmetric;
-  if (listeners.warn)
-    listeners.warn(place +
-                   ": inertia_matrix is not positive definite; it is computed from the shape");
+  diagnostics.warn(place, "inertia_matrix is not positive definite; it is computed from the shape");
   return {};
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 
 namespace clench {
 
@@ -47,8 +47,7 @@ inline constexpr const char* raised_moments =
 
 /// The symmetric part of `rows` [m^2], repaired; empty if it is not an inertia: that of the shape
 /// is to be used. All three cases are reported, with `place` in front.
-std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows,
-                                               const std::string& place,
-                                               const Listeners& listeners);
+std::optional<Eigen::Matrix3d> checked_inertia(const Eigen::Matrix3d& rows, const Place& place,
+                                               const Diagnostics& diagnostics);
 
 }  // namespace clench

@@ -14,10 +14,6 @@ static constexpr double limit_rounding = 1e-6;                // of limits [rad 
 static constexpr double max_mass = 1000;                      // [kg]
 static constexpr double max_turn = 4 * 2 * std::numbers::pi;  // [rad]
 
-static void suspect(const Listeners& listeners, const std::string& sentence) {
-  tell(listeners.suspect, listeners.warn, sentence);
-}
-
 static double length_of(const BodySpec& body) { return body.shape->bounds().size().maxCoeff(); }
 
 static bool has_no_area(const Mesh& mesh) {
@@ -86,21 +82,21 @@ static std::string doubt_given_mass(const BodySpec& body) {
              : "";
 }
 
-void check_plausible_object(const BodySpec& body, const std::string& place,
-                            const Listeners& listeners) {
+void check_plausible_object(const BodySpec& body, const Place& place,
+                            const Diagnostics& diagnostics) {
   if (!body.shape) return;
   const double length = length_of(body);
   if (has_no_area(body.shape->mesh()))
-    suspect(listeners, place + ": none of its triangles has an area");
+    diagnostics.suspected(place, "none of its triangles has an area");
   else if (length < min_size || length > max_size)
-    suspect(listeners, fmt::format("{}: it is {:.4g} m large: is its unit right?", place, length));
+    diagnostics.suspected(place, "it is {:.4g} m large: is its unit right?", length);
   else if (const std::string doubt = doubt_given_mass(body); !doubt.empty())
-    suspect(listeners, place + ": " + doubt);
+    diagnostics.suspected(place, "{}", doubt);
   if (com_is_elsewhere(body))
-    suspect(listeners, place + ": its center of mass is far from its surface: is its unit right?");
+    diagnostics.suspected(place, "its center of mass is far from its surface: is its unit right?");
   if (inertia_is_larger(body))
-    suspect(listeners,
-            place + ": its inertia is that of a much larger body: is it divided by the mass?");
+    diagnostics.suspected(place,
+                          "its inertia is that of a much larger body: is it divided by the mass?");
 }
 
 std::string some_names(const std::vector<std::string>& names) {
@@ -112,7 +108,7 @@ std::string some_names(const std::vector<std::string>& names) {
   return out;
 }
 
-void check_plausible(const RobotSpec& robot, const std::string& file, const Listeners& listeners) {
+void check_plausible(const RobotSpec& robot, const Place& file, const Diagnostics& diagnostics) {
   std::vector<std::string> small, large, heavy, dense, turning, off, broad, outside;
   const auto look = [&](const BodySpec& body) {
     if (body.shape && length_of(body) < min_size) small.push_back(body.name);
@@ -141,7 +137,7 @@ void check_plausible(const RobotSpec& robot, const std::string& file, const List
   const auto tell_of = [&](const std::vector<std::string>& names, const char* what,
                            const char* question) {
     if (!names.empty())
-      suspect(listeners, fmt::format("{}: {}: {}: {}", file, what, some_names(names), question));
+      diagnostics.suspected(file, "{}: {}: {}", what, some_names(names), question);
   };
   tell_of(small, "parts smaller than a millimeter", "is the unit of their geometry right?");
   tell_of(large, "parts larger than 3 m",

@@ -1,6 +1,6 @@
 // Rules for values that are used unchanged, but look like errors of unit.
 #pragma once
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/spec/robot_spec.h"
 
 namespace clench {
@@ -17,14 +17,14 @@ std::string doubt_gravity(const Eigen::Vector3d& gravity);
 
 /// For a body to be grasped: smaller than a millimeter or larger than 3 m, or without area; a mass,
 /// a center of mass or an inertia that contradicts its surface.
-/// `place`: beginning of the sentence, "w.wld:3"
-void check_plausible_object(const BodySpec& body, const std::string& place,
-                            const Listeners& listeners);
+/// `place`: beginning of the sentence, w.wld:3
+void check_plausible_object(const BodySpec& body, const Place& place,
+                            const Diagnostics& diagnostics);
 
 /// For a robot: the same for its parts, or heavier than a tonne; joints that turn more than four
 /// times; default values outside the limits.
 /// `file`: beginning of the sentences
-void check_plausible(const RobotSpec& robot, const std::string& file, const Listeners& listeners);
+void check_plausible(const RobotSpec& robot, const Place& file, const Diagnostics& diagnostics);
 
 /// "'a', 'b' and 7 more"
 std::string some_names(const std::vector<std::string>& names);

@@ -46,7 +46,7 @@ TEST_CASE("a word in a message is short and printable") {
 TEST_CASE("a reader walks over blank lines and comments and knows where it stands") {
   LineReader lines("a.cfg", "# head\n\n  one two # three\n\t\nlast");
   const Line line = lines.next_full("a line");
-  CHECK(line.place() == "a.cfg:3");
+  CHECK(line.place().text() == "a.cfg:3");
   CHECK(line.size() == 4);
   CHECK(line.before('#').size() == 2);
   CHECK(line.word(1) == "two");
@@ -61,7 +61,7 @@ TEST_CASE("a reader walks over blank lines and comments and knows where it stand
 TEST_CASE("an empty text has no lines, and its place is the first") {
   LineReader lines("a.cfg", "");
   CHECK(lines.done());
-  CHECK(lines.peek().place() == "a.cfg:1");
+  CHECK(lines.peek().place().text() == "a.cfg:1");
   CHECK(lines.next().blank());
 }
 

@@ -10,15 +10,15 @@ using namespace clench::test;
 
 namespace {
 
-struct Place {
+struct HandAndCube {
   World world;
   Id<Robot> hand;
   Id<Body> object;
 };
 
 // a two-fingered hand at the origin and a cube far above it
-Place hand_and_cube() {
-  Place place;
+HandAndCube hand_and_cube() {
+  HandAndCube place;
   place.hand = place.world.add_robot(two_finger(), {});
   place.object = place.world.add_body(body_spec("cube", box(0.1, 0.1, 0.1)), BodyKind::object,
                                       Pose::translation({0, 0, 5}));
@@ -28,7 +28,7 @@ Place hand_and_cube() {
 }  // namespace
 
 TEST_CASE("clearance is the distance to the nearest thing that is not grasped") {
-  Place p = hand_and_cube();
+  HandAndCube p = hand_and_cube();
   CHECK(clearance(p.world, p.hand, p.object) == std::numeric_limits<double>::infinity());
   const auto wall = p.world.add_body(body_spec("wall", box(1, 1, 1)), BodyKind::obstacle,
                                      Pose::translation({0, 0, -3}));
@@ -45,7 +45,7 @@ TEST_CASE("clearance is the distance to the nearest thing that is not grasped") 
 }
 
 TEST_CASE("penetration is the depth of the deepest point of the hand in the object") {
-  Place p = hand_and_cube();
+  HandAndCube p = hand_and_cube();
   CHECK(penetration(p.world, p.hand, p.object) == 0);
   // from below into the hand's base, whose corners lie within the cube's outline
   const Body& base = p.world.body(p.world.robot(p.hand).base);
@@ -57,7 +57,7 @@ TEST_CASE("penetration is the depth of the deepest point of the hand in the obje
 }
 
 TEST_CASE("penetration sees overlaps without a corner inside, and pairs that are switched off") {
-  Place p = hand_and_cube();
+  HandAndCube p = hand_and_cube();
   const Id<Body> base = p.world.robot(p.hand).base;
   const Bounds box_B = p.world.body(base).shape->bounds();
   // a plate right through the hand's base

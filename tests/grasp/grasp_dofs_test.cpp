@@ -7,6 +7,7 @@
 #include "clench/io/read.h"
 #include "clench/model/dof.h"
 #include "support/folder.h"
+#include "support/listening.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -56,7 +57,9 @@ struct Hand {
   std::vector<double> apply(const GraspSpec& g, DofOrder order = DofOrder::unknown) {
     said.clear();
     apply_grasp(world, g, hand, object,
-                {.order = order, .warn = [&](const std::string& text) { said.push_back(text); }});
+                {.order = order, .diagnostics = Listening{.warn = [&](const std::string& text) {
+                                   said.push_back(text);
+                                 }}});
     const auto q = world.dofs(hand);
     return {q.begin(), q.end()};
   }
@@ -182,13 +185,15 @@ TEST_CASE("the DOFs of a pregrasp go by the names of the grasp") {
   GraspSpec g = h.grasp({"b1", "a1"}, {0.3, 0.1});
   g.pregrasp = PregraspState{Pose{}, {1.5702, 0.2}};
   std::vector<std::string> said;
-  const GraspDofOptions options{.warn = [&](const std::string& text) { said.push_back(text); }};
-  const GraspPosture posture = grasp_posture(h.world, h.hand, g, "g", options);
+  const GraspDofOptions options{
+      .diagnostics = Listening{.warn = [&](const std::string& text) { said.push_back(text); }}};
+  const GraspPosture posture = grasp_posture(h.world, h.hand, g, Place("g"), options);
   CHECK(posture.dofs == Eigen::Vector3d(0.1, 0, 0.3));
-  CHECK(pregrasp_dofs(h.world, h.hand, g, posture, "g", options) == Eigen::Vector3d(0.2, 0, 1.57));
+  CHECK(pregrasp_dofs(h.world, h.hand, g, posture, Place("g"), options) ==
+        Eigen::Vector3d(0.2, 0, 1.57));
   CHECK(said.size() == 1);
   g.pregrasp->dofs = {1};
-  CHECK_THROWS_WITH_AS(pregrasp_dofs(h.world, h.hand, g, posture, "g", options),
+  CHECK_THROWS_WITH_AS(pregrasp_dofs(h.world, h.hand, g, posture, Place("g"), options),
                        "g: pregrasp: expected 2 values, one per name of a DOF, got 1", Error);
 }
 

@@ -161,7 +161,7 @@ TEST_CASE("writing says what the text format has no place for, and refuses other
   EigengraspSet set = identity_eigengrasps(2);
   set.grasps[1].limits = {0, 1};
   std::vector<std::string> warnings;
-  const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Diagnostics warn([&](const Diagnostic& d) { warnings.push_back(d.sentence()); });
   write_eigengrasps(set, folder.path() / "a.xml", warn);
   CHECK(warnings.empty());
   write_eigengrasps(set, folder.path() / "a.egr", warn);

@@ -9,6 +9,7 @@
 #include "clench/base/text.h"
 #include "clench/io/text/file_kind.h"
 #include "read_any.h"
+#include "support/listening.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -36,7 +37,9 @@ std::vector<std::string> told(const fs::path& file, const fs::path& folder) {
   ReadOptions options;
   options.root = options.folder = folder;
   options.packages[""] = folder;
-  options.warn = options.note = [&](const std::string& sentence) { list.push_back(sentence); };
+  options.diagnostics =
+      Listening{.warn = [&](const std::string& sentence) { list.push_back(sentence); },
+                .note = [&](const std::string& sentence) { list.push_back(sentence); }};
   try {
     read_any(file, options);
   } catch (const Error& error) {

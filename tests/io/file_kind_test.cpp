@@ -47,7 +47,7 @@ TEST_CASE("every ending of a body's file is loaded, checked and tried for anothe
     CHECK(refused.starts_with("part" + ending));
     CHECK(refused.find("expected a body from") == std::string::npos);
     // the same part under a name that is gone
-    CHECK(find_converted("part.old", folder.path() / "x", ModelKind::body, "", {}) == file);
+    CHECK(find_converted("part.old", folder.path() / "x", ModelKind::body, Place(), {}) == file);
     std::filesystem::remove(file);
   }
   CHECK(is_inventor("A.VRML"));

@@ -10,6 +10,7 @@
 #include "clench/io/grasps/npz.h"
 #include "clench/io/text/yaml.h"
 #include "support/folder.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 
 using namespace clench;
@@ -86,7 +87,9 @@ TEST_CASE(
     CAPTURE(c.file);
     const auto path = folder.path() / c.file;
     std::string said;
-    write_grasp_file(list, path, c.format, {.warn = [&](const std::string& text) { said = text; }});
+    write_grasp_file(
+        list, path, c.format,
+        {.diagnostics = Listening{.warn = [&](const std::string& text) { said = text; }}});
     CHECK_MESSAGE((*c.lost ? said.find(c.lost) != std::string::npos : said.empty()), said);
     const std::string bytes = read_bytes(path);
     write_grasp_file(list, path, c.format);
@@ -171,7 +174,7 @@ grasps:
           "g.json",
           R"({"object":{"file":"a/mug.obj","scale":0.5},"grasps":{"transforms":)"
           R"([[[1,0,0,0.1],[0,1,0,0.2],[0,0,1,0.3],[0,0,0,1]]],"object_in_gripper":[true]}})"),
-      "", {.warn = [&](const std::string& text) { said = text; }});
+      "", {.diagnostics = Listening{.warn = [&](const std::string& text) { said = text; }}});
   CHECK(gen[0].X_OH->position == Eigen::Vector3d(0.1, 0.2, 0.3));
   CHECK(gen[0].info.at("object_in_gripper") == 1);
   CHECK(said == "g.json: the object has to be loaded at scale 0.5, at which these grasps hold it");
@@ -316,7 +319,7 @@ TEST_CASE("a table that is cut anywhere in its last row keeps the others, with a
     CAPTURE(text);
     std::vector<std::string> warnings;
     ReadOptions options;
-    options.warn = [&](const std::string& s) { warnings.push_back(s); };
+    options.diagnostics = Listening{.warn = [&](const std::string& s) { warnings.push_back(s); }};
     const auto grasps = read_grasp_file(folder.write("a.csv", text), "", options);
     // a row with all cells, the last empty or a number, may be complete
     const size_t last_cell = first.size() + row.rfind(',') + 1;

@@ -7,6 +7,7 @@
 #include "clench/base/random.h"
 #include "clench/io/text/file_kind.h"
 #include "support/folder.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 
 using namespace clench;
@@ -118,7 +119,8 @@ TEST_CASE("a list that is cut anywhere in its last line keeps the others, with a
   const std::string text = read_bytes(path);
   const size_t last = text.rfind('\n', text.size() - 2) + 1;
   std::string warned;
-  const ReadOptions options{.warn = [&](const std::string& sentence) { warned += sentence; }};
+  const ReadOptions options{
+      .diagnostics = Listening{.warn = [&](const std::string& sentence) { warned += sentence; }}};
   // all cuts near the ends of the line, and some between
   constexpr size_t step = 7;
   const auto is_tried = [&](size_t size) {

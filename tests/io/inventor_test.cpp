@@ -3,6 +3,7 @@
 
 #include "clench/base/error.h"
 #include "clench/io/read.h"
+#include "support/listening.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -453,7 +454,8 @@ TEST_CASE("Units are told, for they scale what nobody may expect to be scaled") 
   const test::TemporaryFolder folder;
   ReadOptions options;
   std::vector<std::string> notes;
-  options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  options.diagnostics =
+      test::Listening{.note = [&](const std::string& sentence) { notes.push_back(sentence); }};
   const auto file = folder.write(
       "inch.iv", "#Inventor V2.1 ascii\nUnits { units INCHES }\nCube { width 1000 }\n");
   const BodySpec body = read_body(file, options);
@@ -467,7 +469,8 @@ TEST_CASE("a file without a surface is a frame, which is told") {
   const test::TemporaryFolder folder;
   ReadOptions options;
   std::vector<std::string> doubts;
-  options.suspect = [&](const std::string& sentence) { doubts.push_back(sentence); };
+  options.diagnostics =
+      test::Listening{.suspect = [&](const std::string& sentence) { doubts.push_back(sentence); }};
   CHECK(
       !read_body(folder.write("none.iv", "#Inventor V2.1 ascii\nSeparator { }\n"), options).shape);
   CHECK(doubts == std::vector<std::string>{

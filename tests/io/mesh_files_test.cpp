@@ -7,6 +7,7 @@
 #include "clench/geometry/mesh/triangulate.h"
 #include "clench/io/mesh/geometry_builder.h"
 #include "mesh_writers.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "support/shared.h"
 #include "temporary.h"
@@ -211,7 +212,7 @@ TEST_CASE("the unit is the option's, else the file's, else the caller's, else gu
   const TemporaryFolder folder;
   std::vector<std::string> notes;
   ReadOptions options;
-  options.note = [&](const std::string& note) { notes.push_back(note); };
+  options.diagnostics = Listening{.note = [&](const std::string& note) { notes.push_back(note); }};
   const auto size = [&](const MeshFile& file) {
     const Geometry g = read_file_of(folder, file, options);
     return g.mesh.bounds().size().x();
@@ -250,7 +251,7 @@ TEST_CASE("what a file calls up becomes z, unless its axes are to stay") {
   const TemporaryFolder folder;
   std::vector<std::string> notes;
   ReadOptions options;
-  options.note = [&](const std::string& note) { notes.push_back(note); };
+  options.diagnostics = Listening{.note = [&](const std::string& note) { notes.push_back(note); }};
   const Mesh tall = box(1, 2, 4);
   const auto size = [&](const std::string& up) {
     const std::string asset = "<up_axis>" + up + "</up_axis>";

@@ -6,6 +6,7 @@
 #include "clench/geometry/tree/shape.h"
 #include "clench/io/mesh/mesh_files.h"
 #include "mesh_writers.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "support/mutate.h"
 
@@ -45,9 +46,9 @@ TEST_CASE("a mesh file cut short anywhere is an Error or a mesh") {
     // an ascii STL file that ends between two facets is read, with a warning
     ReadOptions options;
     int repaired = 0;
-    options.repair = [&](const std::string& sentence) {
+    options.diagnostics = Listening{.repair = [&](const std::string& sentence) {
       repaired += sentence.find("expected 'endsolid'") != std::string::npos;
-    };
+    }};
     int bad = 0, all = 0;
     for (size_t n = 0; n < file.content.size(); n += step, ++all)
       bad += refused_mesh({file.name, file.content.substr(0, n)}, options);

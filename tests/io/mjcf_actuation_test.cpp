@@ -1,5 +1,6 @@
 // Actuators, tendons and joint dynamics of MJCF, by the rules of MuJoCo 3.
 #include "clench/io/mjcf/mjcf.h"
+#include "support/listening.h"
 #include "temporary.h"
 #include "told_robot.h"
 #include "written_robot.h"
@@ -240,7 +241,8 @@ TEST_CASE("resistance to free motion and compensation of gravity are a body's") 
   CHECK(world.robots[0].robot.links[0].body.gravity_compensation == 1);
   std::vector<std::string> warnings;
   ReadOptions options;
-  options.warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  options.diagnostics =
+      test::Listening{.warn = [&](const std::string& sentence) { warnings.push_back(sentence); }};
   read_world(folder.write("m.xml", R"(<mujoco><worldbody><body name='a'>
 <joint type='free' stiffness='1' springdamper='1 1'/><geom name='belt' size='0.1' surfacevel='1 0 0'/></body></worldbody></mujoco>)"),
              options);

@@ -1,5 +1,6 @@
 // Collisions of MJCF files: bits, pairs, exclusions, carriers, and switches of the simulation.
 #include "clench/io/mjcf/mjcf.h"
+#include "support/listening.h"
 #include "temporary.h"
 #include "told_robot.h"
 
@@ -26,7 +27,10 @@ struct ContactWorld {
   explicit ContactWorld(const std::string& text) {
     TemporaryFolder folder;
     ReadOptions options = told.options();
-    options.note = [this](const std::string& s) { notes.push_back(s); };
+    options.diagnostics =
+        Listening{.warn = [before = options.diagnostics](
+                              const std::string& text) { before.warn(Diagnostic(text)); },
+                  .note = [this](const std::string& s) { notes.push_back(s); }};
     world = read_world(folder.write("m.xml", "<mujoco>" + text + "</mujoco>"), options);
   }
   bool warned(const std::string& part) const { return ToldRobot::has(told.list, part); }

@@ -2,6 +2,7 @@
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/io/write_mjcf.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "temporary.h"
 #include "told_robot.h"
@@ -18,8 +19,8 @@ struct ToldWorld {
 
   explicit ToldWorld(const std::string& in_world, const std::string& beside = "",
                      ReadOptions options = {}) {
-    options.warn = [this](const std::string& s) { warnings.push_back(s); };
-    options.note = [this](const std::string& s) { notes.push_back(s); };
+    options.diagnostics = Listening{.warn = [this](const std::string& s) { warnings.push_back(s); },
+                                    .note = [this](const std::string& s) { notes.push_back(s); }};
     world = read_world(
         folder.write("scene.xml", "<mujoco model='m'><compiler angle='radian'/>" + beside +
                                       "<worldbody>" + in_world + "</worldbody></mujoco>"),
@@ -429,8 +430,9 @@ TEST_CASE("an empty world comes back from MJCF without a warning") {
     return std::array<double, 2>{1, 1};
   };
   write_mjcf({.world = written, .friction = friction, .name = "empty", .time_step = 0.002}, path);
-  const WorldSpec world =
-      read_world(path, {.warn = [&](const std::string& s) { warnings.push_back(s); }});
+  const WorldSpec world = read_world(
+      path,
+      {.diagnostics = Listening{.warn = [&](const std::string& s) { warnings.push_back(s); }}});
   CHECK(world.bodies.empty());
   CHECK(world.robots.empty());
   CHECK(warnings == std::vector<std::string>{});

@@ -1,6 +1,7 @@
 #include "clench/io/mesh/mesh_readers.h"
 
 #include "clench/base/error.h"
+#include "support/listening.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -66,7 +67,8 @@ TEST_CASE("the colors of an OBJ come from its material file and it loads without
   const auto file = folder.write("cube.obj", text);
   std::vector<std::string> notes;
   ReadOptions options;
-  options.note = [&](const std::string& note) { notes.push_back(note); };
+  options.diagnostics =
+      test::Listening{.note = [&](const std::string& note) { notes.push_back(note); }};
   options.mesh_scale = 1;
   CHECK_FALSE(read_body(file, options).appearance.given);
   REQUIRE(notes.size() == 1);

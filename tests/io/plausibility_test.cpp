@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "clench/io/graspit/eigengrasps.h"
+#include "support/listening.h"
 #include "support/shapes.h"
 #include "temporary.h"
 #include "told_robot.h"
@@ -15,14 +16,16 @@ using Sentences = std::vector<std::string>;
 
 static Sentences suspicions_of(const BodySpec& body) {
   Sentences told;
-  check_plausible_object(body, "a.obj",
-                         {.suspect = [&](const std::string& s) { told.push_back(s); }});
+  check_plausible_object(
+      body, Place("a.obj"),
+      test::Listening{.suspect = [&](const std::string& s) { told.push_back(s); }});
   return told;
 }
 
 static Sentences suspicions_of(const RobotSpec& robot) {
   Sentences told;
-  check_plausible(robot, "a.cfg", {.suspect = [&](const std::string& s) { told.push_back(s); }});
+  check_plausible(robot, Place("a.cfg"),
+                  test::Listening{.suspect = [&](const std::string& s) { told.push_back(s); }});
   return told;
 }
 
@@ -162,11 +165,12 @@ TEST_CASE("a center of mass or an inertia that contradicts the surface is suspic
   body.shape = Shape::make(test::box(0.1, 0.1, 0.1));
   body.com = Eigen::Vector3d(0, 0, 5);
   Sentences told;
-  const Listeners listeners{{}, {}, {}, [&](const std::string& s) { told.push_back(s); }};
-  check_plausible_object(body, "mug.iv", listeners);
+  const Diagnostics diagnostics =
+      test::Listening{.suspect = [&](const std::string& s) { told.push_back(s); }};
+  check_plausible_object(body, Place("mug.iv"), diagnostics);
   body.com.reset();
   body.inertia_per_mass = Eigen::Matrix3d::Identity();
-  check_plausible_object(body, "mug.iv", listeners);
+  check_plausible_object(body, Place("mug.iv"), diagnostics);
   CHECK(told ==
         Sentences{"mug.iv: its center of mass is far from its surface: is its unit right?",
                   "mug.iv: its inertia is that of a much larger body: is it divided by the mass?"});
@@ -177,8 +181,8 @@ TEST_CASE("default values outside the limits are suspicious") {
   robot.dofs[0].default_value = dof_range(robot, 0)[1] + 1;
   robot.dofs[0].name = "d";
   Sentences told;
-  check_plausible(robot, "claw.cfg",
-                  {{}, {}, {}, [&](const std::string& s) { told.push_back(s); }});
+  check_plausible(robot, Place("claw.cfg"),
+                  test::Listening{.suspect = [&](const std::string& s) { told.push_back(s); }});
   CHECK(told ==
         Sentences{"claw.cfg: DOFs whose default value lies outside their limits, to which it is "
                   "moved: 'd': are limits or value exchanged?"});

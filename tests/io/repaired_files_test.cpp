@@ -8,6 +8,7 @@
 #include "clench/base/text.h"
 #include "clench/io/text/repairs.h"
 #include "read_any.h"
+#include "support/listening.h"
 #include "support/shared.h"
 #include "temporary.h"
 
@@ -19,7 +20,8 @@ namespace {
 std::vector<std::string> repaired(const fs::path& path) {
   std::vector<std::string> out;
   ReadOptions options;
-  options.repair = [&](const std::string& sentence) { out.push_back(sentence); };
+  options.diagnostics =
+      test::Listening{.repair = [&](const std::string& sentence) { out.push_back(sentence); }};
   test::read_any(path, options);
   return out;
 }
@@ -43,7 +45,7 @@ TEST_CASE("what a file has wrong and can be put right is told by file and line, 
     std::string thrown;
     try {
       ReadOptions options;
-      options.note = [](const std::string&) {};
+      options.diagnostics = test::Listening{.note = [](const std::string&) {}};
       test::read_any(file, strict(options));
     } catch (const Error& error) {
       thrown = error.what();
@@ -77,19 +79,20 @@ TEST_CASE("files of the original's last distribution are repaired in one sentenc
 
 TEST_CASE("what is wrong alike at many places is told once, with how many more there are") {
   std::vector<std::string> told;
-  Repairs repairs({.repair = [&](const std::string& sentence) { told.push_back(sentence); }});
+  Repairs repairs(
+      test::Listening{.repair = [&](const std::string& sentence) { told.push_back(sentence); }});
   double low = 3, high = 1;
-  repairs.order(low, high, "a:1: x");
+  repairs.order(low, high, Place("a", 1, "x"));
   CHECK(low == 1);
   CHECK(high == 3);
-  repairs.order(low, high, "a:2: x");
-  CHECK(repairs.magnitude(-2, "a:3: y") == 2);
-  CHECK(repairs.magnitude(-3, "a:4: y") == 3);
-  CHECK(repairs.magnitude(4, "a:5: y") == 4);
-  CHECK(repairs.within(2, 0, 1, "a:6: z") == 1);
-  CHECK(repairs.count("7", "a:7: n") == 7);
-  CHECK(repairs.count("1.5", "a:8: n") == 0);
-  CHECK(repairs.count("1e9", "a:9: n") == 0);
+  repairs.order(low, high, Place("a", 2, "x"));
+  CHECK(repairs.magnitude(-2, Place("a", 3, "y")) == 2);
+  CHECK(repairs.magnitude(-3, Place("a", 4, "y")) == 3);
+  CHECK(repairs.magnitude(4, Place("a", 5, "y")) == 4);
+  CHECK(repairs.within(2, 0, 1, Place("a", 6, "z")) == 1);
+  CHECK(repairs.count("7", Place("a", 7, "n")) == 7);
+  CHECK(repairs.count("1.5", Place("a", 8, "n")) == 0);
+  CHECK(repairs.count("1e9", Place("a", 9, "n")) == 0);
   CHECK(told.empty());
   repairs.tell();
   CHECK(told ==
@@ -112,7 +115,8 @@ TEST_CASE("who reads strictly is refused what others are warned of") {
   const fs::path file = folder.write("a.xml", "<root>\n<mass>-3</mass></root>");
   std::vector<std::string> told;
   ReadOptions options;
-  options.warn = [&](const std::string& sentence) { told.push_back(sentence); };
+  options.diagnostics =
+      test::Listening{.warn = [&](const std::string& sentence) { told.push_back(sentence); }};
   CHECK(read_body(file, options).mass == doctest::Approx(0.003));
   REQUIRE(!told.empty());
   CHECK(told.front() == "a.xml:2: mass: -3 is negative; 3 is used");

@@ -3,6 +3,7 @@
 #include "clench/base/error.h"
 #include "clench/io/read.h"
 #include "support/chains.h"
+#include "support/listening.h"
 #include "support/shared.h"
 #include "temporary.h"
 
@@ -182,7 +183,7 @@ TEST_CASE("links without a last joint take the next one, which a note says") {
   cfg.links = "Universal\nbox.iv 1\nRevolute\nbox.iv\n";
   std::vector<std::string> notes;
   ReadOptions options;
-  options.note = [&](const std::string& s) { notes.push_back(s); };
+  options.diagnostics = test::Listening{.note = [&](const std::string& s) { notes.push_back(s); }};
   const auto links = cfg.read(options).links;
   CHECK(notes.at(0) == "hand.cfg:16: link 1: its last joint is not given; joint 2 moves it");
   CHECK(links[0].joints.size() == 2);
@@ -247,7 +248,10 @@ TEST_CASE(
   Warnings warnings;
   ReadOptions options = warnings.options();
   std::vector<std::string> notes;
-  options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  options.diagnostics =
+      test::Listening{.warn = [before = options.diagnostics](
+                                  const std::string& text) { before.warn(Diagnostic(text)); },
+                      .note = [&](const std::string& sentence) { notes.push_back(sentence); }};
   const RobotSpec r = cfg.read(options);
   REQUIRE(notes.size() == 4);
   CHECK(notes[2] ==

@@ -1,6 +1,7 @@
 #include "clench/io/graspit/robot_files.h"
 
 #include "clench/base/error.h"
+#include "support/listening.h"
 #include "support/shared.h"
 #include "temporary.h"
 
@@ -110,7 +111,8 @@ TEST_CASE("contacts made for another hand are used, and noted") {
   hand.folder.write("a.vgr", "other" + sites.substr(4));
   std::vector<std::string> notes;
   ReadOptions options;
-  options.note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  options.diagnostics =
+      Listening{.note = [&](const std::string& sentence) { notes.push_back(sentence); }};
   CHECK(hand.read("VirtualContacts\na.vgr\n", options).virtual_contacts->size() == 1);
   REQUIRE(!notes.empty());
   CHECK(std::ranges::count_if(notes, [](const std::string& note) {

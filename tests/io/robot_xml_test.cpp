@@ -3,6 +3,7 @@
 #include "clench/base/error.h"
 #include "clench/io/read.h"
 #include "support/chains.h"
+#include "support/listening.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -237,7 +238,7 @@ TEST_CASE("types and elements that are unknown are warned of, a type that is mis
         "hand.xml:1: robot: unknown type 'Barret' has no meaning; did you mean 'Barrett'?");
   ReadOptions options;
   std::vector<std::string> notes;
-  options.note = [&](const std::string& s) { notes.push_back(s); };
+  options.diagnostics = test::Listening{.note = [&](const std::string& s) { notes.push_back(s); }};
   CHECK(read_xml_robot(dof() + chain(joint("d0") + link_of("Revolute")), options, "").class_name ==
         "Hand");
   REQUIRE(notes.size() == 5);

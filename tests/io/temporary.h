@@ -5,6 +5,7 @@
 
 #include "clench/io/read.h"
 #include "support/folder.h"
+#include "support/listening.h"
 
 namespace clench::test {
 
@@ -13,7 +14,8 @@ struct Warnings {
   std::vector<std::string> list;
   ReadOptions options() {
     ReadOptions o;
-    o.warn = [this](const std::string& sentence) { list.push_back(sentence); };
+    o.diagnostics =
+        Listening{.warn = [this](const std::string& sentence) { list.push_back(sentence); }};
     return o;
   }
 };

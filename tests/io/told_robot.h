@@ -4,6 +4,7 @@
 
 #include "clench/io/read.h"
 #include "support/chains.h"
+#include "support/listening.h"
 
 namespace clench::test {
 
@@ -12,8 +13,8 @@ struct ToldRobot {
   RobotSpec robot;
 
   explicit ToldRobot(const std::filesystem::path& file, ReadOptions options = {}) {
-    options.warn = [this](const std::string& s) { warnings.push_back(s); };
-    options.note = [this](const std::string& s) { notes.push_back(s); };
+    options.diagnostics = Listening{.warn = [this](const std::string& s) { warnings.push_back(s); },
+                                    .note = [this](const std::string& s) { notes.push_back(s); }};
     robot = read_robot(file, options);
   }
   bool warned(const std::string& part) const { return has(warnings, part); }

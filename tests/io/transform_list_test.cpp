@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "clench/io/graspit/transform_tags.h"
+#include "support/listening.h"
 
 using namespace clench;
 
@@ -48,7 +49,7 @@ TEST_CASE(
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
   LineReader lines("x.cfg", "T (0.707107 0.707107 0 0)[0 0 0]\nT (2 0 0 0)[0 0 0]");
-  CHECK(same(read_transform_list(lines, {.warn = warn}),
+  CHECK(same(read_transform_list(lines, test::Listening{.warn = warn}),
              Pose::turn(right, Eigen::Vector3d::UnitX())));
   CHECK(warnings ==
         std::vector<std::string>{
@@ -74,7 +75,7 @@ TEST_CASE("a comment behind an entry changes nothing, surplus words give a warni
   std::vector<std::string> warnings;
   const auto warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
   LineReader lines("x.cfg", "t 1 2 3 # 4\nt 0 0 0 9 9\nr 0 x 9\nR\n1 0 0 0 1 0\n0 0 1 5\n");
-  CHECK(same(read_transform_list(lines, {.warn = warn}), X));
+  CHECK(same(read_transform_list(lines, test::Listening{.warn = warn}), X));
   CHECK(warnings == std::vector<std::string>{"x.cfg:2: 2 surplus words are not used",
                                              "x.cfg:3: 1 surplus word is not used",
                                              "x.cfg:6: 1 surplus word is not used"});

@@ -1,5 +1,6 @@
 #include "clench/base/error.h"
 #include "clench/io/read.h"
+#include "support/listening.h"
 #include "temporary.h"
 
 using namespace clench;
@@ -72,7 +73,10 @@ TEST_CASE("an unknown element is warned of, and what stands nowhere is at the or
   Warnings warnings;
   std::vector<std::string> notes;
   ReadOptions options = warnings.options();
-  options.note = [&](const std::string& s) { notes.push_back(s); };
+  options.diagnostics =
+      test::Listening{.warn = [before = options.diagnostics](
+                                  const std::string& text) { before.warn(Diagnostic(text)); },
+                      .note = [&](const std::string& s) { notes.push_back(s); }};
   const WorldSpec w = xml_world_of(
       "<grspableBody/>\n<graspableBody><filename>models/box.iv</filename></graspableBody>\n"
       "<robot><filename>models/robots/hand.cfg</filename></robot>\n",
@@ -96,7 +100,7 @@ TEST_CASE("a name of another generation finds the file of this one, and a note s
   write_library(folder);
   std::vector<std::string> notes;
   ReadOptions options;
-  options.note = [&](const std::string& s) { notes.push_back(s); };
+  options.diagnostics = test::Listening{.note = [&](const std::string& s) { notes.push_back(s); }};
   const auto file = folder.write(
       "worlds/w.xml", "<world>\n<robot><filename>models/robots/hand.xml</filename>" + unmoved +
                           "</robot><graspableBody>\n<filename>models/box.xml</filename>" + unmoved +

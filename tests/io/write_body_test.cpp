@@ -5,6 +5,7 @@
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/io/mesh/write_mesh.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 #include "temporary.h"
@@ -41,7 +42,8 @@ struct Told {
   std::vector<std::string> list;
   WriteOptions options() {
     WriteOptions o;
-    o.warn = [this](const std::string& sentence) { list.push_back(sentence); };
+    o.diagnostics =
+        Listening{.warn = [this](const std::string& sentence) { list.push_back(sentence); }};
     return o;
   }
 };
@@ -105,7 +107,7 @@ TEST_CASE("triangles that vanish in 32 bits are counted") {
   mesh.triangles.push_back({n, n + 1, n + 2});
   body.shape = Shape::make(std::move(mesh));
   Warnings told;
-  write_body(body, folder.path() / "a.iv", {.warn = told.options().warn});
+  write_body(body, folder.path() / "a.iv", {.diagnostics = told.options().diagnostics});
   REQUIRE(!told.list.empty());
   CHECK(told.list[0] ==
         "a.iv: coordinates keep 32 bits, as .iv holds them; a triangle is too small for them, and "

@@ -7,6 +7,7 @@
 #include "clench/base/text.h"
 #include "clench/io/graspit/world_parts.h"
 #include "clench/io/read.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "support/plain_user.h"
 #include "support/shapes.h"
@@ -211,7 +212,9 @@ TEST_CASE("a body whose file holds another surface now keeps its own, with a war
   folder.write("box.iv", "#Inventor V2.1 ascii\nSphere { }\n");
   std::vector<std::string> warnings;
   const fs::path saved = folder.path() / "w.xml";
-  write_world(world, saved, {.warn = [&](const std::string& s) { warnings.push_back(s); }});
+  write_world(world, saved, {.diagnostics = test::Listening{.warn = [&](const std::string& s) {
+                               warnings.push_back(s);
+                             }}});
   CHECK(read_world(saved).bodies[0].body.shape->hash() == world.bodies[0].body.shape->hash());
   CHECK(warnings ==
         std::vector<std::string>{

@@ -4,6 +4,7 @@
 
 #include "clench/io/read.h"
 #include "clench/io/write_robot.h"
+#include "support/listening.h"
 
 namespace clench::test {
 
@@ -17,9 +18,11 @@ struct WrittenRobot {
 inline WrittenRobot written(const RobotSpec& robot, const std::filesystem::path& path) {
   WrittenRobot out;
   ReadOptions reading;
-  reading.warn = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
+  reading.diagnostics =
+      Listening{.warn = [&](const std::string& sentence) { out.warnings.push_back(sentence); }};
   WriteOptions options;
-  options.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); };
+  options.diagnostics =
+      Listening{.warn = [&](const std::string& sentence) { out.lost.push_back(sentence); }};
   write_robot(robot, path, options);
   out.robot = read_robot(path, reading);
   return out;

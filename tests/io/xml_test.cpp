@@ -8,7 +8,9 @@ using namespace clench;
 static std::vector<std::string> warnings_of(const std::string& text, const XmlKnown& known) {
   const XmlFile file("a.xml", text);
   std::vector<std::string> out;
-  file.root().check(known, [&](const std::string& s) { out.push_back(s); });
+  file.root().check(known, Diagnostics([&](const Diagnostic& diagnostic) {
+                      out.push_back(diagnostic.sentence());
+                    }));
   return out;
 }
 
@@ -24,7 +26,7 @@ TEST_CASE("elements, texts and attributes stand where the file has them") {
   CHECK(root.children().size() == 3);
   CHECK(root.children("c").size() == 2);
   CHECK(root.child("c").numbers() == std::vector<double>{1, 2});
-  CHECK(root.children("c")[1].place() == "a.xml:5");
+  CHECK(root.children("c")[1].place().text() == "a.xml:5");
   CHECK_FALSE(root.child("e"));
   CHECK(root.child("d").text().empty());
 }

@@ -106,6 +106,52 @@ test("what the standard library requires of the engine bears what a stranger giv
   t.fails(function() raise("x", "odd") end, "expected a kind of errors, got 'odd'")
 end)
 
+test("diagnostics have place and subject as values, and equal problems of a file are one", function(t)
+  local path = test.path(".urdf", [[<robot name="r">
+<link name="a"/> <link name="b"/> <link name="c"/>
+<joint name="j" type="revolute"> <parent link="a"/> <child link="b"/>
+<limit lower="1" upper="0" effort="1" velocity="1"/> </joint>
+<joint name="k" type="revolute"> <parent link="b"/> <child link="c"/>
+<limit lower="2" upper="0" effort="1" velocity="1"/> </joint>
+</robot>
+]])
+  local list, robot = clench.log.collect(function() return clench.world():add_robot(path) end)
+  t.equal(#robot.dofs, 2)
+  local exchanged, guessed
+  for _, d in ipairs(list) do
+    exchanged = d.text:find "exchanged" and d or exchanged
+    guessed = d.text:find "no approach direction" and d or guessed
+  end
+  t.equal(exchanged, {severity = "warning", about = "repaired", file = path:match "[^/]*$", line = 4, subject = "joint 'j'",
+    text = "lower 1 exceeds upper 0; they are exchanged", count = 2})
+  if guessed then t.equal({guessed.severity, guessed.about, guessed.line}, {"note", "inferred"}) end
+  -- the report has the same values
+  local again
+  for _, d in ipairs(require "clench.report".of(path).diagnostics) do again = d.text == exchanged.text and d or again end
+  t.equal(again, exchanged)
+  -- equal problems at several places of a file
+  local body = test.path(".xml", "<root><geometryFile>x.off</geometryFile><foo/><foo/><mass>1</mass></root>")
+  local off = io.open(body:match "^(.*/)" .. "x.off", "w")
+  off:write "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+  off:close()
+  local unknown
+  for _, d in ipairs((clench.log.collect(function() return clench.world():add_object(body) end))) do
+    unknown = d.text:find "unknown element <foo>" and d or unknown
+  end
+  t.equal({unknown.count, unknown.line, unknown.about}, {2, 1, "ignored"})
+end)
+
+test("what a written file does not hold is a diagnostic of that file", function(t)
+  local path, written = test.path ".obj", test.path ".obj"
+  clench.log.collect(clench.convert, "models/objects/cube.iv", path)
+  local body = test.path(".xml", ("<root><geometryFile>%s</geometryFile><mass>500</mass></root>"):format(path))
+  local lost
+  for _, d in ipairs((clench.log.collect(clench.convert, body, written))) do lost = d.text:find "does not hold" and d or lost end
+  local name = written:match "[^/]*$"
+  t.equal({lost.severity, lost.about, lost.file, lost.line}, {"warning", nil, name, nil})
+  t.ok(lost.text:find(name .. " does not hold", 1, true) == 1, lost.text)
+end)
+
 test("logged messages are collected as values", function(t)
   local path = test.path(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nfoo 1\nfoo 2\n")
   local level, told = clench.log.level(), 0

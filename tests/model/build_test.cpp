@@ -3,6 +3,7 @@
 #include "clench/base/error.h"
 #include "clench/base/text.h"
 #include "support/chains.h"
+#include "support/listening.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -43,7 +44,7 @@ TEST_CASE(
   const WorldSpec spec = arm_and_hand(3e-6);
   std::vector<std::string> warnings;
   const World world =
-      build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
+      build_world(spec, Listening{.warn = [&](const std::string& w) { warnings.push_back(w); }});
   const Pose X = world.pose(world.robot(world.robots()[1]).base);
   CHECK((X.position - spec.robots[1].X_WB.position).norm() < 1e-15);
   CHECK(warnings.empty());
@@ -51,7 +52,8 @@ TEST_CASE(
 
 TEST_CASE("a connection that contradicts the pose wins, with a warning") {
   std::vector<std::string> warnings;
-  build_world(arm_and_hand(0.01), {.warn = [&](const std::string& w) { warnings.push_back(w); }});
+  build_world(arm_and_hand(0.01),
+              Listening{.warn = [&](const std::string& w) { warnings.push_back(w); }});
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
         "robot 'gripper_2': its pose and its connection to 'gripper' differ by 0.01 m and 0 rad; "
@@ -63,7 +65,7 @@ TEST_CASE("a start outside the limits is brought to the limit, with a warning be
   spec.robots[1].dofs = {-4e-6, -0.1};
   std::vector<std::string> warnings;
   const World world =
-      build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
+      build_world(spec, Listening{.warn = [&](const std::string& w) { warnings.push_back(w); }});
   CHECK(world.dofs(world.robots()[1]) == Eigen::Vector2d(0, 0));
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
@@ -76,7 +78,8 @@ TEST_CASE("who listens for what is repaired is told of a start that is moved, an
   spec.robots[1].dofs = {0, 9};
   int ignored = 0, guessed = 0, repaired = 0;
   const auto count = [](int& n) { return [&n](const std::string&) { ++n; }; };
-  build_world(spec, {.warn = count(ignored), .note = count(guessed), .repair = count(repaired)});
+  build_world(spec,
+              Listening{.warn = count(ignored), .note = count(guessed), .repair = count(repaired)});
   CHECK(ignored == 0);
   CHECK(guessed == 0);
   CHECK(repaired == 1);
@@ -104,7 +107,7 @@ TEST_CASE(
   spec.robots[1].joint_positions = {0.9, -3.0, std::nullopt, 0.1};
   std::vector<std::string> warnings;
   const World world =
-      build_world(spec, {.warn = [&](const std::string& w) { warnings.push_back(w); }});
+      build_world(spec, Listening{.warn = [&](const std::string& w) { warnings.push_back(w); }});
   const auto hand = world.robots()[1];
   CHECK(world.joints(hand)[0] == 0.6);
   CHECK(world.joints(hand)[1] == doctest::Approx(0.3));
@@ -131,8 +134,8 @@ TEST_CASE("links that overlap as a robot is loaded are switched off, and said to
   link_of(spec, 0, 1).body.shape = Shape::make(moved(box(0.4, 0.01, 0.01), {-0.025, 0, 0}));
   World world;
   std::vector<std::string> warnings;
-  const auto id = add_robot(world, spec, {}, "",
-                            {.note = [&](const std::string& w) { warnings.push_back(w); }});
+  const auto id = add_robot(
+      world, spec, {}, "", Listening{.note = [&](const std::string& w) { warnings.push_back(w); }});
   const Robot& robot = world.robot(id);
   CHECK_FALSE(world.may_collide(robot.base, link_of(robot, 0, 1)));
   CHECK(world.may_collide(robot.base, link_of(robot, 1, 1)));
@@ -155,7 +158,7 @@ TEST_CASE("messages about files show the beginning of long names") {
   }
   std::vector<std::string> told;
   const auto listen = [&](const std::string& sentence) { told.push_back(sentence); };
-  build_world(spec, {.warn = listen, .note = listen});
+  build_world(spec, Listening{.warn = listen, .note = listen});
   spec.robots[1].dofs = {0};
   try {
     build_world(spec);

@@ -4,6 +4,7 @@
 #include "clench/model/build.h"
 #include "clench/model/compare_worlds.h"
 #include "support/chains.h"
+#include "support/listening.h"
 #include "support/robots.h"
 
 using namespace clench;
@@ -73,8 +74,9 @@ TEST_CASE("the description of any world builds a world of the same fingerprint")
     INFO(seed);
     const World world = any_world(seed);
     std::vector<std::string> warnings;
-    const World again = build_world(describe_world(world),
-                                    {.warn = [&](const std::string& s) { warnings.push_back(s); }});
+    const World again =
+        build_world(describe_world(world),
+                    Listening{.warn = [&](const std::string& s) { warnings.push_back(s); }});
     CHECK(again.hash() == world.hash());
     CHECK(warnings.empty());
     CHECK(differences(world, again).empty());

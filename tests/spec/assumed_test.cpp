@@ -1,5 +1,6 @@
 #include "clench/spec/assumed.h"
 
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
@@ -21,10 +22,10 @@ struct Told {
     std::vector<const BodySpec*> list, standing;
     for (const BodySpec& body : bodies) list.push_back(&body);
     for (const BodySpec& body : obstacles) standing.push_back(&body);
-    Listeners listeners;
-    listeners.note = [&](const std::string& s) { notes.push_back(s); };
-    listeners.suspect = [&](const std::string& s) { suspected.push_back(s); };
-    tell_assumed(list, "w.wld", listeners, standing);
+    const Diagnostics listeners =
+        test::Listening{.note = [&](const std::string& s) { notes.push_back(s); },
+                        .suspect = [&](const std::string& s) { suspected.push_back(s); }};
+    tell_assumed(list, Place("w.wld"), listeners, standing);
   }
 };
 

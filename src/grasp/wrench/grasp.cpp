@@ -166,7 +166,7 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
 void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object,
                  const GraspDofOptions& options) {
   const Robot& robot = world.robot(hand);
-  const std::string place = fmt::format("grasp of {} by {}", world.body(object).name, robot.name);
+  const Place place("", 0, fmt::format("grasp of {} by {}", world.body(object).name, robot.name));
   if (!grasp.X_OH) fail("{}: it was put together by hand and says not how the hand stands", place);
   const GraspPosture posture = grasp_posture(world, hand, grasp, place, options);
   const Pose before = world.pose(robot.base);

@@ -77,7 +77,7 @@ struct Listed {
 
 class PostureReader {
  public:
-  PostureReader(const World& world, Id<Robot> hand, const std::string& place,
+  PostureReader(const World& world, Id<Robot> hand, const Place& place,
                 const GraspDofOptions& options)
       : robot_(world.robot(hand)), place_(place), options_(options) {}
 
@@ -105,14 +105,10 @@ class PostureReader {
     return q;
   }
 
-  void warn(const std::string& sentence) const {
-    if (options_.warn) options_.warn(sentence);
-  }
-
   Eigen::VectorXd within(const Eigen::VectorXd& q) const {
     Eigen::VectorXd out = q;
     for (int d = 0; d < q.size(); ++d)
-      out[d] = near_limits(robot_, d, q[d], place_ + ": robot", options_.warn);
+      out[d] = near_limits(robot_, d, q[d], place_, options_.diagnostics);
     return out;
   }
 
@@ -151,10 +147,10 @@ class PostureReader {
     const auto own = listed_order(robot_, of_dofs, false),
                isaac = listed_order(robot_, of_dofs, true);
     if (options_.order == DofOrder::unknown && isaac != own)
-      warn(fmt::format(
-          "{}: it does not name its DOFs, which are taken in the hand's order: {}; Isaac "
-          "Sim's order is {}, for dof_order = \"isaac\"",
-          place_, order_text(own, of_dofs), order_text(isaac, of_dofs)));
+      options_.diagnostics.warn(place_,
+                                "it does not name its DOFs, which are taken in the hand's order: "
+                                "{}; Isaac Sim's order is {}, for dof_order = \"isaac\"",
+                                order_text(own, of_dofs), order_text(isaac, of_dofs));
     const auto& order = options_.order == DofOrder::isaac ? isaac : own;
     for (size_t i = 0; i < order.size(); ++i)
       out.push_back({.dof = of_dofs ? order[i] : robot_.joints[order[i]].dof,
@@ -187,22 +183,22 @@ class PostureReader {
       const Joint& joint = robot_.joints[one.joint];
       const double by_dof = joint.ratio * q[one.dof] + joint.offset;
       if (differ(one.value, by_dof))
-        warn(fmt::format(
-            "{}: joint {} moves with DOF {}, which puts it at {:.6g}, not at {:.6g}; the "
-            "DOF counts",
-            place_, in_quotes(joint_name(one.joint)), in_quotes(dof_name(robot_, one.dof)), by_dof,
-            one.value));
+        options_.diagnostics.warn(
+            place_,
+            "joint {} moves with DOF {}, which puts it at {:.6g}, not at {:.6g}; the DOF counts",
+            in_quotes(joint_name(one.joint)), in_quotes(dof_name(robot_, one.dof)), by_dof,
+            one.value);
     }
   }
 
   const Robot& robot_;
-  const std::string& place_;
+  const Place& place_;
   const GraspDofOptions& options_;
 };
 
 // joints of rigid DOFs must be at the positions given by their DOFs
 void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q,
-                        const std::vector<double>& joints, const std::string& place) {
+                        const std::vector<double>& joints, const Place& place) {
   for (size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = robot.joints[j];
     const double by_dof = joint.ratio * q[joint.dof];
@@ -222,19 +218,19 @@ std::vector<int> breadth_first_joints(const Robot& robot) {
     children[static_cast<size_t>(robot.links[l].parent + 1)].push_back(static_cast<int>(l));
   // each joint of a link with several joints is a separate level
   std::vector<int> out;
-  struct Place {
+  struct Level {
     int link, joint;
   };
-  std::vector<Place> level;
-  const auto open = [&](int link, std::vector<Place>& to) {
+  std::vector<Level> level;
+  const auto open = [&](int link, std::vector<Level>& to) {
     std::vector<int> links;
     add_moved(robot, children, link, links);
     for (const int m : links) to.push_back({m, robot.links[m].first_joint});
   };
   open(-1, level);
   while (!level.empty()) {
-    std::vector<Place> next;
-    for (const Place& at : level) {
+    std::vector<Level> next;
+    for (const Level& at : level) {
       out.push_back(at.joint);
       if (at.joint + 1 < robot.links[at.link].end_joint)
         next.push_back({at.link, at.joint + 1});
@@ -261,7 +257,7 @@ std::vector<std::string> listed_dof_names(const Robot& robot, size_t count, DofO
 }
 
 GraspPosture grasp_posture(const World& world, Id<Robot> hand, const GraspSpec& grasp,
-                           const std::string& place, const GraspDofOptions& options) {
+                           const Place& place, const GraspDofOptions& options) {
   const Robot& robot = world.robot(hand);
   // joint positions are listed for a hand with the same joints
   const bool own_joints = !grasp.joints.empty();
@@ -284,17 +280,17 @@ GraspPosture grasp_posture(const World& world, Id<Robot> hand, const GraspSpec& 
     // a rigid joint follows its DOF to the limit
     if (rigid && differ(grasp.joints[j], joint.ratio * out.dofs[joint.dof])) continue;
     out.own[j] = rigid ? grasp.joints[j]
-                       : joint_near_limits(robot, static_cast<int>(j), grasp.joints[j],
-                                           place + ": robot", options.warn);
+                       : joint_near_limits(robot, static_cast<int>(j), grasp.joints[j], place,
+                                           options.diagnostics);
   }
   return out;
 }
 
 Eigen::VectorXd pregrasp_dofs(const World& world, Id<Robot> hand, const GraspSpec& grasp,
-                              const GraspPosture& posture, const std::string& place,
+                              const GraspPosture& posture, const Place& place,
                               const GraspDofOptions& options) {
   const auto& values = grasp.pregrasp->dofs;
-  const std::string before = place + ": pregrasp";
+  const Place before = place.of("pregrasp");
   const bool named = !grasp.dof_names.empty();
   if (named && !values.empty() && values.size() != grasp.dof_names.size())
     fail("{}: expected {} values, one per name of a DOF, got {}", before, grasp.dof_names.size(),

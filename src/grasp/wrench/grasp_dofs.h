@@ -1,6 +1,6 @@
 // Values of a hand's DOFs and joints in a grasp: by name, or in an order.
 #pragma once
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/model/world.h"
 #include "clench/spec/grasp_spec.h"
 
@@ -15,7 +15,7 @@ enum class DofOrder {
 
 struct GraspDofOptions {
   DofOrder order = DofOrder::unknown;
-  Listener warn = {};  ///< called for each value that is adjusted
+  Diagnostics diagnostics = {};  ///< receives each value that is not used as it stands
 };
 
 /// Posture of a hand: values of all its DOFs, and joints that deviate from their DOF's value.
@@ -43,13 +43,13 @@ std::vector<std::string> listed_dof_names(const Robot& robot, size_t count, DofO
 /// throws  Error if the hand has other DOFs or joints, a unit differs, or a value lies far outside
 ///         its limits
 GraspPosture grasp_posture(const World& world, Id<Robot> hand, const GraspSpec& grasp,
-                           const std::string& place, const GraspDofOptions& options = {});
+                           const Place& place, const GraspDofOptions& options = {});
 
 /// DOFs of the pregrasp, all in the hand's order; those that the pregrasp does not name are as in
 /// `posture`.
 /// throws as grasp_posture
 Eigen::VectorXd pregrasp_dofs(const World& world, Id<Robot> hand, const GraspSpec& grasp,
-                              const GraspPosture& posture, const std::string& place,
+                              const GraspPosture& posture, const Place& place,
                               const GraspDofOptions& options = {});
 
 /// The apply_grasp of grasp.h, with an order of DOFs and warnings.

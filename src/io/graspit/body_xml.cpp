@@ -26,7 +26,7 @@ const XmlKnown known_elements = {
 /// absent  what stands for 0; 0: nothing does
 double number_of(const XmlElement& element, const Quantity& quantity, Repairs& repairs,
                  double absent = 0) {
-  const std::string subject = fmt::format("{}: {}", element.place(), element.name());
+  const Place subject = element.place().of(element.name());
   double value = repairs.magnitude(element.number(), subject);
   if (absent > 0) value = repairs.not_zero(value, absent, subject);
   if (const auto wrong = fault(quantity, value); !wrong.empty())
@@ -43,10 +43,9 @@ Eigen::Vector3d read_scaling(const XmlElement& body, Repairs& repairs) {
   for (int i = 0; i < 3; ++i)
     if (const XmlElement one = body.child(names[i])) {
       if (all)
-        repairs.add("scaling",
-                    fmt::format("{}: {} and geometryScaling are given; {} is used for its "
-                                "axis",
-                                one.place(), names[i], names[i]));
+        repairs.add("scaling", one.place(),
+                    "{} and geometryScaling are given; {} is used for its axis", names[i],
+                    names[i]);
       scaling[i] = number_of(one, scale_rule, repairs);
     }
   return scaling;
@@ -64,9 +63,10 @@ GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
     file.fail("geometryFile: expected type Inventor, off, ply or that of another mesh, got {}",
               in_quotes(*type));
   if (format == GeometryFormat::none) return said;
-  if (said != format && options.warn)
-    options.warn(fmt::format("{}: geometryFile: type {} is not that of {}; its ending counts",
-                             file.place(), in_quotes(*type), in_quotes(file.text())));
+  if (said != format)
+    options.diagnostics.warn(file.place().of("geometryFile"),
+                             "type {} is not that of {}; its ending counts", in_quotes(*type),
+                             in_quotes(file.text()));
   return format;
 }
 
@@ -95,8 +95,8 @@ void read_compliance(const XmlElement& body, const FileCache& cache, Repairs& re
     if (!both[i]) continue;
     number_of(both[i], positive_rule, repairs);
     if (i == 0 || !both[0])
-      cache.warn(
-          fmt::format("{}: normalCompliance and shearCompliance are not used", both[i].place()));
+      cache.diagnostics().warn(both[i].place(),
+                               "normalCompliance and shearCompliance are not used");
   }
 }
 
@@ -109,13 +109,13 @@ void read_mass(const XmlElement& body, const FileCache& cache, Repairs& repairs,
   }
   if (const XmlElement cog = body.child("cog")) {
     out.com = cog.vector() * units::millimeter;
-    check(coordinate_rule.called("cog"), *out.com, cog.place());
+    check(coordinate_rule.called("cog"), *out.com, cog.place().text());
   }
   if (const XmlElement inertia = body.child("inertia_matrix")) {
     const auto x = inertia.numbers(9);
     Eigen::Matrix3d rows;
     for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = x[i] * units::square_millimeter;
-    out.inertia_per_mass = checked_inertia(rows, inertia.place(), cache.options().listeners());
+    out.inertia_per_mass = checked_inertia(rows, inertia.place(), cache.diagnostics());
   }
 }
 
@@ -128,10 +128,10 @@ void read_matter(const XmlElement& body, const FileCache& cache, Repairs& repair
   if (const XmlElement youngs = body.child("youngs")) {
     out.elastic_modulus = number_of(youngs, elastic_modulus_rule, repairs);
     if (const std::string doubt = doubt_modulus(*out.elastic_modulus); !doubt.empty())
-      cache.suspected(fmt::format("{}: youngs {}", youngs.place(), doubt));
+      cache.diagnostics().suspected(youngs.place(), "youngs {}", doubt);
   }
   if (const XmlElement bird = body.child("useFlockOfBirds"))
-    out.tracker = repairs.count(bird.text(), bird.place() + ": useFlockOfBirds");
+    out.tracker = repairs.count(bird.text(), bird.place().of("useFlockOfBirds"));
   read_compliance(body, cache, repairs);
 }
 
@@ -141,39 +141,40 @@ std::optional<PlacedFile> read_placed_file(const XmlElement& body, const fs::pat
                                            const ReadOptions& options) {
   const XmlElement element = body.child("geometryFile");
   if (!element) return {};
-  element.check({.attributes = {"type"}}, options.warn);
+  element.check({.attributes = {"type"}}, options.diagnostics);
   PlacedFile out;
   out.format = read_format(element, options);
-  Repairs repairs(options.listeners());
+  Repairs repairs(options.diagnostics);
   out.scaling = read_scaling(body, repairs);
   repairs.tell();
   out.path = errors_at(element, [&] { return find_file(element.text(), path, options); });
   if (const XmlElement offset = body.child("geometryOffset")) {
-    out.X_BG = read_transform_of(offset, options.listeners());
-    offset.check({.once = {"transform"}}, options.warn);
+    out.X_BG = read_transform_of(offset, options.diagnostics);
+    offset.check({.once = {"transform"}}, options.diagnostics);
   }
   return out;
 }
 
 BodySpec read_body_element(const XmlElement& element, const fs::path& path, FileCache& cache) {
-  element.check(known_elements, cache.options().warn);
+  element.check(known_elements, cache.diagnostics());
   BodySpec body;
-  Repairs repairs(cache.options().listeners());
+  Repairs repairs(cache.diagnostics());
   read_matter(element, cache, repairs, body);
   read_mass(element, cache, repairs, body);
   repairs.tell();
   const XmlElement file = element.child("geometryFile");
   if (!file) {
-    cache.suspected(fmt::format("{}: no <geometryFile>: the body is a frame without a surface",
-                                element.place()));
+    cache.diagnostics().suspected(element.place(),
+                                  "no <geometryFile>: the body is a frame without a surface");
     return body;
   }
   Geometry geometry = read_scaled(file, *read_placed_file(element, path, cache.options()), cache);
   body.appearance = std::move(geometry.appearance);
   body.mesh_report = std::move(geometry.report);
   if (geometry.mesh.triangles.empty()) {
-    cache.suspected(fmt::format("{}: no surface in {}: the body is a frame, which touches nothing",
-                                file.place(), in_quotes(file.text())));
+    cache.diagnostics().suspected(file.place(),
+                                  "no surface in {}: the body is a frame, which touches nothing",
+                                  in_quotes(file.text()));
     return body;
   }
   body.shape = errors_at(file, [&] {

@@ -18,36 +18,35 @@ using Eigen::VectorXd;
 
 constexpr int max_dofs = 1000;  // as of robots
 
-void warn(const ReadOptions& options, const std::string& sentence) {
-  if (options.warn) options.warn(sentence);
-}
-
-void check_plausible_eigenvalues(const EigengraspSet& set, const EigengraspPlaces& places,
+void check_plausible_eigenvalues(const EigengraspSet& set, const std::vector<Place>& places,
                                  const ReadOptions& options) {
   for (size_t i = 0; i < set.grasps.size(); ++i)
     if (const double x = set.grasps[i].eigenvalue; x < 0)
-      options.suspected(
-          fmt::format("{}: eigengrasp {}: its eigenvalue is {}, and variances are >= 0",
-                      places.grasps[i], i + 1, x));
+      options.diagnostics.suspected(places[i].of("eigengrasp {}", i + 1),
+                                    "its eigenvalue is {}, and variances are >= 0", x);
 }
 
-void tell_count(Repairs& repairs, const std::string& place, int declared, int given) {
-  repairs.add("count",
-              fmt::format("{}: {} DOF{} declared, and numbers of {} are given; {} are used", place,
-                          declared, declared == 1 ? " is" : "s are", given, given));
+/// Where the parts of a set stand in its file.
+struct Places {
+  EigengraspPlaces errors;    // as errors show them
+  std::vector<Place> grasps;  // one per eigengrasp
+};
+
+void tell_count(Repairs& repairs, const Place& place, int declared, int given) {
+  repairs.add("count", place, "{} DOF{} declared, and numbers of {} are given; {} are used",
+              declared, declared == 1 ? " is" : "s are", given, given);
 }
 
 /// There are at most as many as DOFs.
-void add_grasp(EigengraspSpec grasp, const std::string& place, EigengraspSet& set,
-               EigengraspPlaces& places, Repairs& repairs) {
+void add_grasp(EigengraspSpec grasp, const Place& place, EigengraspSet& set, Places& places,
+               Repairs& repairs) {
   if (static_cast<int>(set.grasps.size()) >= set.dofs) {
-    repairs.add("surplus",
-                fmt::format("{}: expected at most {} eigengrasps, one per DOF; this one is "
-                            "not used",
-                            place, set.dofs));
+    repairs.add("surplus", place,
+                "expected at most {} eigengrasps, one per DOF; this one is not used", set.dofs);
     return;
   }
   set.grasps.push_back(std::move(grasp));
+  places.errors.grasps.push_back(place.text());
   places.grasps.push_back(place);
 }
 
@@ -77,7 +76,7 @@ class EgrReader {
  public:
   EgrReader(const std::string& file, std::string text, const ReadOptions& options)
       : options_(options),
-        repairs_(options.listeners()),
+        repairs_(options.diagnostics),
         given_(given_dofs(text)),
         lines_(file, std::move(text)) {}
   EigengraspSet read();
@@ -93,9 +92,9 @@ class EgrReader {
   int given_;  // so many numbers every block begins with
   LineReader lines_;
   EigengraspSet set_;
-  EigengraspPlaces places_;
+  Places places_;
   int junk_lines_ = 0;
-  std::string junk_;  // the first, as it will be told
+  Diagnostic junk_;  // the first, as it will be told
 };
 
 EigengraspSet EgrReader::read() {
@@ -103,7 +102,7 @@ EigengraspSet EgrReader::read() {
   if (lower_case(head.word(0)) != "dimensions")
     head.fail("expected DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
   set_.dofs = head.integer(1, "DIMENSIONS", 1, max_dofs);
-  warn_of_surplus(head, 2, options_.warn);
+  warn_of_surplus(head, 2, options_.diagnostics);
   // what is declared counts for less than what all blocks have
   if (given_ > set_.dofs && given_ <= max_dofs) {
     tell_count(repairs_, head.place(), set_.dofs, given_);
@@ -117,24 +116,24 @@ EigengraspSet EgrReader::read() {
     else
       note_junk(line);
   }
-  if (junk_lines_ == 1) warn(options_, junk_ + " belongs to no block and is not used");
+  if (junk_lines_ == 1) junk_.text += " belongs to no block and is not used";
   if (junk_lines_ > 1)
-    warn(options_,
-         fmt::format("{} and {} more belong to no block and are not used", junk_, junk_lines_ - 1));
+    junk_.text += fmt::format(" and {} more belong to no block and are not used", junk_lines_ - 1);
+  if (junk_lines_ > 0) options_.diagnostics.warn(junk_);
   repairs_.tell();
-  check_eigengrasps(set_, lines_.file(), places_);
-  check_plausible_eigenvalues(set_, places_, options_);
+  check_eigengrasps(set_, lines_.file(), places_.errors);
+  check_plausible_eigenvalues(set_, places_.grasps, options_);
   return std::move(set_);
 }
 
 void EgrReader::note_junk(const Line& line) {
   if (junk_lines_++ > 0) return;
-  junk_ = fmt::format("{}: the line {}", line.place(), in_quotes(line.text()));
+  junk_ = {line.place(), fmt::format("the line {}", in_quotes(line.text()))};
 }
 
 double EgrReader::read_eigenvalue(const std::string& what) {
   const Line line = lines_.next_full(what + ": its eigenvalue");
-  warn_of_surplus(line, 1, options_.warn);
+  warn_of_surplus(line, 1, options_.diagnostics);
   return line.number(0, what + ": eigenvalue");
 }
 
@@ -146,13 +145,13 @@ VectorXd EgrReader::read_values(const std::string& what) {
         lines_.next_full(fmt::format("{}: number {} of {}", what, i + 1, set_.dofs)).before('#');
     int k = 0;
     while (k < line.size() && i < set_.dofs) values[i++] = line.number(k++, what);
-    warn_of_surplus(line, k, options_.warn);
+    warn_of_surplus(line, k, options_.diagnostics);
   }
   return values;
 }
 
 void EgrReader::read_block(const std::string& keyword, const Line& line) {
-  warn_of_surplus(line, 1, options_.warn);
+  warn_of_surplus(line, 1, options_.diagnostics);
   if (keyword == "eg") {
     EigengraspSpec grasp;
     const std::string what = fmt::format("eigengrasp {}", set_.grasps.size() + 1);
@@ -162,11 +161,11 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
     return;
   }
   auto& target = keyword == "norm" ? set_.norm : set_.origin;
-  if (target)
-    warn(options_, fmt::format("{}: a second {}; the first one counts", line.place(), keyword));
+  if (target) options_.diagnostics.warn(line.place(), "a second {}; the first one counts", keyword);
   read_eigenvalue(keyword);  // stands there, and means nothing
   const VectorXd values = read_values(keyword);
-  if (!target) (keyword == "norm" ? places_.norm : places_.origin) = line.place();
+  if (!target)
+    (keyword == "norm" ? places_.errors.norm : places_.errors.origin) = line.place().text();
   if (!target) target = values;
 }
 
@@ -175,7 +174,7 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
 class EigengraspXml {
  public:
   EigengraspXml(const std::string& file, const std::string& text, const ReadOptions& options)
-      : file_(file, text), options_(options), repairs_(options.listeners()) {}
+      : file_(file, text), options_(options), repairs_(options.diagnostics) {}
   EigengraspSet read();
 
  private:
@@ -187,7 +186,7 @@ class EigengraspXml {
   const ReadOptions& options_;
   Repairs repairs_;
   EigengraspSet set_;
-  EigengraspPlaces places_;
+  Places places_;
 };
 
 EigengraspSet EigengraspXml::read() {
@@ -195,20 +194,20 @@ EigengraspSet EigengraspXml::read() {
   if (root.name() != "EigenGrasps")
     root.fail("expected an element <EigenGrasps>, got <{}>", excerpt(root.name()));
   root.check({.once = {"ORIGIN", "NORM"}, .many = {"EG"}, .attributes = {"dimensions"}},
-             options_.warn);
+             options_.diagnostics);
   count_dofs(root);
   for (const XmlElement& block : root.children("EG"))
     add_grasp(read_grasp(block), block.place(), set_, places_, repairs_);
   for (const auto& [name, target, missing] :
        {std::tuple("ORIGIN", &set_.origin, 0.0), {"NORM", &set_.norm, 1.0}})
     if (const XmlElement block = root.child(name)) {
-      block.check({.once = {"EigenValue", "DimVals"}}, options_.warn);
+      block.check({.once = {"EigenValue", "DimVals"}}, options_.diagnostics);
       *target = read_values(block, missing);
-      (target == &set_.norm ? places_.norm : places_.origin) = block.place();
+      (target == &set_.norm ? places_.errors.norm : places_.errors.origin) = block.place().text();
     }
   repairs_.tell();
-  check_eigengrasps(set_, file_.file(), places_);
-  check_plausible_eigenvalues(set_, places_, options_);
+  check_eigengrasps(set_, file_.file(), places_.errors);
+  check_plausible_eigenvalues(set_, places_.grasps, options_);
   return std::move(set_);
 }
 
@@ -232,16 +231,16 @@ void EigengraspXml::count_dofs(const XmlElement& root) {
 }
 
 EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
-  block.check({.once = {"EigenValue", "Limits", "DimVals"}}, options_.warn);
+  block.check({.once = {"EigenValue", "Limits", "DimVals"}}, options_.diagnostics);
   EigengraspSpec grasp;
   if (const XmlElement value = block.child("EigenValue")) {
-    value.check({.attributes = {"value"}}, options_.warn);
+    value.check({.attributes = {"value"}}, options_.diagnostics);
     if (value.attribute("value")) grasp.eigenvalue = value.number_attribute("value");
   }
   if (const XmlElement limits = block.child("Limits")) {
-    limits.check({.attributes = {"min", "max"}}, options_.warn);
+    limits.check({.attributes = {"min", "max"}}, options_.diagnostics);
     double low = limits.number_attribute("min"), high = limits.number_attribute("max");
-    repairs_.order(low, high, limits.place() + ": Limits");
+    repairs_.order(low, high, limits.place().of("Limits"));
     grasp.limits = {low, high};
   }
   grasp.vector = read_values(block, 0);
@@ -313,13 +312,13 @@ std::string eigengrasps_text(const EigengraspSet& set, const fs::path& path) {
 }
 
 void write_eigengrasps(const EigengraspSet& set, const fs::path& path,
-                       const std::function<void(const std::string&)>& warn) {
+                       const Diagnostics& diagnostics) {
   const std::string text = eigengrasps_text(set, path);
   const bool limited = std::ranges::any_of(
       set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
-  if (limited && warn && lower_case(path.extension().string()) == ".egr")
-    warn(fmt::format("{}: the text format has no place for limits of amplitudes; .xml has",
-                     path.filename().string()));
+  if (limited && lower_case(path.extension().string()) == ".egr")
+    diagnostics.warn(Place(path.filename().string()),
+                     "the text format has no place for limits of amplitudes; .xml has");
   write_file(path, text);
 }
 

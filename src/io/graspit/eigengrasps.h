@@ -22,6 +22,6 @@ std::string eigengrasps_text(const EigengraspSet& set, const std::filesystem::pa
 /// The .egr has no limits: `warn` is told when there are some.
 /// throws Error as eigengrasps_text, or when the file cannot be written
 void write_eigengrasps(const EigengraspSet& set, const std::filesystem::path& path,
-                       const std::function<void(const std::string&)>& warn = {});
+                       const Diagnostics& diagnostics = {});
 
 }  // namespace clench

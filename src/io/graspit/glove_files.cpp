@@ -24,7 +24,7 @@ GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions&
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     out.slopes = Eigen::Map<const Rows>(slopes.data(), dofs, sensors);
     out.intercepts = numbers.numbers(dofs, "intercepts");
-    numbers.finish(options.warn);
+    numbers.finish(options.diagnostics);
     return out;
   });
 }
@@ -76,7 +76,7 @@ std::vector<GlovePose> read_glove_poses(const fs::path& path, const ReadOptions&
     std::vector<GlovePose> poses;
     for (int i = 0; i < count; ++i)
       poses.push_back(read_pose(numbers, fmt::format("pose {}", i + 1)));
-    numbers.finish(options.warn);
+    numbers.finish(options.diagnostics);
     return poses;
   });
 }

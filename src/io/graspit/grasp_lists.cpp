@@ -85,7 +85,7 @@ void read_planned_grasps(const std::string& file, std::string text, const GraspS
       const Line line = lines.next().before('#');
       if (line.size() < 9)
         line.fail("expected 9 numbers: x y z qw qx qy qz spread quality, got {}", line.size());
-      warn_of_surplus(line, 9, options.warn);
+      warn_of_surplus(line, 9, options.diagnostics);
       constexpr const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz", "spread", "quality"};
       double x[9];
       for (int i = 0; i < 9; ++i) x[i] = line.number(i, names[i]);

@@ -96,8 +96,7 @@ PlacedFile geometry_of_body(const fs::path& path, const ReadOptions& options) {
   const XmlFile body(path);
   check_body_root(body);
   const auto found = read_placed_file(body.root(), path, options);
-  if (!found && options.warn)
-    options.warn(fmt::format("{}: no <geometryFile>: no primitives", body.root().place()));
+  if (!found) options.diagnostics.warn(body.root().place(), "no <geometryFile>: no primitives");
   return found.value_or(PlacedFile());
 }
 

@@ -33,13 +33,13 @@ class CfgReader {
   CfgReader(const fs::path& path, FileCache& cache)
       : path_(path),
         cache_(cache),
-        repairs_(cache.options().listeners()),
+        repairs_(cache.diagnostics()),
         lines_(path.filename().string(), read_text(path)) {}
   RobotSpec read();
 
  private:
   Line expected(std::string_view what) { return lines_.next_full(what).before('#'); }
-  void used_up(const Line& line, int used) { warn_of_surplus(line, used, cache_.options().warn); }
+  void used_up(const Line& line, int used) { warn_of_surplus(line, used, cache_.diagnostics()); }
   int count(const char* what, int low);
   void read_dofs();
   void read_chain(int number);
@@ -81,7 +81,7 @@ RobotSpec CfgReader::read() {
   robot_.source = path_.generic_string();
   const Line head = expected("the robot's class");
   robot_.class_name = head.word(0);
-  check_class(robot_.class_name, head.place(), cache_.options().warn);
+  check_class(robot_.class_name, head.place(), cache_.diagnostics());
   used_up(head, 1);
   const Line palm = expected("the palm's file");
   used_up(palm, 1);
@@ -109,17 +109,17 @@ void CfgReader::read_dofs() {
   const int dofs = count("number of DOFs", 0);
   for (int i = 0; i < dofs; ++i) {
     const Line line = expected(fmt::format("the line of DOF {}", i));
-    const std::string place = fmt::format("{}: DOF {}", line.place(), i);
-    DofSpec dof{.kind = dof_kind(line.word(0), place)};
+    const Place place = line.place().of("DOF {}", i);
+    DofSpec dof{.kind = dof_kind(line.word(0), place.text())};
     const auto number = [&](int k, const char* what) {
       if (k > 2 && k >= line.size()) {
-        repairs_.add("missing", fmt::format("{}: {} is missing; 0 is used", place, what));
+        repairs_.add("missing", place, "{} is missing; 0 is used", what);
         return 0.0;
       }
-      return in_bounds(line.number(k, fmt::format("DOF {}: {}", i, what)), what, place);
+      return in_bounds(line.number(k, fmt::format("DOF {}: {}", i, what)), what, place.text());
     };
     const auto magnitude = [&](int k, const char* what) {
-      return repairs_.magnitude(number(k, what), fmt::format("{}: {}", place, what));
+      return repairs_.magnitude(number(k, what), place.of(what));
     };
     dof.default_velocity = number(1, "default velocity");
     dof.max_effort = magnitude(2, "max effort");
@@ -137,20 +137,21 @@ void CfgReader::read_dofs() {
 void CfgReader::read_chain(int number) {
   const int joints = count("number of joints", 0), links = count("number of links", 1);
   const Line transform = lines_.peek();
-  ChainLinks chain(read_transform_list(lines_, cache_.options().listeners()), dof_kinds_);
+  ChainLinks chain(read_transform_list(lines_, cache_.diagnostics()), dof_kinds_);
   for (int j = 0; j < joints; ++j) read_joint(chain, j);
   for (int l = 0; l < links; ++l)
     read_link(chain, l, fmt::format("{}_chain{}_link{}", robot_.name, number, l));
   if (chain.last_joint() + 1 < joints)
-    cache_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
-                            transform.place(), number, chain.last_joint() + 1));
+    cache_.diagnostics().warn(transform.place().of("chain {}", number),
+                              "joints from {} on move no link, and are not used",
+                              chain.last_joint() + 1);
 }
 
 void CfgReader::read_joint(ChainLinks& chain, int number) {
   const Line line = expected(fmt::format("the line of joint {}", number));
-  const std::string place = fmt::format("{}: joint {}", line.place(), number);
+  const Place place = line.place().of("joint {}", number);
   const auto value = [&](int i, const char* what) {
-    return in_bounds(line.number(i, fmt::format("joint {}: {}", number, what)), what, place);
+    return in_bounds(line.number(i, fmt::format("joint {}: {}", number, what)), what, place.text());
   };
   JointSpec joint;
 
@@ -159,10 +160,11 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
   const bool revolute = joint.kind == JointKind::revolute;
   const std::string_view text = line.word(revolute ? 0 : 1);
   if (!revolute && !parse_joint_expression(text)) value(0, "theta");  // a word there is told first
-  const auto [dof, ratio, offset] = expected_expression(text, joint.kind, dof_lines_.size(), place);
+  const auto [dof, ratio, offset] =
+      expected_expression(text, joint.kind, dof_lines_.size(), place.text());
   joint.dof = dof;
   joint.ratio = ratio;
-  check_each(number_rule, {{"offset", offset}, {"ratio", ratio}}, place);
+  check_each(number_rule, {{"offset", offset}, {"ratio", ratio}}, place.text());
 
   const DenavitHartenberg numbers = {.theta = revolute ? offset : value(0, "theta"),
                                      .d = revolute ? value(1, "d") : offset,
@@ -173,7 +175,7 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
   repairs_.order(joint.min, joint.max, place);
   const auto loss = [&](int i, const char* what) {
     if (line.size() <= i) return 0.0;
-    return repairs_.magnitude(value(i, what), fmt::format("{}: {}", place, what));
+    return repairs_.magnitude(value(i, what), place.of(what));
   };
   joint.viscous = loss(6, "viscous friction");
   joint.coulomb = loss(7, "Coulomb friction");
@@ -185,7 +187,7 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
 
 void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name) {
   const Line kind_line = expected(fmt::format("the joint type of link {}", number));
-  errors_at(fmt::format("{}: link {}", kind_line.place(), number),
+  errors_at(kind_line.place().of("link {}", number),
             [&] { return joints_of_kind(kind_line.word(0)); });
   used_up(kind_line, 1);
   const Line line = expected(fmt::format("the file of link {}", number));
@@ -196,8 +198,8 @@ void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name
     // a link stands on the one before: what moves that, moves it, too
     last = line.integer(1, fmt::format("link {}: last joint", number), before, joints - 1);
   } else {
-    cache_.note(fmt::format("{}: link {}: its last joint is not given; joint {} moves it",
-                            line.place(), number, last));
+    cache_.diagnostics().note(line.place().of("link {}", number),
+                              "its last joint is not given; joint {} moves it", last);
   }
   if (last >= joints)
     line.fail("link {}: expected a joint to move it, got {} joints for {} links", number, joints,
@@ -208,7 +210,7 @@ void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name
 void CfgReader::set_dof_units() {
   for (size_t i = 0; i < dof_lines_.size(); ++i) {
     const auto& [line, dof] = dof_lines_[i];
-    if (!dof_kinds_[i]) cache_.suspected(fmt::format("{}: DOF {} moves no joint", line.place(), i));
+    if (!dof_kinds_[i]) cache_.diagnostics().suspected(line.place(), "DOF {} moves no joint", i);
     robot_.dofs.push_back(in_si(dof, dof_kinds_[i] == JointKind::prismatic));
   }
 }
@@ -222,19 +224,20 @@ void CfgReader::check_ranges() {
 
 NamedFile CfgReader::named_file(const char* what) {
   const Line line = expected(fmt::format("the file of {}", what));
-  return {std::string(line.text()), fmt::format("{}: {}", line.place(), what)};
+  return {std::string(line.text()), line.place().of(what)};
 }
 
 void CfgReader::read_tracker() {
   TrackerSpec tracker;
   // some files leave the number out
   if (lines_.skip_to_full() && begins_transform(lines_.peek())) {
-    cache_.note(fmt::format("{}: FlockOfBirds: no bird number, 0 is used", lines_.peek().place()));
+    cache_.diagnostics().note(lines_.peek().place().of("FlockOfBirds"),
+                              "no bird number, 0 is used");
   } else {
     const Line line = expected("a bird number");
-    tracker.number = repairs_.count(line.word(0), line.place() + ": FlockOfBirds");
+    tracker.number = repairs_.count(line.word(0), line.place().of("FlockOfBirds"));
   }
-  tracker.X_BS = read_transform_list(lines_, cache_.options().listeners());
+  tracker.X_BS = read_transform_list(lines_, cache_.diagnostics());
   robot_.tracker = tracker;
 }
 
@@ -267,8 +270,8 @@ void CfgReader::read_optional_blocks() {
     else {
       const std::vector<std::string> keywords = {"EigenGrasps", "FlockOfBirds", "Approach",
                                                  "VirtualContacts", "CyberGlove"};
-      cache_.warn(fmt::format("{}: unknown keyword {} is not used{}", line.place(), in_quotes(key),
-                              did_you_mean(key, keywords)));
+      cache_.diagnostics().warn(line.place(), "unknown keyword {} is not used{}", in_quotes(key),
+                                did_you_mean(key, keywords));
     }
   }
 }

@@ -19,9 +19,10 @@ static Value fitted(const RobotSpec& robot, Value value, const fs::path&, const 
 
 static std::vector<VirtualContactSpec> fitted(const RobotSpec& robot, VirtualContactSet set,
                                               const fs::path& path, const ReadOptions& options) {
-  if (options.note && set.robot != robot.name)
-    options.note(fmt::format("{}: virtual contacts made for '{}' are used for '{}'",
-                             path.filename().string(), excerpt(set.robot), excerpt(robot.name)));
+  if (set.robot != robot.name)
+    options.diagnostics.note(Place(path.filename().string()),
+                             "virtual contacts made for '{}' are used for '{}'", excerpt(set.robot),
+                             excerpt(robot.name));
   return contacts_on(robot, std::move(set));
 }
 
@@ -35,7 +36,7 @@ static void read_named(Value (*read)(const fs::path&, const ReadOptions&), const
   try {
     path = find_file(named.name, referrer, options);
   } catch (const Error& error) {
-    if (options.warn) options.warn(fmt::format("{}: {}", named.place, error.what()));
+    options.diagnostics.warn(named.place, "{}", error.what());
     return;
   }
   target =
@@ -51,7 +52,7 @@ static void read_chosen(Value (*read)(const fs::path&, const ReadOptions&), cons
   if (name.empty()) return;
   const fs::path path = find_file(name, {}, options);
   Value value = read(path, options);
-  target = errors_at(path.filename().string(),
+  target = errors_at(Place(path.filename().string()),
                      [&] { return fitted(robot, std::move(value), path, options); });
   file = path.generic_string();
 }

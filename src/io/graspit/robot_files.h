@@ -10,7 +10,7 @@ namespace clench {
 /// A name as a robot's file holds it, and where: "Barrett.cfg:83".
 struct NamedFile {
   std::string name;  ///< empty: none
-  std::string place;
+  Place place;
 };
 
 struct NamedFiles {

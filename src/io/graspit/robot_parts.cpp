@@ -11,14 +11,13 @@
 
 namespace clench {
 
-void check_class(const std::string& name, const std::string& place,
-                 const std::function<void(const std::string&)>& warn) {
+void check_class(const std::string& name, const Place& place, const Diagnostics& diagnostics) {
   static const std::vector<std::string> classes = {
       "Robot", "Hand",   "Puma560",   "Barrett", "Robonaut", "Pr2Gripper", "Pr2Gripper2010",
       "M7",    "M7Tool", "HumanHand", "Shadow",  "McGrip",   "RobotIQ"};
-  if (!warn || std::ranges::find(classes, name) != classes.end()) return;
-  warn(fmt::format("{}: robot: unknown type {} has no meaning{}", place, in_quotes(name),
-                   did_you_mean(name, classes)));
+  if (!diagnostics || std::ranges::find(classes, name) != classes.end()) return;
+  diagnostics.warn(place.of("robot"), "unknown type {} has no meaning{}", in_quotes(name),
+                   did_you_mean(name, classes));
 }
 
 DofKind dof_kind(std::string_view letter, const std::string& subject) {

@@ -3,16 +3,16 @@
 #pragma once
 #include <functional>
 
+#include "clench/base/diagnostic.h"
 #include "clench/io/text/joint_expression.h"
 #include "clench/spec/chains.h"
 
 namespace clench {
 
-/// The classes that robots name mean nothing to us, but a word that is none is a mistake: tells
-/// `warn` of it. `place` begins the sentence:
+/// The classes that robots name mean nothing to us, but a word that is none is a mistake: which is
+/// warned of. `place` begins the sentence:
 /// "hand.cfg:1: robot: unknown type 'Hnad' has no meaning; did you mean 'Hand'?"
-void check_class(const std::string& name, const std::string& place,
-                 const std::function<void(const std::string&)>& warn);
+void check_class(const std::string& name, const Place& place, const Diagnostics& diagnostics);
 
 /// By the letter r, b or c.   `subject`  begins the error: "Barrett.cfg:4: DOF 0"
 DofKind dof_kind(std::string_view letter, const std::string& subject);

@@ -25,7 +25,7 @@ constexpr size_t max_elements = 1000;  // DOFs, chains, joints, links: far above
 class XmlRobotReader {
  public:
   XmlRobotReader(const XmlElement& root, const fs::path& path, FileCache& cache)
-      : root_(root), path_(path), cache_(cache), repairs_(cache.options().listeners()) {}
+      : root_(root), path_(path), cache_(cache), repairs_(cache.diagnostics()) {}
   RobotSpec read();
 
  private:
@@ -34,7 +34,7 @@ class XmlRobotReader {
     ChainPlace a, b;
   };
 
-  const std::function<void(const std::string&)>& warn() const { return cache_.options().warn; }
+  const Diagnostics& diagnostics() const { return cache_.diagnostics(); }
   void read_type();
   void read_dof(const XmlElement& element);
   void read_chain(const XmlElement& element);
@@ -70,13 +70,13 @@ RobotSpec XmlRobotReader::read() {
                         "flockOfBirds"},
                .many = {"dof", "chain", "disableCollision", "tendon", "tendonWrapper"},
                .attributes = {"type", "DBName"}},
-              warn());
+              diagnostics());
   robot_.name = path_.stem().string();
   robot_.source = path_.generic_string();
   read_type();
   robot_.database_name = root_.attribute("DBName").value_or("");
   const XmlElement palm = root_.expected("palm");
-  palm.check({}, warn());
+  palm.check({}, diagnostics());
   robot_.base = cache_.part(palm.text(), path_, palm.place());
   robot_.base.name = robot_.name + "_base";
   dofs_ = root_.children("dof");
@@ -94,7 +94,7 @@ RobotSpec XmlRobotReader::read() {
     robot_.collision_rules.pairs_off.push_back({part(element, a), part(element, b)});
   robot_.collision_rules.near_pairs_off = true;
   read_tendons(
-      root_, [&](const XmlElement& e, ChainPlace place) { return part(e, place); }, warn(),
+      root_, [&](const XmlElement& e, ChainPlace place) { return part(e, place); }, diagnostics(),
       repairs_, robot_);
   read_approach();
   read_tracker();
@@ -107,10 +107,10 @@ RobotSpec XmlRobotReader::read() {
 void XmlRobotReader::read_type() {
   robot_.class_name = root_.attribute("type").value_or("");
   if (robot_.class_name.empty()) {
-    cache_.note(fmt::format("{}: robot: no type; it is taken for a Hand", root_.place()));
+    diagnostics().note(root_.place().of("robot"), "no type; it is taken for a Hand");
     robot_.class_name = "Hand";
   } else {
-    check_class(robot_.class_name, root_.place(), warn());
+    check_class(robot_.class_name, root_.place(), diagnostics());
   }
 }
 
@@ -140,16 +140,14 @@ double XmlRobotReader::magnitude(const XmlElement& parent, const char* name,
                                  const std::string& subject) {
   const XmlElement child = parent.child(name);
   if (!child) return 0;
-  return repairs_.magnitude(bounded(child, subject),
-                            fmt::format("{}: {}: {}", child.place(), subject, name));
+  return repairs_.magnitude(bounded(child, subject), child.place().of(subject).of(name));
 }
 
 /// Of what counts as 0 when it is missing.
 double XmlRobotReader::number_or_zero(const XmlElement& parent, const char* name,
                                       const std::string& subject) {
   if (const XmlElement child = parent.child(name)) return bounded(child, subject);
-  repairs_.add("missing",
-               fmt::format("{}: {}: <{}> is missing; 0 is used", parent.place(), subject, name));
+  repairs_.add("missing", parent.place().of(subject), "<{}> is missing; 0 is used", name);
   return 0;
 }
 
@@ -157,18 +155,17 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
   element.check({.once = {"defaultVelocity", "defaultValue", "maxEffort", "Kp", "Kd",
                           "draggerScale", "breakAwayTorque"},
                  .attributes = {"type"}},
-                warn());
+                diagnostics());
   const size_t i = robot_.dofs.size();
-  if (!dof_kinds_[i])
-    cache_.suspected(fmt::format("{}: DOF {} moves no joint", element.place(), i));
+  if (!dof_kinds_[i]) diagnostics().suspected(element.place(), "DOF {} moves no joint", i);
   DofSpec dof;
   const std::string subject = fmt::format("DOF {}", i);
-  const std::string place = fmt::format("{}: {}", element.place(), subject);
+  const Place place = element.place().of(subject);
   const std::string kind = element.attribute("type").value_or("");
   if (kind.empty())
-    repairs_.add("kind", place + ": no type; it is taken for r");
+    repairs_.add("kind", place, "no type; it is taken for r");
   else
-    dof.kind = dof_kind(kind, place);
+    dof.kind = dof_kind(kind, place.text());
   const auto number = [&](const char* name) {
     const XmlElement child = element.child(name);
     return child ? bounded(child, subject) : 0.0;
@@ -193,9 +190,9 @@ void XmlRobotReader::set_dof_units() {
     if (dof.default_value < low || dof.default_value > high) {
       // 0 is only what nobody chose
       if (const XmlElement given = dofs_[i].child("defaultValue"))
-        cache_.repaired(
-            fmt::format("{}: DOF {}: defaultValue {} is outside its range; moved to the limit",
-                        given.place(), i, given.text()));
+        diagnostics().repaired(given.place().of("DOF {}", i),
+                               "defaultValue {} is outside its range; moved to the limit",
+                               given.text());
       dof.default_value = std::clamp(dof.default_value, low, high);
     }
   }
@@ -204,14 +201,14 @@ void XmlRobotReader::set_dof_units() {
 // --- chains ---
 
 void XmlRobotReader::read_chain(const XmlElement& element) {
-  element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, warn());
+  element.check({.once = {"transform"}, .many = {"joint", "link", "filter"}}, diagnostics());
   const int number = static_cast<int>(chains_.size());
   const auto joints = element.children("joint"), links = element.children("link");
   if (joints.size() > max_elements || links.size() > max_elements)
     element.fail("chain: expected at most {} joints and links, got {} and {}", max_elements,
                  joints.size(), links.size());
   if (links.empty()) element.fail("chain: expected a link, got none");
-  ChainLinks chain(read_transform_of(element, cache_.options().listeners()), dof_kinds_);
+  ChainLinks chain(read_transform_of(element, cache_.diagnostics()), dof_kinds_);
   for (const XmlElement& e : joints) read_joint(e, chain);
   chains_.emplace_back();
   for (int l = 0; l < static_cast<int>(links.size()); ++l) {
@@ -219,18 +216,18 @@ void XmlRobotReader::read_chain(const XmlElement& element) {
     read_link(links[l], chain, {number, l});
   }
   if (chain.last_joint() + 1 < chain.joints())
-    cache_.warn(fmt::format("{}: chain {}: joints from {} on move no link, and are not used",
-                            element.place(), number, chain.last_joint() + 1));
+    diagnostics().warn(element.place().of("chain {}", number),
+                       "joints from {} on move no link, and are not used", chain.last_joint() + 1);
   read_tactile(
       element, number, [&](const XmlElement& e, ChainPlace place) { return part(e, place); },
-      warn(), repairs_, robot_);
+      diagnostics(), repairs_, robot_);
 }
 
 void XmlRobotReader::read_joint(const XmlElement& element, ChainLinks& chain) {
   element.check({.once = {"theta", "d", "a", "alpha", "minValue", "maxValue", "viscousFriction",
                           "CoulombFriction", "springStiffness", "restValue"},
                  .attributes = {"type"}},
-                warn());
+                diagnostics());
   const std::string subject = fmt::format("joint {}", chain.joints());
   JointSpec joint;
   const std::string type = element.expected_attribute("type");
@@ -268,17 +265,15 @@ void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
   joint.min = bounded(low, subject);
   joint.max = bounded(high, subject);
   // some files write the limits in the direction of a DOF that the joint runs against
-  repairs_.order(joint.min, joint.max, fmt::format("{}: {}", low.place(), subject),
-                 {"minValue", "maxValue"});
+  repairs_.order(joint.min, joint.max, low.place().of(subject), {"minValue", "maxValue"});
 }
 
 void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, ChainPlace place) {
   element.check({.attributes = {"dynamicJointType", "collisionRule", "targetChain", "targetLink"}},
-                warn());
+                diagnostics());
   const std::string kind = element.expected_attribute("dynamicJointType");
-  const int last =
-      chain.last_joint() + errors_at(fmt::format("{}: link {}", element.place(), place.link),
-                                     [&] { return joints_of_kind(kind); });
+  const int last = chain.last_joint() + errors_at(element.place().of("link {}", place.link),
+                                                  [&] { return joints_of_kind(kind); });
   if (last >= chain.joints())
     element.fail("link {}: expected {} joints for the links up to it, got {}", place.link, last + 1,
                  chain.joints());
@@ -299,25 +294,23 @@ void XmlRobotReader::read_rule(const XmlElement& link, ChainPlace place) {
     ChainPlace target;
     const auto chain = link.attribute("targetChain");
     if (!chain)
-      repairs_.add("target",
-                   fmt::format("{}: link {}: OverlappingPair without a targetChain; its own "
-                               "chain, {}, is used",
-                               link.place(), place.link, place.chain));
+      repairs_.add("target", link.place().of("link {}", place.link),
+                   "OverlappingPair without a targetChain; its own chain, {}, is used",
+                   place.chain);
     if (!chain || lower_case(*chain) != "base")
       target = {chain ? link.integer_attribute("targetChain", 0) : place.chain,
                 link.integer_attribute("targetLink", 0)};
     pairs_off_.push_back({link, place, target});
   } else {
-    repairs_.add(
-        "rule", fmt::format("{}: link {}: collisionRule {} is neither Off nor OverlappingPair, and "
-                            "not used{}",
-                            link.place(), place.link, in_quotes(*rule),
-                            did_you_mean(*rule, {"Off", "OverlappingPair"})));
+    repairs_.add("rule", link.place().of("link {}", place.link),
+                 "collisionRule {} is neither Off nor OverlappingPair, and not used{}",
+                 in_quotes(*rule), did_you_mean(*rule, {"Off", "OverlappingPair"}));
   }
 }
 
 void XmlRobotReader::read_disabled_pair(const XmlElement& element) {
-  element.check({.attributes = {"body1_link", "body1_chain", "body2_link", "body2_chain"}}, warn());
+  element.check({.attributes = {"body1_link", "body1_chain", "body2_link", "body2_chain"}},
+                diagnostics());
   const auto place = [&](const char* chain, const char* link) {
     const ChainPlace out{element.integer_attribute(chain), element.integer_attribute(link)};
     return out.chain < 0 ? ChainPlace() : out;
@@ -331,7 +324,7 @@ void XmlRobotReader::read_disabled_pair(const XmlElement& element) {
 void XmlRobotReader::read_approach() {
   const XmlElement element = root_.child("approachDirection");
   if (!element) return;
-  element.check({.once = {"referenceLocation", "direction"}}, warn());
+  element.check({.once = {"referenceLocation", "direction"}}, diagnostics());
   const Eigen::Vector3d point = element.expected("referenceLocation").vector() * units::millimeter;
   const XmlElement direction = element.expected("direction");
   const Eigen::Vector3d along = direction.vector();
@@ -341,21 +334,21 @@ void XmlRobotReader::read_approach() {
 void XmlRobotReader::read_tracker() {
   const XmlElement element = root_.child("flockOfBirds");
   if (!element) return;
-  element.check({.once = {"transform"}, .attributes = {"number"}}, warn());
+  element.check({.once = {"transform"}, .attributes = {"number"}}, diagnostics());
   TrackerSpec tracker;
   if (const auto number = element.attribute("number"))
-    tracker.number = repairs_.count(*number, element.place() + ": flockOfBirds: number");
+    tracker.number = repairs_.count(*number, element.place().of("flockOfBirds: number"));
   else
-    cache_.note(fmt::format("{}: flockOfBirds: no bird number, 0 is used", element.place()));
-  tracker.X_BS = read_transform_of(element, cache_.options().listeners());
+    diagnostics().note(element.place().of("flockOfBirds"), "no bird number, 0 is used");
+  tracker.X_BS = read_transform_of(element, cache_.diagnostics());
   robot_.tracker = tracker;
 }
 
 NamedFile XmlRobotReader::named(const char* name) const {
   const XmlElement element = root_.child(name);
   if (!element) return {};
-  element.check({}, warn());
-  return {element.text(), fmt::format("{}: {}", element.place(), name)};
+  element.check({}, diagnostics());
+  return {element.text(), element.place().of(name)};
 }
 
 void XmlRobotReader::read_files() {

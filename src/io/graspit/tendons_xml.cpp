@@ -9,8 +9,6 @@ namespace clench {
 
 namespace {
 
-using Warn = std::function<void(const std::string&)>;
-
 /// A direction of length 1.
 Eigen::Vector3d direction(const XmlElement& element) {
   const Eigen::Vector3d v = element.vector();
@@ -21,8 +19,7 @@ Eigen::Vector3d direction(const XmlElement& element) {
 }
 
 double not_negative(const XmlElement& element, Repairs& repairs) {
-  return repairs.magnitude(element.number(),
-                           fmt::format("{}: {}", element.place(), element.name()));
+  return repairs.magnitude(element.number(), element.place().of(element.name()));
 }
 
 /// <chain> and <link>, both -1 for the base.
@@ -45,12 +42,12 @@ std::optional<double> length_of(const XmlElement& element, const char* name, Rep
   return not_negative(child, repairs) * units::millimeter;
 }
 
-TendonSpec read_tendon(const XmlElement& element, const FindLink& find, const Warn& warn,
-                       Repairs& repairs) {
+TendonSpec read_tendon(const XmlElement& element, const FindLink& find,
+                       const Diagnostics& diagnostics, Repairs& repairs) {
   element.check({.once = {"stiffness", "restLength", "preTensionLength"},
                  .many = {"insertionPoint"},
                  .attributes = {"name"}},
-                warn);
+                diagnostics);
   TendonSpec tendon;
   tendon.name = element.expected_attribute("name");
   if (const XmlElement stiffness = element.child("stiffness"))
@@ -58,7 +55,7 @@ TendonSpec read_tendon(const XmlElement& element, const FindLink& find, const Wa
   tendon.rest_length = length_of(element, "restLength", repairs);
   tendon.pre_tension_length = length_of(element, "preTensionLength", repairs);
   for (const XmlElement& e : element.children("insertionPoint")) {
-    e.check({.once = {"chain", "link", "position", "friction"}}, warn);
+    e.check({.once = {"chain", "link", "position", "friction"}}, diagnostics);
     TendonPoint point;
     point.link = link_of(e, find);
     point.p_L = e.expected("position").vector() * units::millimeter;
@@ -70,12 +67,12 @@ TendonSpec read_tendon(const XmlElement& element, const FindLink& find, const Wa
   return tendon;
 }
 
-TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find, const Warn& warn,
-                           Repairs& repairs) {
+TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find,
+                           const Diagnostics& diagnostics, Repairs& repairs) {
   element.check(
       {.once = {"chain", "link", "friction", "position", "orientation", "radius", "length"},
        .many = {"exemption", "wrapping_side"}},
-      warn);
+      diagnostics);
   TendonWrapper wrapper;
   wrapper.link = link_of(element, find);
   wrapper.friction = friction_of(element, repairs);
@@ -85,11 +82,11 @@ TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find, cons
   if (const XmlElement length = element.child("length"))
     wrapper.length = not_negative(length, repairs) * units::millimeter;
   for (const XmlElement& e : element.children("exemption")) {
-    e.check({.attributes = {"tendon"}}, warn);
+    e.check({.attributes = {"tendon"}}, diagnostics);
     wrapper.exempt.push_back(e.expected_attribute("tendon"));
   }
   for (const XmlElement& e : element.children("wrapping_side")) {
-    e.check({.once = {"orientation"}, .attributes = {"tendon"}}, warn);
+    e.check({.once = {"orientation"}, .attributes = {"tendon"}}, diagnostics);
     wrapper.sides.push_back({e.expected_attribute("tendon"), direction(e.expected("orientation"))});
   }
   return wrapper;
@@ -97,7 +94,7 @@ TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find, cons
 
 /// Tells of tendons that wrappers name and nobody has.
 void check_names(const std::vector<XmlElement>& wrappers, const std::vector<TendonSpec>& tendons,
-                 const Warn& warn) {
+                 const Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const TendonSpec& tendon : tendons) names.push_back(tendon.name);
   for (const XmlElement& wrapper : wrappers)
@@ -105,28 +102,30 @@ void check_names(const std::vector<XmlElement>& wrappers, const std::vector<Tend
       for (const XmlElement& e : wrapper.children(kind))
         if (const std::string name = e.expected_attribute("tendon");
             std::ranges::find(names, name) == names.end())
-          warn(fmt::format("{}: {}: there is no tendon {}{}", e.place(), kind, in_quotes(name),
-                           did_you_mean(name, names)));
+          diagnostics.warn(e.place().of(kind), "there is no tendon {}{}", in_quotes(name),
+                           did_you_mean(name, names));
 }
 
 }  // namespace
 
-void read_tendons(const XmlElement& robot, const FindLink& find, const Warn& warn, Repairs& repairs,
-                  RobotSpec& out) {
+void read_tendons(const XmlElement& robot, const FindLink& find, const Diagnostics& diagnostics,
+                  Repairs& repairs, RobotSpec& out) {
   const auto tendons = robot.children("tendon"), wrappers = robot.children("tendonWrapper");
-  for (const XmlElement& e : tendons) out.tendons.push_back(read_tendon(e, find, warn, repairs));
-  for (const XmlElement& e : wrappers) out.wrappers.push_back(read_wrapper(e, find, warn, repairs));
-  if (warn) check_names(wrappers, out.tendons, warn);
-  if (warn && !(tendons.empty() && wrappers.empty()))
-    warn(fmt::format("{}: tendons and their wrappers are kept, {} and {}, but have no effect",
-                     (tendons.empty() ? wrappers : tendons).front().place(), tendons.size(),
-                     wrappers.size()));
+  for (const XmlElement& e : tendons)
+    out.tendons.push_back(read_tendon(e, find, diagnostics, repairs));
+  for (const XmlElement& e : wrappers)
+    out.wrappers.push_back(read_wrapper(e, find, diagnostics, repairs));
+  if (diagnostics) check_names(wrappers, out.tendons, diagnostics);
+  if (diagnostics && !(tendons.empty() && wrappers.empty()))
+    diagnostics.warn((tendons.empty() ? wrappers : tendons).front().place(),
+                     "tendons and their wrappers are kept, {} and {}, but have no effect",
+                     tendons.size(), wrappers.size());
 }
 
-void read_tactile(const XmlElement& chain, int number, const FindLink& find, const Warn& warn,
-                  Repairs& repairs, RobotSpec& out) {
+void read_tactile(const XmlElement& chain, int number, const FindLink& find,
+                  const Diagnostics& diagnostics, Repairs& repairs, RobotSpec& out) {
   for (const XmlElement& e : chain.children("filter")) {
-    e.check({.attributes = {"params"}}, warn);
+    e.check({.attributes = {"params"}}, diagnostics);
     TactileSpec sensor;
     sensor.link = find(e, {number, e.integer(0)});
     const std::string params = e.expected_attribute("params");
@@ -141,8 +140,8 @@ void read_tactile(const XmlElement& chain, int number, const FindLink& find, con
     sensor.low_L = Eigen::Vector3d(x[0], x[1], x[2]);
     sensor.high_L = Eigen::Vector3d(x[3], x[4], x[5]);
     if ((sensor.low_L.array() > sensor.high_L.array()).any()) {
-      repairs.add("corners", fmt::format("{}: filter: params: the corners {} are put in order",
-                                         e.place(), in_quotes(params)));
+      repairs.add("corners", e.place().of("filter"), "params: the corners {} are put in order",
+                  in_quotes(params));
       const Eigen::Vector3d low = sensor.low_L.cwiseMin(sensor.high_L);
       sensor.high_L = sensor.low_L.cwiseMax(sensor.high_L);
       sensor.low_L = low;

@@ -13,13 +13,11 @@ using FindLink = std::function<int(const XmlElement& element, ChainPlace place)>
 
 /// <tendon> and <tendonWrapper>, millimeters; they are kept, and `warn` is told that they do not act.
 /// throws Error  "hand.xml:31: tendon: expected at least 2 insertion points, got 1"
-void read_tendons(const XmlElement& robot, const FindLink& find,
-                  const std::function<void(const std::string&)>& warn, Repairs& repairs,
-                  RobotSpec& out);
+void read_tendons(const XmlElement& robot, const FindLink& find, const Diagnostics& diagnostics,
+                  Repairs& repairs, RobotSpec& out);
 
 /// The <filter> elements of a chain.
 void read_tactile(const XmlElement& chain, int number, const FindLink& find,
-                  const std::function<void(const std::string&)>& warn, Repairs& repairs,
-                  RobotSpec& out);
+                  const Diagnostics& diagnostics, Repairs& repairs, RobotSpec& out);
 
 }  // namespace clench

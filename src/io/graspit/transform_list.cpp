@@ -13,7 +13,7 @@ bool begins_transform(const Line& line) {
 // files write six digits
 static constexpr double nearly_unit = 1e-4;
 
-Pose read_full_transform(const Line& line, std::string_view text, const Listeners& listeners) {
+Pose read_full_transform(const Line& line, std::string_view text, const Diagnostics& diagnostics) {
   text = trim(text.substr(0, text.find('#')));
   // the brackets in their order, then the numbers between them
   std::string shape;
@@ -34,9 +34,9 @@ Pose read_full_transform(const Line& line, std::string_view text, const Listener
     line.fail("transform: expected a quaternion of length 1, got ({} {} {} {})", x[0], x[1], x[2],
               x[3]);
   if (std::abs(wxyz.stableNorm() - 1) > nearly_unit)
-    tell(listeners.repair, listeners.warn,
-         fmt::format("{}: the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
-                     line.place(), x[0], x[1], x[2], x[3]));
+    diagnostics.repaired(line.place(),
+                         "the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
+                         x[0], x[1], x[2], x[3]);
   return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimeter};
 }
 
@@ -47,7 +47,7 @@ static Eigen::Vector3d axis(const Line& line, int i) {
   line.fail("rotation: expected an axis x, y or z, got {}", in_quotes(word));
 }
 
-static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& listeners) {
+static Pose read_matrix(const Line& head, LineReader& lines, const Diagnostics& diagnostics) {
   // nine numbers, wherever the lines end
   Eigen::Matrix3d R;
   Line line = head.before('#');
@@ -59,7 +59,7 @@ static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& li
     }
     R.col(i / 3)[i % 3] = line.number(next++, "rotation matrix");
   }
-  warn_of_surplus(line, next, listeners.warn);
+  warn_of_surplus(line, next, diagnostics);
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error < 1e-2))
     head.fail("rotation matrix: expected unit axes at right angles; they are off by {:.2g}", error);
@@ -68,12 +68,12 @@ static Pose read_matrix(const Line& head, LineReader& lines, const Listeners& li
   return Pose::turn(Eigen::Quaterniond(R).normalized());
 }
 
-Pose read_transform(const Line& line, LineReader& lines, const Listeners& listeners) {
+Pose read_transform(const Line& line, LineReader& lines, const Diagnostics& diagnostics) {
   const std::string_view key = line.word(0);
   if (line.text().starts_with('T') && (key == "T" || key.starts_with("T(")))
-    return read_full_transform(line, trim(line.text().substr(1)), listeners);
-  if (key == "R") return read_matrix(line, lines, listeners);
-  warn_of_surplus(line, key == "t" ? 4 : 3, listeners.warn);
+    return read_full_transform(line, trim(line.text().substr(1)), diagnostics);
+  if (key == "R") return read_matrix(line, lines, diagnostics);
+  warn_of_surplus(line, key == "t" ? 4 : 3, diagnostics);
   if (key == "t")
     return Pose::translation(Eigen::Vector3d(line.number(1, "translation x"),
                                              line.number(2, "translation y"),
@@ -84,11 +84,11 @@ Pose read_transform(const Line& line, LineReader& lines, const Listeners& listen
   line.fail("transform: expected t, r, rr, T or R, got {}", in_quotes(key));
 }
 
-Pose read_transform_list(LineReader& lines, const Listeners& listeners) {
+Pose read_transform_list(LineReader& lines, const Diagnostics& diagnostics) {
   std::optional<Pose> total;  // the only one is kept to the bit
   while (lines.skip_to_full() && begins_transform(lines.peek())) {
     const Line line = lines.next();
-    const Pose next = read_transform(line, lines, listeners);
+    const Pose next = read_transform(line, lines, diagnostics);
     total = total ? *total * next : next;
   }
   return total.value_or(Pose{});

@@ -6,8 +6,8 @@ namespace clench {
 
 // one element as a line of the text formats
 Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
-                            const Listeners& listeners) {
-  if (tag == "fullTransform") return read_full_transform(line, trim(value), listeners);
+                            const Diagnostics& diagnostics) {
+  if (tag == "fullTransform") return read_full_transform(line, trim(value), diagnostics);
   const char* key = tag == "translation"      ? "t "
                     : tag == "rotation"       ? "r "
                     : tag == "rotationMatrix" ? "R "
@@ -15,14 +15,14 @@ Pose read_transform_element(const Line& line, std::string_view tag, std::string_
   if (!key)
     line.fail("expected translation, rotation, rotationMatrix or fullTransform, got <{}>",
               excerpt(tag));
-  const std::string file = line.place().substr(0, line.place().rfind(':'));
+  const std::string file = line.place().file;
   LineReader one(file, std::string(line.number() - 1, '\n') + key + std::string(value));
   Line entry;
   while (!one.done()) entry = one.next();
-  return read_transform(entry, one, listeners);
+  return read_transform(entry, one, diagnostics);
 }
 
-Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners& listeners) {
+Pose read_tagged_transform(const Line& line, LineReader& lines, const Diagnostics& diagnostics) {
   // the element as one text, white space between its parts
   const std::string_view name = line.text().substr(1, line.text().find_first_of("> ") - 1);
   const std::string closing = "</" + std::string(name) + ">";
@@ -50,25 +50,25 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners&
     if (tail == std::string_view::npos)
       line.fail("transform: expected </{0}> for <{0}>", excerpt(tag));
     const Pose next =
-        read_transform_element(line, tag, rest.substr(head + 1, tail - head - 1), listeners);
+        read_transform_element(line, tag, rest.substr(head + 1, tail - head - 1), diagnostics);
     total = total ? *total * next : next;
     rest = trim(rest.substr(tail + end.size()));
   }
   return total.value_or(Pose{});
 }
 
-Pose read_transform_of(const XmlElement& element, const Listeners& listeners) {
+Pose read_transform_of(const XmlElement& element, const Diagnostics& diagnostics) {
   const XmlElement transform = element.child("transform");
   if (!transform) return {};
   std::optional<Pose> total;  // the only one is kept to the bit
   for (const XmlElement& e : transform.children()) {
     std::string value = e.text();
     std::replace(value.begin(), value.end(), '\n', ' ');
-    const Pose next = read_transform_element(e.as_line(value), e.name(), value, listeners);
+    const Pose next = read_transform_element(e.as_line(value), e.name(), value, diagnostics);
     total = total ? *total * next : next;
   }
   transform.check({.many = {"translation", "rotation", "rotationMatrix", "fullTransform"}},
-                  listeners.warn);
+                  diagnostics);
   return total.value_or(Pose{});
 }
 

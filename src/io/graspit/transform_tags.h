@@ -11,15 +11,16 @@ namespace clench {
 /// "degrees axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]".
 /// throws Error at the line when it is none of these
 Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
-                            const Listeners& listeners = {});
+                            const Diagnostics& diagnostics = {});
 
 /// `<transform> <fullTransform>(w x y z)[x y z]</fullTransform> ... </transform>`, or one of the
 /// inner elements alone, composed left to right. `line` is the first line; reads on to the closing
 /// tag.
-Pose read_tagged_transform(const Line& line, LineReader& lines, const Listeners& listeners = {});
+Pose read_tagged_transform(const Line& line, LineReader& lines,
+                           const Diagnostics& diagnostics = {});
 
 /// The child <transform> of an element, or identity when there is none.
 /// throws Error at the line of what stands in it and is no part of a transform
-Pose read_transform_of(const XmlElement& element, const Listeners& listeners);
+Pose read_transform_of(const XmlElement& element, const Diagnostics& diagnostics);
 
 }  // namespace clench

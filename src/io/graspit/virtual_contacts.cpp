@@ -13,8 +13,6 @@ namespace clench {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-using Tell = std::function<void(const std::string&)>;
-
 namespace {
 
 constexpr int max_chains = 1000;  // as of robots
@@ -26,7 +24,7 @@ Vector6d edge_in_meters(Vector6d edge) {
 }
 
 /// What a file says of the place, as it says it: some of it twice.
-struct Place {
+struct StatedPose {
   Vector3d location, translation, normal;  // millimeters
   Eigen::Quaterniond rotation;
 };
@@ -35,14 +33,14 @@ struct Place {
 constexpr double same_length = 0.01;  // [mm]
 constexpr double same_angle = 0.01;   // [rad]
 
-Pose contact_pose(const Place& place, const std::string& subject, const Tell& warn) {
-  if (warn && !((place.location - place.translation).norm() <= same_length))
-    warn(subject + ": location and translation differ; the translation is used");
+Pose contact_pose(const StatedPose& place, const Place& subject, const Diagnostics& diagnostics) {
+  if (diagnostics && !((place.location - place.translation).norm() <= same_length))
+    diagnostics.warn(subject, "location and translation differ; the translation is used");
   const Vector3d z = place.rotation * Vector3d::UnitZ();
   const double angle = std::atan2(z.cross(place.normal).norm(), z.dot(place.normal));
-  if (warn && !(angle <= same_angle))
-    warn(fmt::format("{}: normal and rotation differ by {:.3g} rad; the rotation is used", subject,
-                     angle));
+  if (diagnostics && !(angle <= same_angle))
+    diagnostics.warn(subject, "normal and rotation differ by {:.3g} rad; the rotation is used",
+                     angle);
   return {place.rotation, place.translation * units::millimeter};
 }
 
@@ -78,38 +76,37 @@ double read_mu(NumberReader& numbers, const std::string& what, Repairs* repairs)
   if (mu < 0 && !repairs)
     numbers.line().fail("{}: friction coefficient: expected >= 0, got {}", what, mu);
   if (!repairs) return mu;
-  return repairs->magnitude(
-      mu, fmt::format("{}: {}: friction coefficient", numbers.line().place(), what));
+  return repairs->magnitude(mu, numbers.line().place().of(what).of("friction coefficient"));
 }
 
-void read_vgr_contact(NumberReader& numbers, int number, const Tell& warn, Repairs& repairs,
-                      VirtualContactSet& set) {
+void read_vgr_contact(NumberReader& numbers, int number, const Diagnostics& diagnostics,
+                      Repairs& repairs, VirtualContactSet& set) {
   const std::string what = fmt::format("contact {}", number);
   VirtualContactSpec contact;
   const ChainPlace on = read_place([&](const char* name, int min) {
     return numbers.integer(fmt::format("{}: {}", what, name), min, max_chains);
   });
   contact.edges = read_edges(numbers, what);
-  Place place;
+  StatedPose place;
   place.location = numbers.vector(what + ": location");
   place.rotation = numbers.quaternion(what + ": rotation");
   place.translation = numbers.vector(what + ": translation");
   place.normal = numbers.vector(what + ": normal");
-  contact.X_LC = contact_pose(place, fmt::format("{}: {}", numbers.line().place(), what), warn);
+  contact.X_LC = contact_pose(place, numbers.line().place().of(what), diagnostics);
   contact.mu = read_mu(numbers, what, &repairs);
   check_virtual_contact(contact, fmt::format("{}: {}", numbers.line().place(), what));
   add(set, on, std::move(contact));
 }
 
-VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell& warn,
-                           Repairs& repairs) {
+VirtualContactSet read_vgr(const std::string& file, std::string text,
+                           const Diagnostics& diagnostics, Repairs& repairs) {
   LineReader lines(file, std::move(text));
   VirtualContactSet set;
   set.robot = lines.next_full("the robot's name").text();
   NumberReader numbers(lines);
   const int count = numbers.integer("number of contacts", 0);
-  for (int i = 0; i < count; ++i) read_vgr_contact(numbers, i + 1, warn, repairs, set);
-  numbers.finish(warn);
+  for (int i = 0; i < count; ++i) read_vgr_contact(numbers, i + 1, diagnostics, repairs, set);
+  numbers.finish(diagnostics);
   return set;
 }
 
@@ -118,22 +115,22 @@ VirtualContactSet read_vgr(const std::string& file, std::string text, const Tell
 /// What is there counts, not what is declared.
 void check_count(const XmlElement& declared, int given, const char* what, Repairs& repairs) {
   if (const std::string text = declared.text(); parse_integer(text) != given)
-    repairs.add("count",
-                fmt::format("{}: {}: expected {}, as there are as many {}, got {}; those count",
-                            declared.place(), declared.name(), given, what, in_quotes(text)));
+    repairs.add("count", declared.place().of(declared.name()),
+                "expected {}, as there are as many {}, got {}; those count", given, what,
+                in_quotes(text));
 }
 
-void read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs,
+void read_xml_contact(const XmlElement& e, const Diagnostics& diagnostics, Repairs& repairs,
                       VirtualContactSet& set) {
   e.check({.once = {"finger_number", "link_number", "num_friction_edges", "friction_edges",
                     "location", "rotation", "translation", "normal", "sCof"}},
-          warn);
+          diagnostics);
   VirtualContactSpec contact;
   const ChainPlace on = read_place([&](const std::string& name, int min) {
     return e.expected(name + "_number").integer(min, max_chains);
   });
   const XmlElement list = e.expected("friction_edges");
-  list.check({.many = {"friction_edge"}}, warn);
+  list.check({.many = {"friction_edge"}}, diagnostics);
   const auto edges = list.children("friction_edge");
   const int count = static_cast<int>(edges.size());
   if (count > max_friction_edges)
@@ -150,28 +147,28 @@ void read_xml_contact(const XmlElement& e, const Tell& warn, Repairs& repairs,
   if (!q)
     rotation.fail("rotation: expected a quaternion of length 1, got ({} {} {} {})", x[0], x[1],
                   x[2], x[3]);
-  const Place place{.location = e.expected("location").vector(),
-                    .translation = e.expected("translation").vector(),
-                    .normal = e.expected("normal").vector(),
-                    .rotation = *q};
-  contact.X_LC = contact_pose(place, e.place(), warn);
+  const StatedPose place{.location = e.expected("location").vector(),
+                         .translation = e.expected("translation").vector(),
+                         .normal = e.expected("normal").vector(),
+                         .rotation = *q};
+  contact.X_LC = contact_pose(place, e.place(), diagnostics);
   const XmlElement mu = e.expected("sCof");
-  contact.mu = repairs.magnitude(mu.number(), mu.place() + ": sCof");
-  check_virtual_contact(contact, e.place());
+  contact.mu = repairs.magnitude(mu.number(), mu.place().of("sCof"));
+  check_virtual_contact(contact, e.place().text());
   add(set, on, std::move(contact));
 }
 
-VirtualContactSet read_xml(const std::string& name, const std::string& text, const Tell& warn,
-                           Repairs& repairs) {
+VirtualContactSet read_xml(const std::string& name, const std::string& text,
+                           const Diagnostics& diagnostics, Repairs& repairs) {
   const XmlFile file(name, text);
   const XmlElement root = file.root();
   if (root.name() != "virtual_contacts")
     root.fail("expected an element <virtual_contacts>, got <{}>", excerpt(root.name()));
-  root.check({.once = {"robot_name", "num_contacts"}, .many = {"virtual_contact"}}, warn);
+  root.check({.once = {"robot_name", "num_contacts"}, .many = {"virtual_contact"}}, diagnostics);
   VirtualContactSet set;
   if (const XmlElement robot = root.child("robot_name")) set.robot = robot.text();
   for (const XmlElement& e : root.children("virtual_contact"))
-    read_xml_contact(e, warn, repairs, set);
+    read_xml_contact(e, diagnostics, repairs, set);
   if (const XmlElement count = root.child("num_contacts"))
     check_count(count, static_cast<int>(set.contacts.size()), "contacts", repairs);
   return set;
@@ -269,10 +266,10 @@ VirtualContactSet read_virtual_contacts(const fs::path& path, const ReadOptions&
   return of_file([&] {
     std::string text = read_text(path);
     const std::string file = path.filename().string();
-    Repairs repairs(options.listeners());
+    Repairs repairs(options.diagnostics);
     VirtualContactSet set = trim(text).starts_with('<')
-                                ? read_xml(file, text, options.warn, repairs)
-                                : read_vgr(file, std::move(text), options.warn, repairs);
+                                ? read_xml(file, text, options.diagnostics, repairs)
+                                : read_vgr(file, std::move(text), options.diagnostics, repairs);
     repairs.tell();
     return set;
   });
@@ -325,18 +322,18 @@ std::vector<ObjectContact> read_object_contacts(const fs::path& path, const Read
     try {
       auto contacts = read_list(bare_numbers, false, nullptr);
       if (!bare_numbers.more() && !contacts.empty()) {
-        if (options.warn)
-          options.warn(file + ": the points of the contacts are left out; they are not placed");
+        options.diagnostics.warn(Place(file),
+                                 "the points of the contacts are left out; they are not placed");
         return contacts;
       }
     } catch (const Error& error) {
       // then it is the other one, whose errors are told
       if (error.kind() != ErrorKind::input) throw;
     }
-    Repairs repairs(options.listeners());
+    Repairs repairs(options.diagnostics);
     auto contacts = read_list(numbers, true, &repairs);
     repairs.tell();
-    numbers.finish(options.warn);
+    numbers.finish(options.diagnostics);
     return contacts;
   });
 }

@@ -20,7 +20,7 @@ double unit_of(const RobotSpec& robot, int dof) {
 
 // --- DOFs ---
 
-void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners) {
+void read_dof_values(const Line& line, PlacedRobot& placed, const Diagnostics& diagnostics) {
   const RobotSpec& robot = placed.robot;
   const int dofs = static_cast<int>(robot.dofs.size());
   const bool plain = line.size() == dofs;
@@ -30,9 +30,8 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& lis
     least += robot.dofs[joint.dof].kind == DofKind::breakaway;
   });
   const auto repair = [&](int expected, const char* made) {
-    tell(listeners.repair, listeners.warn,
-         fmt::format("{}: expected {} numbers for the {} DOFs of {}, got {}; {}", line.place(),
-                     expected, dofs, robot.name, line.size(), made));
+    diagnostics.repaired(line.place(), "expected {} numbers for the {} DOFs of {}, got {}; {}",
+                         expected, dofs, robot.name, line.size(), made);
   };
   // with joints that may break away nobody knows which numbers lack
   const bool short_line = line.size() < dofs && least == dofs;
@@ -124,23 +123,23 @@ int chain_of(const WorldSpec& world, const Connection& connection) {
 }
 
 std::optional<Eigen::Quaterniond> camera_orientation(const Eigen::Vector4d& xyzw,
-                                                     const std::string& subject,
+                                                     const Place& subject,
                                                      const ReadOptions& options) {
   const auto q = made_unit({xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
   if (!q)
-    options.repaired(fmt::format(
-        "{}: expected a quaternion of length 1, got {} {} {} {}; the camera is not used", subject,
-        xyzw[0], xyzw[1], xyzw[2], xyzw[3]));
+    options.diagnostics.repaired(
+        subject, "expected a quaternion of length 1, got {} {} {} {}; the camera is not used",
+        xyzw[0], xyzw[1], xyzw[2], xyzw[3]);
   return q;
 }
 
-std::optional<Camera> checked_camera(const Camera& camera, const std::string& place,
+std::optional<Camera> checked_camera(const Camera& camera, const Place& place,
                                      const ReadOptions& options) {
   try {
-    check_camera(camera, place + ": camera");
+    check_camera(camera, "camera");
     return camera;
   } catch (const Error& error) {
-    options.repaired(fmt::format("{}; the camera is not used", error.what()));
+    options.diagnostics.repaired(place, "{}; the camera is not used", error.what());
     return {};
   }
 }

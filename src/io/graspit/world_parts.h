@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/base/text.h"
 #include "clench/io/text/find_file.h"
 #include "clench/spec/world_spec.h"
@@ -14,12 +14,12 @@ namespace clench {
 /// of its joints, 0, or 1 and the value of the DOF at which the joint broke away. One value per DOF
 /// and nothing else is read too; DOFs whose values lack start at their defaults.
 /// throws Error at the line's place
-void read_dof_values(const Line& line, PlacedRobot& placed, const Listeners& listeners);
+void read_dof_values(const Line& line, PlacedRobot& placed, const Diagnostics& diagnostics);
 std::string dof_values(const PlacedRobot& placed);
 
 /// What a file says of a connection: the parent's chain, whose last link it means.
 struct ConnectionPlace {
-  std::string place;
+  Place place;
   int chain = 0;
 };
 /// Finds the links of the world's connections, when all robots are known.
@@ -34,11 +34,11 @@ int chain_of(const WorldSpec& world, const Connection& connection);
 /// Orientation of a camera, in Inventor's order x y z w; empty when they are no rotation, which is
 /// told.   `subject`  begins the sentence: "mug.wld:7: camera orientation"
 std::optional<Eigen::Quaterniond> camera_orientation(const Eigen::Vector4d& xyzw,
-                                                     const std::string& subject,
+                                                     const Place& subject,
                                                      const ReadOptions& options);
 
 /// A camera that check_camera refuses is none, which is told.
-std::optional<Camera> checked_camera(const Camera& camera, const std::string& place,
+std::optional<Camera> checked_camera(const Camera& camera, const Place& place,
                                      const ReadOptions& options);
 
 /// The shortest decimal that a reader who multiplies it by `unit`, and then by `factor`, turns into

@@ -50,7 +50,7 @@ bool WldReader::begins_pose(const Line& line) const {
 
 Pose WldReader::pose() {
   lines_.skip_to_full();
-  const std::string place = lines_.peek().place();
+  const std::string place = lines_.peek().place().text();
   const Pose X = any_pose();
   check_place(X, place);
   return X;
@@ -59,12 +59,12 @@ Pose WldReader::pose() {
 Pose WldReader::any_pose() {
   const Line line = lines_.next_full("a transform 'T (w x y z)[x y z]'");
   if (line.text().starts_with('<'))
-    return read_tagged_transform(line, lines_, cache_.options().listeners());
+    return read_tagged_transform(line, lines_, cache_.diagnostics());
   if (!begins_pose(line))
     line.fail("expected a transform 'T (w x y z)[x y z]', got {}", in_quotes(line.text()));
   const std::string_view text = line.text();
   return read_full_transform(line, trim(text.substr(text.front() == 'T' ? 1 : 0)),
-                             cache_.options().listeners());
+                             cache_.diagnostics());
 }
 
 void WldReader::read_header() {
@@ -74,7 +74,8 @@ void WldReader::read_header() {
   if (!named && !lines_.skip_to_full())
     first.fail("expected '#GraspIt! version ...', got {}", in_quotes(first.text()));
   if (!named)
-    cache_.suspected(first.place() + ": the first line '#GraspIt! version ...' is missing");
+    cache_.diagnostics().suspected(first.place(),
+                                   "the first line '#GraspIt! version ...' is missing");
 }
 
 static constexpr const char* block_names[] = {"Obstacle",   "GraspableBody", "Robot",
@@ -139,7 +140,7 @@ void WldReader::read_robot() {
     if (lines_.peek().blank()) lines_.next();
   } else {
     read_dof_values(lines_.next_full("the values of the DOFs").before('#'), placed,
-                    cache_.options().listeners());
+                    cache_.diagnostics());
   }
   placed.X_WB = pose();
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});
@@ -152,7 +153,7 @@ void WldReader::read_connection() {
   c.parent = line.integer(0, "parent robot", 0);
   const int chain = line.integer(1, "parent chain", 0);
   c.child = line.integer(2, "child robot", 0);
-  warn_of_surplus(line, 3, cache_.options().warn);
+  warn_of_surplus(line, 3, cache_.diagnostics());
   // the line of the mount may be empty
   const Line mount = lines_.peek();
   if (!begins_pose(mount)) lines_.next();
@@ -169,10 +170,10 @@ void WldReader::read_camera(bool focal_distance) {
   double x[8];
   for (int i = 0; i < 7; ++i)
     x[i] = line.number(i, i < 3 ? "camera position" : "camera orientation (x y z w)");
-  const auto q = camera_orientation({x[3], x[4], x[5], x[6]}, line.place() + ": camera orientation",
+  const auto q = camera_orientation({x[3], x[4], x[5], x[6]}, line.place().of("camera orientation"),
                                     cache_.options());
   if (!q) return;
-  warn_of_surplus(line, focal_distance ? 8 : 7, cache_.options().warn);
+  warn_of_surplus(line, focal_distance ? 8 : 7, cache_.diagnostics());
   Camera camera;
   camera.X_WC = {*q, Eigen::Vector3d(x[0], x[1], x[2]) * units::millimeter};
   if (focal_distance) camera.focal_distance = line.number(7, "focal distance") * units::millimeter;

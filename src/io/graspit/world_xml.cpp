@@ -19,7 +19,7 @@ class XmlWorldReader {
   WorldSpec read();
 
  private:
-  const std::function<void(const std::string&)>& warn() const { return cache_.options().warn; }
+  const Diagnostics& diagnostics() const { return cache_.diagnostics(); }
   void read_body(const XmlElement& element, Role role);
   BodySpec inline_body(const XmlElement& element);
   void read_robot(const XmlElement& element);
@@ -36,7 +36,7 @@ class XmlWorldReader {
 
 WorldSpec XmlWorldReader::read() {
   root_.check({.once = {"camera"}, .many = {"obstacle", "graspableBody", "robot", "connection"}},
-              warn());
+              diagnostics());
   world_.source = path_.generic_string();
   // elements that are unknown have been warned of
   for (const XmlElement& e : root_.children()) {
@@ -57,9 +57,9 @@ WorldSpec XmlWorldReader::read() {
 
 Pose XmlWorldReader::pose(const XmlElement& element) const {
   if (!element.child("transform"))
-    cache_.note(fmt::format("{}: {}: no <transform>; it stands at the origin", element.place(),
-                            element.name()));
-  const Pose X = read_transform_of(element, cache_.options().listeners());
+    diagnostics().note(element.place().of(element.name()),
+                       "no <transform>; it stands at the origin");
+  const Pose X = read_transform_of(element, cache_.diagnostics());
   check_place(X, fmt::format("{}: {}", element.place(), element.name()));
   return X;
 }
@@ -73,18 +73,18 @@ BodySpec XmlWorldReader::inline_body(const XmlElement& element) {
 }
 
 void XmlWorldReader::read_body(const XmlElement& element, Role role) {
-  element.check({.once = {"filename", "body", "transform"}}, warn());
+  element.check({.once = {"filename", "body", "transform"}}, diagnostics());
   PlacedBody placed;
   placed.role = role;
   const XmlElement own = element.child("body"), name = element.child("filename");
   if (own) {
     if (name && lower_case(name.text()) != "unspecified")
-      cache_.repaired(fmt::format("{}: {}: expected <filename> or <body>, got both; <body> is used",
-                                  name.place(), element.name()));
+      diagnostics().repaired(name.place().of(element.name()),
+                             "expected <filename> or <body>, got both; <body> is used");
     placed.body = inline_body(own);
   } else {
     const XmlElement file = element.expected("filename");
-    file.check({}, warn());
+    file.check({}, diagnostics());
     placed.body = cache_.named_body(file.text(), path_, file.place());
   }
   placed.X_WB = pose(element);
@@ -93,18 +93,18 @@ void XmlWorldReader::read_body(const XmlElement& element, Role role) {
 }
 
 void XmlWorldReader::read_robot(const XmlElement& element) {
-  element.check({.once = {"filename", "dofValues", "transform"}}, warn());
+  element.check({.once = {"filename", "dofValues", "transform"}}, diagnostics());
   PlacedRobot placed;
   const XmlElement file = element.expected("filename");
-  file.check({}, warn());
+  file.check({}, diagnostics());
   placed.robot = cache_.named_robot(file.text(), path_, file.place());
   const XmlElement values = element.child("dofValues");
   if (values) {
     const std::string text = values.text();
-    read_dof_values(values.as_line(text), placed, cache_.options().listeners());
+    read_dof_values(values.as_line(text), placed, cache_.diagnostics());
   } else if (!placed.robot.dofs.empty()) {
-    cache_.note(fmt::format("{}: robot: no <dofValues>; its DOFs start at their defaults",
-                            element.place()));
+    diagnostics().note(element.place().of("robot"),
+                       "no <dofValues>; its DOFs start at their defaults");
   }
   placed.X_WB = pose(element);
   world_.order.push_back({WorldEntry::Kind::robot, static_cast<int>(world_.robots.size())});
@@ -113,7 +113,8 @@ void XmlWorldReader::read_robot(const XmlElement& element) {
 
 void XmlWorldReader::read_connection(const XmlElement& element) {
   element.check(
-      {.once = {"parentRobot", "parentChain", "childRobot", "mountFilename", "transform"}}, warn());
+      {.once = {"parentRobot", "parentChain", "childRobot", "mountFilename", "transform"}},
+      diagnostics());
   Connection c;
   c.parent = element.expected("parentRobot").integer(0);
   const int chain = element.expected("parentChain").integer(0);
@@ -126,10 +127,10 @@ void XmlWorldReader::read_connection(const XmlElement& element) {
 }
 
 void XmlWorldReader::read_camera(const XmlElement& element) {
-  element.check({.once = {"position", "orientation", "focalDistance"}}, warn());
+  element.check({.once = {"position", "orientation", "focalDistance"}}, diagnostics());
   const XmlElement turn = element.expected("orientation");
   const auto q = camera_orientation(Eigen::Vector4d(turn.numbers(4).data()),
-                                    turn.place() + ": orientation", cache_.options());
+                                    turn.place().of("orientation"), cache_.options());
   if (!q) return;
   Camera camera;
   camera.X_WC = {*q, element.expected("position").vector() * units::millimeter};

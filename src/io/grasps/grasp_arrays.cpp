@@ -163,9 +163,10 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
   for (const auto& [name, array] : arrays)
     if (std::ranges::find(known, name) == known.end() && !ArrayParts::knows(name))
       unused.push_back(in_quotes(name));
-  if (!unused.empty() && options.warn)
-    options.warn(fmt::format("{}: the array{} {} {} not used", file, unused.size() > 1 ? "s" : "",
-                             name_list(unused), unused.size() > 1 ? "are" : "is"));
+  if (!unused.empty())
+    options.diagnostics.warn(Place(file), "the array{} {} {} not used",
+                             unused.size() > 1 ? "s" : "", name_list(unused),
+                             unused.size() > 1 ? "are" : "is");
 }
 
 }  // namespace clench

@@ -23,9 +23,7 @@ struct Value {
   const std::string& file;
   std::string name = {};
 
-  std::string place() const {
-    return fmt::format("{}:{}{}{}", file, node.line(), name.empty() ? "" : ": ", name);
-  }
+  Place place() const { return Place(file, node.line(), name); }
   [[noreturn]] void refuse(const std::string& expected) const {
     fail("{}: expected {}, got {}", place(), expected, node.described());
   }
@@ -88,17 +86,18 @@ struct Value {
   }
 };
 
-void warn_of_unused(const std::string& place, const std::vector<std::string>& keys,
+void warn_of_unused(const Place& place, const std::vector<std::string>& keys,
                     const ReadOptions& options) {
-  if (!keys.empty() && options.warn)
-    options.warn(
-        fmt::format("{}: {} {} not used", place, name_list(keys), keys.size() > 1 ? "are" : "is"));
+  if (!keys.empty())
+    options.diagnostics.warn(place, "{} {} not used", name_list(keys),
+                             keys.size() > 1 ? "are" : "is");
 }
 
 void warn_of_scale(const std::string& file, double scale, const ReadOptions& options) {
-  if (scale != 1 && options.warn)
-    options.warn(fmt::format(
-        "{}: the object has to be loaded at scale {}, at which these grasps hold it", file, scale));
+  if (scale != 1)
+    options.diagnostics.warn(
+        Place(file), "the object has to be loaded at scale {}, at which these grasps hold it",
+        scale);
 }
 
 // the last part of a path, as USD and files have them
@@ -236,10 +235,10 @@ GraspSpec read_isaac_grasp(const Value& one, const ReadOptions& options) {
     g.pregrasp->dofs[k] = found->second;
     before.erase(found);
   }
-  if (!before.empty() && options.warn)
-    options.warn(fmt::format("{}: {} is not used, as {} does not list it",
-                             one.get(pregrasp_key).place(), excerpt(before.begin()->first),
-                             position_key));
+  if (!before.empty())
+    options.diagnostics.warn(one.get(pregrasp_key).place(),
+                             "{} is not used, as {} does not list it",
+                             excerpt(before.begin()->first), position_key);
   return g;
 }
 
@@ -357,7 +356,7 @@ void read_graspgen(const ValueTree& tree, const std::string& file, GraspCollecto
     for (size_t r = 0; r < 4; ++r)
       for (const double x : matrix.item(r).numbers(4)) m.push_back(x);
     GraspSpec g;
-    g.X_OH = pose_of_matrix(m.data(), matrix.place());
+    g.X_OH = pose_of_matrix(m.data(), matrix.place().text());
     g.object_file = object_file;
     g.object_name = std::filesystem::path(object_file).stem().string();
     g.info["scale"] = scale;
@@ -415,7 +414,7 @@ void read_multigripper(const ValueTree& tree, const std::string& file, GraspColl
   if (top.has("dof_names")) {
     const Value given = top.get("dof_names");
     for (size_t i = 0; i < given.list("texts"); ++i) names.push_back(given.item(i).text());
-    check_dof_names(given.place(), names);
+    check_dof_names(given.place().text(), names);
   }
   const char* dofs_key = top.has("final_dofs") ? "final_dofs" : "dofs";
   std::optional<Value> dofs;

@@ -269,8 +269,8 @@ class TableReader {
     std::vector<std::string> unused;
     for (const Column& c : columns_)
       if (c.role == ColumnRole::unused) unused.push_back(excerpt(c.name));
-    if (!unused.empty() && options.warn)
-      options.warn(fmt::format("{}: columns {} are not used", file, name_list(unused)));
+    if (!unused.empty())
+      options.diagnostics.warn(Place(file), "columns {} are not used", name_list(unused));
   }
 
   /// Are there fewer cells than columns, or is the last one the beginning of a number?
@@ -423,19 +423,18 @@ class TableReader {
 
 static void warn_of_cut_row(const std::string& file, const CsvRecord& record,
                             const ReadOptions& options) {
-  if (!options.warn) return;
-  options.warn(fmt::format("{}:{}: the last line is cut short and is skipped, got {}", file,
-                           record.line, in_quotes(record.cells.front().text)));
+  options.diagnostics.warn(Place(file, record.line),
+                           "the last line is cut short and is skipped, got {}",
+                           in_quotes(record.cells.front().text));
 }
 
 /// A last row with all cells is read; without a line end its last cell may be the beginning of one.
 static void warn_of_open_row(const std::string& file, size_t rows, const CsvRecord& record,
                              const CsvReader& reader, const ReadOptions& options) {
-  if (rows == 0 || !options.warn || !reader.ends_in_open_line()) return;
-  options.warn(
-      fmt::format("{}:{}: the last line has no end and may be cut short; its last cell is "
-                  "{}",
-                  file, record.line, in_quotes(record.cells.back().text)));
+  if (rows == 0 || !reader.ends_in_open_line()) return;
+  options.diagnostics.warn(Place(file, record.line),
+                           "the last line has no end and may be cut short; its last cell is {}",
+                           in_quotes(record.cells.back().text));
 }
 
 void read_grasp_table(const std::string& file, std::string_view text, const GraspSink& sink,

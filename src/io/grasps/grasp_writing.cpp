@@ -60,9 +60,9 @@ void report_lost(const std::vector<GraspSpec>& grasps, const Holds& holds, const
   tell(holds.files, "fingerprints", [](const GraspSpec& g) {
     return !g.hand_fingerprint.empty() || !g.object_fingerprint.empty();
   });
-  if (!lost.empty() && options.warn)
-    options.warn(fmt::format("{}: the format {} does not hold {}, which are not written", file,
-                             format, name_list(lost)));
+  if (!lost.empty())
+    options.diagnostics.warn(Place(file), "the format {} does not hold {}, which are not written",
+                             format, name_list(lost));
 }
 
 void check_same_dofs(const std::vector<GraspSpec>& grasps, const std::string& file) {

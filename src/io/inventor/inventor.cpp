@@ -89,18 +89,17 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   walk.shape = [&](const InventorNode& shape, const InventorState& state) {
     ShapeTriangles triangles(shape, state, unit, builder);
     if (!triangles.gather() && shape.type->kind == InventorKind::odd_shape)
-      walk.warnings.add(file,
-                        fmt::format("{}: {} is not used as geometry", file, shape.type->name));
+      walk.warnings.add(file, Diagnostic(Place(file), fmt::format("{} is not used as geometry",
+                                                                  shape.type->name)));
     own_colors = own_colors || triangles.has_colors();
   };
   walk_inventor(graph, {}, walk);
   tell_inventor_warnings(graph, walk, options);
-  if (options.note)
-    for (const auto& named : walk.units)
-      options.note(
-          fmt::format("{}: Units {} scales what follows it by its length beside METERS, "
-                      "or beside that of the Units before it",
-                      file, named));
+  for (const auto& named : walk.units)
+    options.diagnostics.note(Place(file),
+                             "Units {} scales what follows it by its length beside METERS, or "
+                             "beside that of the Units before it",
+                             named);
   return builder.finish(walk.colors_given || own_colors, file, options);
 }
 

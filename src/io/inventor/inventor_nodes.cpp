@@ -27,16 +27,16 @@ const InventorNode* InventorNode::node(std::string_view field) const {
   return nodes.empty() ? nullptr : nodes[0];
 }
 
-std::string InventorGraph::place(const InventorNode& node) const {
-  const std::string within = fmt::format("{}:{}", files[node.file], node.line);
-  return node.file == 0 ? within : files[0] + ": " + within;
+Place InventorGraph::place(const InventorNode& node) const {
+  const Place within(files[node.file], node.line);
+  return node.file == 0 ? within : Place(files[0]).of(within.text());
 }
 
-void InventorWarnings::add(const std::string& file, const std::string& sentence) {
-  if (list_.size() > max_inventor_warnings || !warned_.insert(sentence).second) return;
-  list_.push_back(list_.size() < max_inventor_warnings
-                      ? sentence
-                      : fmt::format("{}: further warnings are left out", file));
+void InventorWarnings::add(const std::string& file, Diagnostic diagnostic) {
+  if (list_.size() > max_inventor_warnings || !warned_.insert(diagnostic.sentence()).second) return;
+  if (list_.size() == max_inventor_warnings)
+    diagnostic = {Place(file), "further warnings are left out"};
+  list_.push_back(std::move(diagnostic));
 }
 
 }  // namespace clench

@@ -3,6 +3,7 @@
 #include <deque>
 #include <set>
 
+#include "clench/base/diagnostic.h"
 #include "clench/io/inventor/inventor_types.h"
 
 namespace clench {
@@ -27,15 +28,15 @@ struct InventorNode {
   const InventorNode* node(std::string_view field) const;  ///< null when there is none
 };
 
-/// Sentences for whoever listens, each once, up to a limit.
+/// Diagnostics for whoever listens, each once, up to a limit.
 class InventorWarnings {
  public:
   /// `file`: the one whose further warnings are said to be left out
-  void add(const std::string& file, const std::string& sentence);
-  const std::vector<std::string>& list() const { return list_; }
+  void add(const std::string& file, Diagnostic diagnostic);
+  const std::vector<Diagnostic>& list() const { return list_; }
 
  private:
-  std::vector<std::string> list_;
+  std::vector<Diagnostic> list_;
   std::set<std::string> warned_;
 };
 
@@ -48,7 +49,7 @@ struct InventorGraph {
   InventorWarnings repairs;       ///< of what was wrong and is read all the same
 
   /// For a sentence on a node: "box.iv:31", or "box.iv: part.iv:31" of one in an included file.
-  std::string place(const InventorNode& node) const;
+  Place place(const InventorNode& node) const;
 };
 
 /// Makes negative sizes positive and holds a complexity to 0..1; tells of these, of sizes and

@@ -19,10 +19,10 @@ constexpr const char* keys[] = {"material", "youngs", "useFlockOfBirds",
 
 /// absent  what stands for 0; 0: nothing does
 double number_of(const Line& line, const Quantity& quantity, Repairs& repairs, double absent = 0) {
-  const std::string subject = fmt::format("{}: {}", line.place(), quantity.name);
+  const Place subject = line.place().of(quantity.name);
   double value = repairs.magnitude(line.number(1, quantity.name), subject);
   if (absent > 0) value = repairs.not_zero(value, absent, subject);
-  check(quantity, value, line.place());
+  check(quantity, value, line.place().text());
   return value;
 }
 
@@ -46,7 +46,7 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
       rows(i, j) = *value * units::square_millimeter;
     }
   }
-  return checked_inertia(rows, head.place(), options.listeners());
+  return checked_inertia(rows, head.place(), options.diagnostics);
 }
 
 }  // namespace
@@ -54,16 +54,16 @@ std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
 void read_inventor_params(const std::string& text, const std::string& file,
                           const ReadOptions& options, BodySpec& body) {
   LineReader lines(file, text);
-  Repairs repairs(options.listeners());
+  Repairs repairs(options.diagnostics);
   while (lines.skip_to('#')) {
     const bool marked = lines.begins_with('#');  // with no blank before it
     const Line line = lines.next();
     if (!line.text().starts_with('#')) continue;
     const std::string_view key = line.word(0).substr(1);
     if (!marked) {
-      if (std::ranges::count(keys, key) && options.warn)
-        options.warn(
-            fmt::format("{}: #{} is a comment, for it does not begin its line", line.place(), key));
+      if (std::ranges::count(keys, key))
+        options.diagnostics.warn(line.place(), "#{} is a comment, for it does not begin its line",
+                                 key);
       continue;
     }
     if (key == "material") {
@@ -73,9 +73,9 @@ void read_inventor_params(const std::string& text, const std::string& file,
     } else if (key == "youngs") {
       body.elastic_modulus = number_of(line, elastic_modulus_rule.called("youngs"), repairs);
       if (const std::string doubt = doubt_modulus(*body.elastic_modulus); !doubt.empty())
-        options.suspected(fmt::format("{}: youngs {}", line.place(), doubt));
+        options.diagnostics.suspected(line.place(), "youngs {}", doubt);
     } else if (key == "useFlockOfBirds") {
-      body.tracker = repairs.count(line.word(1), line.place() + ": useFlockOfBirds");
+      body.tracker = repairs.count(line.word(1), line.place().of("useFlockOfBirds"));
     } else if (key == "mass") {
       body.mass =
           number_of(line, mass_rule.in("g", units::gram), repairs, BodySpec().mass / units::gram) *
@@ -85,7 +85,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
       body.com =
           Eigen::Vector3d(line.number(1, "cog"), line.number(2, "cog"), line.number(3, "cog")) *
           units::millimeter;
-      check(coordinate_rule.called("cog"), *body.com, line.place());
+      check(coordinate_rule.called("cog"), *body.com, line.place().text());
     } else if (key == "inertia_matrix") {
       body.inertia_per_mass = inertia_rows(lines, line, options);
     }

@@ -125,11 +125,12 @@ const InventorNode* InventorParser::read() {
     if (token.text != "}") tokens_.refuse(token.line, "'{}' closes nothing", token.text);
     if (++stray == 1) stray_line = token.line;
   }
-  if (stray > 0)
-    graph_.repairs.add(
-        graph_.files[file_],
-        fmt::format("{}:{}: '}}' closes nothing; it is left out{}", graph_.files[file_], stray_line,
-                    stray > 1 ? fmt::format(" ({} more alike)", stray - 1) : ""));
+  if (stray > 0) {
+    Diagnostic stray_bracket(Place(graph_.files[file_], stray_line),
+                             "'}' closes nothing; it is left out");
+    stray_bracket.count = stray;
+    graph_.repairs.add(graph_.files[file_], std::move(stray_bracket));
+  }
   finish(root);
   return &root;
 }
@@ -172,7 +173,7 @@ InventorParser::Named& InventorParser::define(const InventorToken& name, const N
 
 void InventorParser::warn(int line, const std::string& sentence) {
   const std::string& file = graph_.files[file_];
-  graph_.warnings.add(file, fmt::format("{}:{}: {}", file, line, sentence));
+  graph_.warnings.add(file, {Place(file, line), sentence});
 }
 
 const InventorNode* InventorParser::node(const InventorToken& first, const InventorType* around) {

@@ -19,8 +19,8 @@ void tell_faults(InventorNode& node, InventorGraph& graph, Fault fault) {
     if (auto* numbers = std::get_if<std::vector<Number>>(&value))
       for (Number& x : *numbers)
         if (const std::string wrong = fault(x, field->name); !wrong.empty())
-          graph.repairs.add(file, fmt::format("{}:{}: {}: {}: {}", file, node.line, node.type->name,
-                                              field->name, wrong));
+          graph.repairs.add(file,
+                            {Place(file, node.line).of(node.type->name).of(field->name), wrong});
 }
 
 // all numbers of cubes and the like are lengths

@@ -275,8 +275,8 @@ bool InventorWalker::set_property(const InventorNode& node, InventorState& state
       state.complexity = node.number("value");
       if (node.word("type") != "OBJECT_SPACE")
         walk_.warnings.add(graph_.files[0],
-                           fmt::format("{}: Complexity: {} is read as OBJECT_SPACE",
-                                       graph_.place(node), node.word("type")));
+                           {graph_.place(node).of("Complexity"),
+                            fmt::format("{} is read as OBJECT_SPACE", node.word("type"))});
       return true;
     default:
       return false;
@@ -323,10 +323,10 @@ void walk_inventor(const InventorGraph& graph, const InventorState& start, Inven
 
 void tell_inventor_warnings(const InventorGraph& graph, const InventorWalk& walk,
                             const ReadOptions& options) {
-  for (const auto& sentence : graph.repairs.list()) options.repaired(sentence);
-  if (!options.warn) return;
-  for (const auto& sentence : graph.warnings.list()) options.warn(sentence);
-  for (const auto& sentence : walk.warnings.list()) options.warn(sentence);
+  for (const Diagnostic& one : graph.repairs.list()) options.diagnostics.repaired(one);
+  if (!options.diagnostics) return;
+  for (const Diagnostic& one : graph.warnings.list()) options.diagnostics.warn(one);
+  for (const Diagnostic& one : walk.warnings.list()) options.diagnostics.warn(one);
 }
 
 }  // namespace clench

@@ -334,7 +334,8 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
 
   progress.check();
   out.report.flipped = turn_outward(s.mesh);
-  if (out.report.flipped) options.repaired(subject + inside_out);
+  if (out.report.flipped)
+    options.diagnostics.repaired(Place(subject), "{}", std::string_view(inside_out).substr(2));
   out.places = places(s.kept);
   if (out.report.flipped) out.places = turned_over(out.places);
   if (colors_given) {

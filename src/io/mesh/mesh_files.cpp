@@ -30,11 +30,10 @@ static void set_unit(GeometryBuilder& builder, const std::string& file,
   } else if (silent) {
     const Eigen::Vector3d size = builder.bounds().size();
     report.unit = guess_mesh_unit(size.maxCoeff());
-    if (options.note)
-      options.note(
-          fmt::format("{}: it names no unit; its size, {:.4g} x {:.4g} x {:.4g}, is taken for {} "
-                      "(the option unit says otherwise)",
-                      file, size.x(), size.y(), size.z(), unit_name(report.unit)));
+    options.diagnostics.note(Place(file),
+                             "it names no unit; its size, {:.4g} x {:.4g} x {:.4g}, is taken for "
+                             "{} (the option unit says otherwise)",
+                             size.x(), size.y(), size.z(), unit_name(report.unit));
   }
 }
 
@@ -103,8 +102,8 @@ Geometry read_mesh(const MeshInput& input) {
   set_unit(builder, file, options);
   MeshReport& report = builder.report;
   if (!options.turn_mesh_up) report.up = 'z';
-  if (options.note && report.up != 'z')
-    options.note(fmt::format("{}: its {} axis is up, and was turned to z", file, report.up));
+  if (report.up != 'z')
+    options.diagnostics.note(Place(file), "its {} axis is up, and was turned to z", report.up);
   builder.transform(report.unit, turn_up(report.up));
   return builder.finish(colors_given, file, options);
 }

@@ -20,9 +20,7 @@ struct MeshInput {
   BarePoints bare_points = BarePoints::refused;
 
   std::string file() const { return path.filename().string(); }
-  void warn(const std::string& sentence) const {
-    if (options.warn) options.warn(sentence);
-  }
+  const Diagnostics& diagnostics() const { return options.diagnostics; }
 };
 
 /// Runs a reader of a scene, which has read() and warnings(); its sentences get the file's name.
@@ -33,7 +31,8 @@ bool run_reader(const MeshInput& input, MakeReader make) {
   try {
     auto reader = make();
     const bool colors = reader.read();
-    for (const auto& warning : reader.warnings()) input.warn(file + ": " + warning);
+    for (const auto& warning : reader.warnings())
+      input.diagnostics().warn(Place(file), "{}", warning);
     return colors;
   } catch (const Error& error) {
     // what the builder refuses does not name the file

@@ -24,7 +24,7 @@ struct Face {
 
 struct UsedMaterial {
   int number;
-  std::string place;  // where it is used first
+  Place place;  // where it is used first
 };
 
 class ObjReader {
@@ -48,7 +48,7 @@ class ObjReader {
   void warn_once(const std::string& about, const std::string& sentence) {
     warn_once(about, words_.place(), sentence);
   }
-  void warn_once(const std::string& about, const std::string& place, const std::string& sentence);
+  void warn_once(const std::string& about, const Place& place, const std::string& sentence);
 
   const MeshInput& input_;
   GeometryBuilder& builder_;
@@ -64,14 +64,14 @@ class ObjReader {
   std::string object_;                                  // named by the last line "o NAME"
   std::vector<std::string> objects_;                    // names of those with faces, in order
   std::set<std::string> warned_;
-  std::vector<std::string> warnings_;
+  std::vector<Diagnostic> warnings_;
 };
 
-void ObjReader::warn_once(const std::string& about, const std::string& place,
+void ObjReader::warn_once(const std::string& about, const Place& place,
                           const std::string& sentence) {
   constexpr size_t max_warnings = 10;
   if (warned_.size() < max_warnings && warned_.insert(about).second)
-    warnings_.push_back(place + ": " + sentence);
+    warnings_.emplace_back(place, sentence);
 }
 
 void ObjReader::read_point() {
@@ -144,10 +144,10 @@ void ObjReader::read_face() {
 
 // Every object of the file becomes part of one body.
 void ObjReader::note_objects() {
-  if (objects_.size() < 2 || !input_.options.note) return;
+  if (objects_.size() < 2 || !input_.diagnostics()) return;
   if (objects_.front().empty()) objects_.front() = "without a name";
-  input_.options.note(fmt::format("{}: its {} objects ({}) are read as one body", words_.file(),
-                                  objects_.size(), name_list(objects_)));
+  input_.diagnostics().note(Place(words_.file()), "its {} objects ({}) are read as one body",
+                            objects_.size(), name_list(objects_));
 }
 
 void ObjReader::use_material(const std::string& name) {
@@ -191,7 +191,7 @@ void ObjReader::read_materials(const std::string& names) {
   for (const auto& name : candidates) {
     try {
       materials_.read(find_file(name, input_.path, input_.options), input_,
-                      [&](const std::string& about, const std::string& place,
+                      [&](const std::string& about, const Place& place,
                           const std::string& sentence) { warn_once(about, place, sentence); });
       found = true;
     } catch (const Error& error) {
@@ -199,8 +199,8 @@ void ObjReader::read_materials(const std::string& names) {
     }
     if (found && name == names) break;
   }
-  if (!found && input_.options.note)
-    input_.options.note(words_.place() + ": " + missing + "; the body has no colors of its own");
+  if (!found)
+    input_.diagnostics().note(words_.place(), "{}; the body has no colors of its own", missing);
 }
 
 // texture coordinates of a face, in the image of its material; empty: it has none
@@ -278,7 +278,7 @@ bool ObjReader::read() {
   }
   add_faces();
   note_objects();
-  for (const auto& warning : warnings_) input_.warn(warning);
+  for (const auto& warning : warnings_) input_.diagnostics().warn(warning);
   if (!point_colors_.empty()) return point_colors_.size() == builder_.vertex_count();
   for (const auto& [name, used] : used_materials_)
     if (materials_.by_name.contains(name)) return true;

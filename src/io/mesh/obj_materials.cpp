@@ -114,8 +114,8 @@ void MtlMaterials::read(const std::filesystem::path& path, const MeshInput& inpu
     else if (!color && a)
       material->transparency = static_cast<float>(std::clamp(opaque ? 1 - *a : *a, 0.0, 1.0));
     else
-      input.warn(fmt::format("{}: expected {} after {}; not used", words.place(),
-                             color ? "three numbers" : "a number", keyword));
+      input.diagnostics().warn(words.place(), "expected {} after {}; not used",
+                               color ? "three numbers" : "a number", keyword);
   }
 }
 

@@ -29,7 +29,7 @@ struct MtlMaterial {
 };
 
 struct MtlMaterials {
-  using WarnOnce = std::function<void(const std::string& about, const std::string& place,
+  using WarnOnce = std::function<void(const std::string& about, const Place& place,
                                       const std::string& sentence)>;
   std::map<std::string, MtlMaterial> by_name = {};
   TextureFiles images = {};

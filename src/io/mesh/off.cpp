@@ -78,7 +78,7 @@ void OffReader::to_line(const char* what, int i, int count) {
 }
 
 void OffReader::warn_once(const std::string& sentence) {
-  if (warned_.insert(sentence).second) input_.warn(words_.place() + ": " + sentence);
+  if (warned_.insert(sentence).second) input_.diagnostics().warn(words_.place(), "{}", sentence);
 }
 
 /// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255. The fourth

@@ -1,6 +1,7 @@
 #include "clench/io/mesh/mesh_readers.h"
 
 #include <cmath>
+#include <optional>
 
 #include "clench/base/convert.h"
 #include "clench/io/mesh/ply_header.h"
@@ -27,11 +28,11 @@ class Values {
   void skip(NumberType type, int count);
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+    throw PlacedError(place(), fmt::format(format, std::forward<Args>(args)...));
   }
-  /// what is wrong with the end of the file, or ""
-  std::string surplus();
-  std::string place() const;
+  /// what is wrong with the end of the file, if anything
+  std::optional<Diagnostic> surplus();
+  Place place() const;
   int line() const { return ascii_ ? words_.line() : 0; }
 
  private:
@@ -42,15 +43,15 @@ class Values {
   WordReader words_;
   ByteReader bytes_;
   bool ascii_, surplus_words_ = false;
-  std::string first_surplus_;
+  std::optional<Diagnostic> first_surplus_;
   const std::string* element_ = nullptr;
   int i_ = 0, count_ = 0;
 };
 
-std::string Values::place() const {
-  if (!element_) return words_.file();
+Place Values::place() const {
+  if (!element_) return Place(words_.file());
   if (ascii_) return words_.place();
-  return fmt::format("{}: {} {} of {}", words_.file(), excerpt(*element_), i_ + 1, count_);
+  return Place(words_.file()).of("{} {} of {}", excerpt(*element_), i_ + 1, count_);
 }
 
 void Values::begin(const std::string& name, int i, int count) {
@@ -62,9 +63,8 @@ void Values::begin(const std::string& name, int i, int count) {
 }
 
 void Values::end() {
-  if (!ascii_ || !first_surplus_.empty() || words_.words_left() == 0) return;
-  first_surplus_ =
-      fmt::format("{}: what follows the values of a {} is not used", place(), *element_);
+  if (!ascii_ || first_surplus_ || words_.words_left() == 0) return;
+  first_surplus_ = {place(), fmt::format("what follows the values of a {} is not used", *element_)};
 }
 
 double Values::next(NumberType type) {
@@ -91,13 +91,14 @@ void Values::skip(NumberType type, int count) {
     if (words_.word().empty()) words_.fail("expected a number, got nothing");
 }
 
-std::string Values::surplus() {
-  if (!first_surplus_.empty()) return first_surplus_;
-  if (ascii_ && words_.next_line()) return place() + ": what follows the last element is not used";
+std::optional<Diagnostic> Values::surplus() {
+  if (first_surplus_) return first_surplus_;
+  if (ascii_ && words_.next_line())
+    return Diagnostic(place(), "what follows the last element is not used");
   if (!ascii_ && bytes_.left() > 0)
-    return fmt::format("{}: {} bytes after the last element are not used", words_.file(),
-                       bytes_.left());
-  return "";
+    return Diagnostic(Place(words_.file()),
+                      fmt::format("{} bytes after the last element are not used", bytes_.left()));
+  return {};
 }
 
 class PlyReader {
@@ -306,10 +307,11 @@ bool read_ply(const MeshInput& input, GeometryBuilder& builder) {
     } else {
       reader.step_over(element);
       if (element.count > 0)
-        input.warn(fmt::format("{}: its elements {} are not used", file, in_quotes(element.name)));
+        input.diagnostics().warn(Place(file), "its elements {} are not used",
+                                 in_quotes(element.name));
     }
   }
-  if (const std::string surplus = values.surplus(); !surplus.empty()) input.warn(surplus);
+  if (auto surplus = values.surplus()) input.diagnostics().warn(std::move(*surplus));
   return reader.colored();
 }
 

@@ -118,7 +118,7 @@ bool skip_name(WordReader& words) {
 std::string first_solid(const MeshInput& input, WordReader& words) {
   std::string word = lower_case(words.word_anywhere());
   if (begins_solid(word) || word.empty()) return word;
-  input.warn(fmt::format("{}: the text before 'solid' is not used", words.place()));
+  input.diagnostics().warn(words.place(), "the text before 'solid' is not used");
   while (!begins_solid(word) && !word.empty()) {
     words.rest();
     word = next_word(words);
@@ -129,9 +129,8 @@ std::string first_solid(const MeshInput& input, WordReader& words) {
 /// One solid or several; the lines around their facets may be missing.
 void read_ascii(const MeshInput& input, WordReader& words, GeometryBuilder& builder) {
   const auto repair = [&](const char* missing, const std::string& word, const char* done) {
-    input.options.repaired(
-        fmt::format("{}: expected '{}', got {}; the solid {} here", words.place(), missing,
-                    word.empty() ? "the end of the file" : in_quotes(word), done));
+    input.diagnostics().repaired(words.place(), "expected '{}', got {}; the solid {} here", missing,
+                                 word.empty() ? "the end of the file" : in_quotes(word), done);
   };
   bool open = false;
   std::string word = first_solid(input, words);
@@ -184,9 +183,11 @@ void read_binary(const MeshInput& input, GeometryBuilder& builder) {
     add_facet(builder, corners);
   }
   if (attributes > 0)
-    input.warn(fmt::format("{}: the attribute words of {} facets are not used", file, attributes));
+    input.diagnostics().warn(Place(file), "the attribute words of {} facets are not used",
+                             attributes);
   if (reader.left() > 0)
-    input.warn(fmt::format("{}: {} bytes after the last facet are not used", file, reader.left()));
+    input.diagnostics().warn(Place(file), "{} bytes after the last facet are not used",
+                             reader.left());
 }
 
 }  // namespace

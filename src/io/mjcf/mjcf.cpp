@@ -15,11 +15,10 @@ namespace fs = std::filesystem;
 void tell_world_geoms(const Worldbody& world, const FileCache& cache) {
   if (world.geoms.empty()) return;
   const size_t count = world.geoms.size();
-  cache.warn(fmt::format(
-      "{}: {} of the world itself, on no body, {} no part of the robot and "
-      "not used",
+  cache.diagnostics().warn(
       world.geoms.front().node->element.place(),
-      count == 1 ? "a geom" : fmt::format("{} geoms", count), count == 1 ? "is" : "are"));
+      "{} of the world itself, on no body, {} no part of the robot and not used",
+      count == 1 ? "a geom" : fmt::format("{} geoms", count), count == 1 ? "is" : "are");
 }
 
 /// Chooses the body with the most joints as the robot; other bodies that move freely are objects
@@ -34,19 +33,19 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache, bool& fixed_base) {
   const MjcfNode* kept = robot->node;
   std::erase_if(bodies, [&](const TopBody& body) {
     if (body.node == kept || !body.free) return false;
-    cache.warn(fmt::format("{}: body '{}' moves freely beside the robot; it is not read",
-                           body.node->element.place(),
-                           excerpt(body.node->element.attribute("name").value_or(""))));
+    cache.diagnostics().warn(body.node->element.place(),
+                             "body '{}' moves freely beside the robot; it is not read",
+                             excerpt(body.node->element.attribute("name").value_or("")));
     return true;
   });
   std::vector<std::string> trees;
   for (const TopBody& body : bodies)
     if (body.joints > 0) trees.push_back(body.name);
   if (trees.size() > 1)
-    cache.warn(
-        fmt::format("{}: these bodies are read as one robot: {}; the option 'body' reads "
-                    "one of them, and clench.load a world with all of them",
-                    model.document().file(), name_list(trees)));
+    cache.diagnostics().warn(Place(model.document().file()),
+                             "these bodies are read as one robot: {}; the option 'body' reads one "
+                             "of them, and clench.load a world with all of them",
+                             name_list(trees));
   MjcfTreeReader reader(model.document(), model.geoms(), model.names(), cache, "robot");
   fixed_base = true;
   if (bodies.size() == 1 && !bodies.front().own_joints) {

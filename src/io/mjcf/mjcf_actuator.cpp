@@ -52,9 +52,9 @@ void Law::read_servo(const XmlValues& values, MjcfDocument& document, bool integ
   if (values.has("kv")) bias[2] = -values.not_negative("kv", 0, document.repairs());
   if (values.has("dampratio")) {
     if (values.has("kv"))
-      document.repairs().add("dampratio", values.subject("dampratio") +
-                                              ": expected either kv or dampratio, got both; "
-                                              "dampratio is used");
+      document.repairs().add("dampratio", values.subject("dampratio"),
+                             "expected either kv or dampratio, got both; "
+                             "dampratio is used");
     // a positive number is a ratio
     bias[2] = values.not_negative("dampratio", 0, document.repairs());
   }
@@ -155,9 +155,8 @@ std::optional<std::array<double, 2>> limited_range(const XmlValues& values, Mjcf
   if (limited == "auto" && both[0] == 0 && both[1] == 0) return {};
   if (limited == "auto" && !document.settings(values.element()).autolimits)
     document.repairs().add(
-        "autolimits", fmt::format("{}: expected {}=\"true\" beside it, as autolimits is off; the "
-                                  "range is used",
-                                  values.subject(range), limited_name));
+        "autolimits", values.subject(range),
+        "expected {}=\"true\" beside it, as autolimits is off; the range is used", limited_name);
   return both;
 }
 

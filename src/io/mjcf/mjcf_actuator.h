@@ -26,7 +26,7 @@ std::optional<std::array<double, 2>> limited_range(const XmlValues& values, Mjcf
 struct MjcfActuatorSwitches {
   bool all_off = false;
   std::set<int> groups_off;
-  std::string place;  ///< of the element that does; empty: none is off
+  Place place;  ///< of the element that does; empty: none is off
 
   bool off(int group) const { return all_off || groups_off.contains(group); }
 };

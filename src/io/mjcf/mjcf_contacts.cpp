@@ -228,17 +228,17 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
         model.always_meet.emplace_back(i, j);
     }
   if (apart > 0)
-    cache_.note(
-        fmt::format("{}: {} pair{} of links never collide{}, as contype and conaffinity say",
-                    document_.file(), apart, apart == 1 ? "" : "s", apart == 1 ? "s" : ""));
+    cache_.diagnostics().note(Place(document_.file()),
+                              "{} pair{} of links never collide{}, as contype and conaffinity say",
+                              apart, apart == 1 ? "" : "s", apart == 1 ? "s" : "");
 }
 
 void MjcfContacts::tell(const std::function<bool(const std::string&)>& is_read) {
   if (mixed_.size() > 0)
-    cache_.warn(
-        fmt::format("{}: contype, conaffinity or <pair> let only some geoms of these "
-                    "bodies collide; here all of them do: {}",
-                    document_.file(), name_list(mixed_)));
+    cache_.diagnostics().warn(Place(document_.file()),
+                              "contype, conaffinity or <pair> let only some geoms of these bodies "
+                              "collide; here all of them do: {}",
+                              name_list(mixed_));
   mixed_ = {};
   std::vector<std::string> lost, rough;
   for (const MjcfPair& pair : pairs_) {
@@ -251,13 +251,12 @@ void MjcfContacts::tell(const std::function<bool(const std::string&)>& is_read) 
   }
   const auto place = [&] { return pairs_.front().values.element().place(); };
   if (!lost.empty())
-    cache_.warn(fmt::format("{}: pairs of which a geom is not read are not used: {}", place(),
-                            name_list(lost)));
+    cache_.diagnostics().warn(place(), "pairs of which a geom is not read are not used: {}",
+                              name_list(lost));
   if (!rough.empty())
-    cache_.warn(
-        fmt::format("{}: friction and condim of pairs are not used; those of the geoms "
-                    "count: {}",
-                    place(), name_list(rough)));
+    cache_.diagnostics().warn(
+        place(), "friction and condim of pairs are not used; those of the geoms count: {}",
+        name_list(rough));
 }
 
 }  // namespace clench

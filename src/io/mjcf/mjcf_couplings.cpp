@@ -47,9 +47,6 @@ class Couplings {
   }
 
  private:
-  void warn(const XmlElement& at, const std::string& what) const {
-    cache_.warn(at.place() + ": " + what);
-  }
   bool is_elsewhere(const std::string& name) const;
   bool concerns(const XmlValues& values) const;
   std::string why_not(const std::string& name) const;
@@ -87,7 +84,7 @@ class Couplings {
   std::set<std::string> unknown_laws_;
   /// Elements that are not used, by kind: the place of the first, and names.
   struct Unused {
-    std::string place;
+    Place place;
     std::vector<std::string> names = {};
   };
   std::map<std::string, Unused> loops_, targets_;
@@ -135,8 +132,8 @@ std::optional<int> Couplings::joint(const XmlValues& values, const char* attribu
   const auto found = numbers_.find(name);
   if (found != numbers_.end()) return found->second;
   if (const std::string why = why_not(name); !why.empty()) {
-    warn(values.element(), fmt::format("{}: joint {} {}; this is not used",
-                                       excerpt(values.element().name()), in_quotes(name), why));
+    cache_.diagnostics().warn(values.element().place().of(excerpt(values.element().name())),
+                              "joint {} {}; this is not used", in_quotes(name), why);
     return {};
   }
   values.fail(attribute, "no joint {}{}", in_quotes(name), did_you_mean(name, names_in(numbers_)));
@@ -204,23 +201,23 @@ void Couplings::tie_joints(const XmlElement& element, const XmlValues& values) {
   if (!values.has("joint2")) {
     tied.min = tied.max = tied.motor.default_value = tied.zero + c[0];
     tied.endless = false;
-    cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}, as the equality says",
-                            element.place(), excerpt(tied.name), tied.motor.default_value,
-                            tied.kind == JointKind::revolute ? "rad" : "m"));
+    cache_.diagnostics().note(element.place(),
+                              "joint '{}' may only stand at {:.4g} {}, as the equality says",
+                              excerpt(tied.name), tied.motor.default_value,
+                              tied.kind == JointKind::revolute ? "rad" : "m");
     return;
   }
   if (c[2] != 0 || c[3] != 0 || c[4] != 0)
-    warn(element,
-         fmt::format("joint '{}': polycoef: only its linear part is used", excerpt(tied.name)));
+    cache_.diagnostics().warn(element.place().of("joint '{}'", excerpt(tied.name)),
+                              "polycoef: only its linear part is used");
   const auto second = joint(values, "joint2");
   if (!second) return;
   const int leader = *second;
   if (leader == follower) values.fail("joint2", "expected another joint than joint1");
   if (c[1] == 0)
-    cache_.suspected(
-        fmt::format("{}: joint '{}': polycoef has no linear part: it stands still when "
-                    "'{}' moves",
-                    element.place(), excerpt(tied.name), excerpt(tree_.joints[leader].name)));
+    cache_.diagnostics().suspected(element.place().of("joint '{}'", excerpt(tied.name)),
+                                   "polycoef has no linear part: it stands still when '{}' moves",
+                                   excerpt(tree_.joints[leader].name));
   // both are relative to the initial configuration
   tie_joint(tree_, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero,
             element, cache_);
@@ -233,7 +230,9 @@ void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
                                 {"name", "class", "tendon1", "tendon2", "polycoef", "active"});
   const MjcfTendon& held = tendon(values, "tendon1");
   if (values.has("tendon2") || held.joints.size() != 2 || !held.complete) {
-    warn(element, "equality of tendons: only a fixed tendon of two joints ties them; not used");
+    cache_.diagnostics().warn(
+        element.place(),
+        "equality of tendons: only a fixed tendon of two joints ties them; not used");
     return;
   }
   const auto [a, c_a] = held.joints[0];
@@ -250,7 +249,8 @@ void Couplings::read_equality(const XmlElement& element) {
   const XmlValues values = document_.values(element, "", "equality");
   if (!concerns(values)) return;
   if (!values.boolean("active", true)) {
-    warn(element, fmt::format("equality: <{}> is not active; not used", excerpt(element.name())));
+    cache_.diagnostics().warn(element.place().of("equality"), "<{}> is not active; not used",
+                              excerpt(element.name()));
     return;
   }
   if (element.name() == "joint")
@@ -268,25 +268,23 @@ void Couplings::tell_law(const MjcfActuator& actuator) {
   const std::string& kind = actuator.spec.kind;
   const XmlElement& element = actuator.values.element();
   if (!actuator.spec.law_known && unknown_laws_.insert(kind).second)
-    warn(element,
-         fmt::format("<{}>: how its force follows from its control is not kept", excerpt(kind)));
+    cache_.diagnostics().warn(element.place().of("<{}>", excerpt(kind)),
+                              "how its force follows from its control is not kept");
   if (!actuator.spec.law_known) return;
   if (actuator.spec.gain_slopes != std::array{0.0, 0.0} && unknown_laws_.insert(kind).second)
-    warn(element,
-         fmt::format("<{}>: motors of a run do not follow its gain, which depends on length "
-                     "or velocity; efforts at rest do",
-                     excerpt(kind)));
+    cache_.diagnostics().warn(element.place().of("<{}>", excerpt(kind)),
+                              "motors of a run do not follow its gain, which depends on length or "
+                              "velocity; efforts at rest do");
   if (actuator.dynamics == "none" || !unknown_laws_.insert(kind + " " + actuator.dynamics).second)
     return;
   if (actuator.dynamics == "integrator")
-    warn(element,
-         fmt::format("<{}>: targets of its motor stand for its activation, the integral of "
-                     "its control",
-                     excerpt(kind)));
+    cache_.diagnostics().warn(
+        element.place().of("<{}>", excerpt(kind)),
+        "targets of its motor stand for its activation, the integral of its control");
   else
-    warn(element, fmt::format("<{}>: its control acts at once: the time constant of its filter is "
-                              "not used",
-                              excerpt(kind)));
+    cache_.diagnostics().warn(
+        element.place().of("<{}>", excerpt(kind)),
+        "its control acts at once: the time constant of its filter is not used");
 }
 
 void Couplings::read_actuator(const XmlElement& element) {
@@ -315,9 +313,9 @@ void Couplings::read_actuator(const XmlElement& element) {
     if (drive.tendon->joints.empty())
       return add_unused(targets_, "tendon that is not read", element, values);
     if (drive.tendon->elsewhere)
-      warn(element, fmt::format("{}: drives a tendon that joins two robots; of each it moves its "
-                                "own joints",
-                                excerpt(element.name())));
+      cache_.diagnostics().warn(
+          element.place().of(excerpt(element.name())),
+          "drives a tendon that joins two robots; of each it moves its own joints");
   } else {
     for (const char* target : {"site", "body", "cranksite"})
       if (values.has(target)) return add_unused(targets_, target, element, values);
@@ -343,11 +341,13 @@ void Couplings::add_unused(std::map<std::string, Unused>& kinds, const std::stri
 
 void Couplings::tell_unused() const {
   for (const auto& [kind, loop] : loops_)
-    cache_.warn(fmt::format("{}: equality: <{}> would close a loop of bodies; it is left open: {}",
-                            loop.place, excerpt(kind), some_names(loop.names)));
+    cache_.diagnostics().warn(loop.place.of("equality"),
+                              "<{}> would close a loop of bodies; it is left open: {}",
+                              excerpt(kind), some_names(loop.names));
   for (const auto& [kind, target] : targets_)
-    cache_.warn(fmt::format("{}: actuators whose target is a {} are not used: {}", target.place,
-                            kind == "cranksite" ? "slider-crank" : kind, some_names(target.names)));
+    cache_.diagnostics().warn(target.place, "actuators whose target is a {} are not used: {}",
+                              kind == "cranksite" ? "slider-crank" : kind,
+                              some_names(target.names));
 }
 
 }  // namespace

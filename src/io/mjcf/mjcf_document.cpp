@@ -23,8 +23,8 @@ MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
     : path_(path),
       file_(path.filename().string()),
       cache_(cache),
-      repairs_(cache.options().listeners()),
-      losses_(Listeners{.warn = cache.options().warn}) {
+      repairs_(cache.diagnostics()),
+      losses_(cache.diagnostics(), About::ignored) {
   root_ = load_file(path);
   add_classes(root_, "");
 }
@@ -116,8 +116,9 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent, const std::st
     if (const auto [at, is_new] = class_numbers_.emplace(prefix + name, outermost);
         !is_new && at->second != outermost)
       node.element.fail("default: there is another class '{}'", excerpt(name));
-    cache_.warn(fmt::format("{}: default: the outermost class is called main; {} is taken for it",
-                            node.element.place(), in_quotes(name)));
+    cache_.diagnostics().warn(node.element.place().of("default"),
+                              "the outermost class is called main; {} is taken for it",
+                              in_quotes(name));
   } else if (!name.empty() && name != "main") {
     const auto [at, is_new] =
         class_numbers_.emplace(prefix + name, static_cast<int>(classes_.size()));
@@ -125,8 +126,8 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent, const std::st
     if (is_new)
       classes_.push_back({parent < 0 ? outermost : parent, {}});
     else
-      repairs_.add("class", fmt::format("{}: default: there is another class {}; they count as one",
-                                        node.element.place(), in_quotes(name)));
+      repairs_.add("class", node.element.place().of("default"),
+                   "there is another class {}; they count as one", in_quotes(name));
   }
   for (const auto& child : node.children) {
     check_stop();

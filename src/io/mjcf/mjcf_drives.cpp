@@ -51,9 +51,8 @@ class Drives {
   void set_motors();
 
  private:
-  void warn(const MjcfDrive& drive, const std::string& what) const {
-    cache_.warn(fmt::format("{}: {}: {}", drive.actuator.values.element().place(),
-                            excerpt(drive.actuator.spec.kind), what));
+  static Place place_of(const MjcfDrive& drive) {
+    return drive.actuator.values.element().place().of(excerpt(drive.actuator.spec.kind));
   }
   ActuatorSpec& spec(const MjcfDrive& drive) {
     return specs_[static_cast<size_t>(&drive - drives_.data())];
@@ -99,12 +98,13 @@ void Drives::take_control_range(const MjcfDrive& drive) {
   double low = std::min(a, b), high = std::max(a, b);
   if (!joint.endless) low = std::max(joint.min, low), high = std::min(joint.max, high);
   if (low > high || (low == high && (*range)[0] < (*range)[1]))
-    return warn(drive, fmt::format("ctrlrange has nothing in common with the range of joint '{}'; "
-                                   "not used",
-                                   excerpt(joint.name)));
+    return cache_.diagnostics().warn(
+        place_of(drive), "ctrlrange has nothing in common with the range of joint '{}'; not used",
+        excerpt(joint.name));
   if (low == high)
-    cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g}, as ctrlrange says",
-                            actuator.values.element().place(), excerpt(joint.name), low));
+    cache_.diagnostics().note(actuator.values.element().place(),
+                              "joint '{}' may only stand at {:.4g}, as ctrlrange says",
+                              excerpt(joint.name), low);
   if (joint.endless || low > joint.min || high < joint.max) narrowed_.push_back(joint.name);
   joint.min = low, joint.max = high, joint.endless = false;
   joint.motor.default_value = std::clamp(joint.motor.default_value, low, high);
@@ -128,20 +128,22 @@ void Drives::take_control_ranges() {
       const bool on_joint = !drive.tendon && !tree_.joints[drive.joint].endless;
       const bool on_tendon = drive.tendon && drive.tendon->values.has("range");
       if (integrates ? drive.actuator.values.has("actrange") : own.control_range.has_value())
-        warn(drive, fmt::format("expected either {0} or inheritrange, got both; {0} is used",
-                                integrates ? "actrange" : "ctrlrange"));
+        cache_.diagnostics().warn(place_of(drive),
+                                  "expected either {0} or inheritrange, got both; {0} is used",
+                                  integrates ? "actrange" : "ctrlrange");
       else if (on_joint)
         inherit_range(drive, {tree_.joints[drive.joint].min, tree_.joints[drive.joint].max});
       else if (on_tendon)
         inherit_range(drive, drive.tendon->values.range("range", document_.repairs()));
       else
-        warn(drive, "inheritrange: expected a target with a range; not used");
+        cache_.diagnostics().warn(place_of(drive).of("inheritrange"),
+                                  "expected a target with a range; not used");
     }
     if (!drive.tendon) take_control_range(drive);
   }
   if (!narrowed_.empty())
-    cache_.note(fmt::format("{}: joints whose range ctrlrange narrows: {}", document_.file(),
-                            some_names(narrowed_)));
+    cache_.diagnostics().note(Place(document_.file()), "joints whose range ctrlrange narrows: {}",
+                              some_names(narrowed_));
 }
 
 // --- joints that share a tendon ---
@@ -179,11 +181,11 @@ void Drives::tie(const MjcfDrive& drive) {
       narrowed = fmt::format("; the range of '{}' narrows from {} to {}", excerpt(lead.name),
                              lead.endless ? "no limits" : range_text(lead.min, lead.max),
                              range_text(low, high));
-    cache_.warn(
-        fmt::format("{}: joints '{}' and '{}' share a tendon, '{}', and lose a DOF; they "
-                    "are taken to turn as 1 to {:.4g}{}",
-                    at.place(), excerpt(lead.name), excerpt(joint.name), excerpt(tendon.name),
-                    ratio, narrowed));
+    cache_.diagnostics().warn(at.place(),
+                              "joints '{}' and '{}' share a tendon, '{}', and lose a DOF; they are "
+                              "taken to turn as 1 to {:.4g}{}",
+                              excerpt(lead.name), excerpt(joint.name), excerpt(tendon.name), ratio,
+                              narrowed);
   }
 }
 
@@ -201,12 +203,11 @@ void Drives::tell_independent(const std::vector<int>& group) {
     if (known.insert(drive.tendon->name).second) tendons.push_back(drive.tendon->name);
   }
   for (const int joint : group) joints.push_back(tree_.joints[joint].name);
-  cache_.warn(fmt::format(
-      "{}: actuators pull joints in different ratios; each of these joints stays a DOF "
-      "with its own motor; contact forces are those of the actuators, while motors of a run are "
-      "independent: joints {}; "
-      "tendons {}",
-      first->actuator.values.element().place(), some_names(joints), some_names(tendons)));
+  cache_.diagnostics().warn(first->actuator.values.element().place(),
+                            "actuators pull joints in different ratios; each of these joints stays "
+                            "a DOF with its own motor; contact forces are those of the actuators, "
+                            "while motors of a run are independent: joints {}; tendons {}",
+                            some_names(joints), some_names(tendons));
 }
 
 void Drives::tie_joints() {
@@ -274,7 +275,7 @@ std::string label(const ActuatorSpec& spec) {
 
 void Drives::tell_powerless() const {
   std::vector<std::string> names;
-  std::string place;
+  Place place;
   for (const MjcfDrive& drive : drives_) {
     const ActuatorSpec& spec = specs_[static_cast<size_t>(&drive - drives_.data())];
     const bool fixed =
@@ -284,10 +285,10 @@ void Drives::tell_powerless() const {
     names.push_back(label(spec));
   }
   if (!names.empty())
-    cache_.warn(
-        fmt::format("{}: actuators that exert no force, for their gear, gain or range is "
-                    "0, drive nothing: {}",
-                    place, some_names(names)));
+    cache_.diagnostics().warn(
+        place,
+        "actuators that exert no force, for their gear, gain or range is 0, drive nothing: {}",
+        some_names(names));
 }
 
 void Drives::tell_disabled() const {
@@ -296,9 +297,9 @@ void Drives::tell_disabled() const {
     if (!spec.enabled) names.push_back(label(spec));
   if (names.empty()) return;
   const MjcfActuatorSwitches switches = read_actuator_switches(document_);
-  cache_.warn(fmt::format("{}: {} switches actuators off; they drive nothing: {}", switches.place,
-                          switches.all_off ? "flag: actuation=\"disable\"" : "actuatorgroupdisable",
-                          some_names(names)));
+  cache_.diagnostics().warn(
+      switches.place, "{} switches actuators off; they drive nothing: {}",
+      switches.all_off ? "flag: actuation=\"disable\"" : "actuatorgroupdisable", some_names(names));
 }
 
 /// Completes the actuator's spec by its target, and adds it to those of the tree. An actuator of a

@@ -273,7 +273,7 @@ MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) 
       if (asset.name() != "model") continue;
       const XmlValues of_asset(asset.element);
       search(asset.element, 1);
-      const std::string key = asset.element.place() + ' ' + of_asset.text("file");
+      const std::string key = asset.element.place().text() + ' ' + of_asset.text("file");
       const std::string given = of_asset.text("name", "");
       names.push_back(given);
       if (!given.empty() && given != name) continue;
@@ -425,9 +425,8 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
         const auto references = names.references(element);
         if (references.inside == 0) continue;
         if (references.outside > 0) {
-          document_.repairs_.add(
-              "attached", fmt::format("{}: {}: refers to elements that are not attached; not used",
-                                      element.element.place(), excerpt(element.name())));
+          document_.repairs_.add("attached", element.element.place().of(excerpt(element.name())),
+                                 "refers to elements that are not attached; not used");
           continue;
         }
         names.add(element);

@@ -135,8 +135,8 @@ void MjcfGeoms::set_fitted(const std::string& type, const XmlValues& values, con
     set_solid("sphere", {fitted.size[0]}, values, geom);
   else
     set_solid(type, fitted.size, values, geom);
-  cache_.note(fmt::format("{}: geom: a {} is fitted to mesh {}", values.element().place(), type,
-                          in_quotes(values.text("mesh"))));
+  cache_.diagnostics().note(values.element().place().of("geom"), "a {} is fitted to mesh {}", type,
+                            in_quotes(values.text("mesh")));
 }
 
 // stands for a plane, which is infinite
@@ -154,8 +154,9 @@ void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
   Mesh mesh = box_mesh({2 * x, 2 * y, plane_thickness});
   for (auto& p : mesh.vertices) p.z() -= plane_thickness / 2;
   geom.piece.geometry = geometry_.made(fmt::format("plane {} {}", x, y), std::move(mesh));
-  cache_.note(fmt::format("{}: geom: a plane has no end; a plate of {} x {} x {} m stands for it",
-                          values.element().place(), 2 * x, 2 * y, plane_thickness));
+  cache_.diagnostics().note(values.element().place().of("geom"),
+                            "a plane has no end; a plate of {} x {} x {} m stands for it", 2 * x,
+                            2 * y, plane_thickness);
 }
 
 void MjcfGeoms::read_friction(const XmlValues& values, MjcfGeom& geom) {
@@ -196,8 +197,7 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
       "sphere");
   const auto skip = [&](const std::string& what) {
     unused_types_.insert(type);
-    document_.losses().add("geom " + type,
-                           fmt::format("{}: geom: {}; it is not used", element.place(), what));
+    document_.losses().add("geom " + type, element.place().of("geom"), "{}; it is not used", what);
     return std::nullopt;
   };
   if ((type == "plane" && !of_world) || type == "hfield" || type == "sdf")
@@ -208,10 +208,9 @@ std::optional<MjcfGeom> MjcfGeoms::read(const XmlElement& element, const std::st
   read_friction(values, geom);
   geom.name = values.text("name", "");
   if (values.has("surfacevel"))
-    cache_.warn(
-        fmt::format("{}: geom '{}': surfacevel is not used; surface_velocity of its body "
-                    "makes a conveyor",
-                    element.place(), excerpt(geom.name)));
+    cache_.diagnostics().warn(
+        element.place().of("geom '{}'", excerpt(geom.name)),
+        "surfacevel is not used; surface_velocity of its body makes a conveyor");
   geom.paired = !geom.name.empty() && paired_.contains(geom.name);
   geom.type = static_cast<unsigned>(values.integer("contype", 1));
   geom.affinity = static_cast<unsigned>(values.integer("conaffinity", 1));

@@ -46,14 +46,15 @@ std::vector<double> dofs_of(const SceneBody& body, const RobotSpec& robot,
       const auto [low, high] = dof_range(robot, dof);
       dofs.push_back(dof_is_endless(robot, dof) ? q[j] : std::clamp(q[j], low, high));
       if (std::abs(dofs.back() - q[j]) > 1e-6)
-        cache.repaired(fmt::format("{}: joint '{}' is at {}, outside [{}, {}]; moved to the limit",
-                                   values.subject("qpos"), excerpt(joint.name), q[j], low, high));
+        cache.diagnostics().repaired(values.subject("qpos"),
+                                     "joint '{}' is at {}, outside [{}, {}]; moved to the limit",
+                                     excerpt(joint.name), q[j], low, high);
     } else if (std::abs(joint.ratio * q[joint.leader] + joint.offset - q[j]) > settled) {
-      cache.warn(fmt::format(
-          "{}: joint '{}' follows '{}', and is at {} rather than at {}; it "
-          "follows",
-          values.subject("qpos"), excerpt(joint.name), excerpt(body.joints[joint.leader].name),
-          q[j], joint.ratio * q[joint.leader] + joint.offset));
+      cache.diagnostics().warn(
+          values.subject("qpos"),
+          "joint '{}' follows '{}', and is at {} rather than at {}; it follows",
+          excerpt(joint.name), excerpt(body.joints[joint.leader].name), q[j],
+          joint.ratio * q[joint.leader] + joint.offset);
     }
   }
   return dofs;
@@ -149,25 +150,24 @@ void read_mjcf_keyframes(MjcfDocument& document, const std::vector<SceneBody>& b
     std::string name = values.text("name", fmt::format("{}", number));
     if (const auto wrong = name_fault(name); !wrong.empty()) {
       name = repaired_name(name);
-      cache.repaired(
-          fmt::format("{}: {}; it becomes '{}'", values.subject("name"), wrong, excerpt(name)));
+      cache.diagnostics().repaired(values.subject("name"), "{}; it becomes '{}'", wrong,
+                                   excerpt(name));
     }
     const int got = values.has("qpos")
                         ? static_cast<int>(values.numbers("qpos", 1, max_key_numbers).size())
                         : expected;
     if (got != expected && lossy) {
-      cache.warn(
-          fmt::format("{}: keyframe '{}' has {} numbers, and the bodies that are read take "
-                      "{}; it is not used",
-                      values.subject("qpos"), excerpt(name), got, expected));
+      cache.diagnostics().warn(
+          values.subject("qpos"),
+          "keyframe '{}' has {} numbers, and the bodies that are read take {}; it is not used",
+          excerpt(name), got, expected);
       continue;
     }
     if (got != expected) values.fail("qpos", "expected {} numbers, got {}", expected, got);
     if (!names.insert(name).second) {
-      document.repairs().add("key",
-                             fmt::format("{}: key: there is another one of the name '{}'; the "
-                                         "first one counts",
-                                         node->element.place(), excerpt(name)));
+      document.repairs().add("key", node->element.place().of("key"),
+                             "there is another one of the name '{}'; the first one counts",
+                             excerpt(name));
       continue;
     }
     if (kept * names.size() > max_keyframe_numbers)

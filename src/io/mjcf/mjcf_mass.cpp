@@ -27,8 +27,8 @@ void MjcfTreeReader::read_inertial(const XmlElement& element, int link, const Po
     return;
   }
   if (const auto wrong = fault(mass_rule, mass); !wrong.empty()) {
-    warn(element,
-         fmt::format("body '{}': mass: {}; the geometry gives it", excerpt(body.name), wrong));
+    cache_.diagnostics().warn(element.place().of("body '{}'", excerpt(body.name)),
+                              "mass: {}; the geometry gives it", wrong);
     return;
   }
   const MjcfSettings& settings = document_.settings(element);
@@ -150,21 +150,22 @@ void MjcfTreeReader::check_moving_masses() {
   for (int l = 0; l < count; ++l) {
     if (!moves(l) || heavy[l]) continue;
     links[l].body.mass = least;
-    const std::string sentence =
-        fmt::format("{}: body '{}' moves and has no mass; {} kg is used", tree_.pieces[l].place,
-                    excerpt(links[l].body.name), least);
+    Diagnostic massless(tree_.pieces[l].place,
+                        fmt::format("body '{}' moves and has no mass; {} kg is used",
+                                    excerpt(links[l].body.name), least));
     if (tree_.geoms[l].empty())
-      cache_.note(sentence);  // a frame
+      cache_.diagnostics().note(std::move(massless));  // a frame
     else
-      document_.losses().add("massless", sentence);
+      document_.losses().add("massless", std::move(massless));
   }
 }
 
 MjcfTree MjcfTreeReader::take() {
   check_moving_masses();
   if (!raised_.empty())
-    cache_.note(fmt::format("{}: boundmass and boundinertia raise the mass or inertia of: {}",
-                            document_.file(), some_names(raised_)));
+    cache_.diagnostics().note(Place(document_.file()),
+                              "boundmass and boundinertia raise the mass or inertia of: {}",
+                              some_names(raised_));
   return std::move(tree_);
 }
 

@@ -32,10 +32,10 @@ std::string MjcfMaterials::of(const std::vector<MjcfGeom>& geoms, const std::str
 
 void MjcfMaterials::tell(const FileCache& cache) const {
   if (!mixed_.empty())
-    cache.warn(
-        fmt::format("{}: bodies whose geoms differ in friction, of which that of the "
-                    "highest priority, then the largest counts for all: {}",
-                    file_, some_names(mixed_)));
+    cache.diagnostics().warn(Place(file_),
+                             "bodies whose geoms differ in friction, of which that of the highest "
+                             "priority, then the largest counts for all: {}",
+                             some_names(mixed_));
 }
 
 bool is_friction_given(const std::vector<MjcfGeom>& geoms) {

@@ -18,9 +18,9 @@ void MjcfMeshes::add(const XmlElement& element) {
   std::string name = values.text("name", "");
   if (name.empty()) name = std::filesystem::path(values.text("file")).stem().string();
   if (!assets_.emplace(name, Asset{values}).second)
-    document_.repairs().add("mesh", fmt::format("{}: mesh: there is another one of the name '{}'; "
-                                                "the first one counts",
-                                                element.place(), excerpt(name)));
+    document_.repairs().add("mesh", element.place().of("mesh"),
+                            "there is another one of the name '{}'; the first one counts",
+                            excerpt(name));
   document_.unused().attributes(
       element, {"name", "class", "file", "scale", "refpos", "refquat", "vertex", "face",
                 "content_type", "inertia", "builtin", "params", "material"});
@@ -139,10 +139,15 @@ const MjcfMesh* MjcfMeshes::find(const XmlValues& geom, bool collides) {
   try {
     return &read(asset);
   } catch (const Error& error) {
-    const std::string what = error.what(), place = asset.values.element().place();
-    const std::string sentence = what.starts_with(place) ? what : place + ": mesh: " + what;
-    if (collides) throw Error(sentence);
-    if (!std::exchange(asset.is_missing, true)) cache_.warn(sentence + "; it is not drawn");
+    Place place = asset.values.element().place();
+    std::string what = error.what();
+    if (const std::string before = place.text() + ": "; what.starts_with(before))
+      what.erase(0, before.size());
+    else
+      place = place.of("mesh");
+    if (collides) throw PlacedError(place, what);
+    if (!std::exchange(asset.is_missing, true))
+      cache_.diagnostics().warn(place, "{}; it is not drawn", what);
     return nullptr;
   }
 }

@@ -62,9 +62,9 @@ void MjcfModel::leave_out(const MjcfNode& section) {
     return leave_out_rest(section, document_.unused());
   if (section.name() != "keyframe") return document_.unused().element(section.element);
   if (section.children.empty()) return;
-  cache_.warn(section.element.place() +
-              ": <keyframe> is not used for a robot alone; clench.load takes it with the option "
-              "'keyframe'");
+  cache_.diagnostics().warn(
+      section.element.place(),
+      "<keyframe> is not used for a robot alone; clench.load takes it with the option 'keyframe'");
 }
 
 std::vector<const TopBody*> MjcfModel::joint_trees() const {
@@ -88,7 +88,7 @@ MjcfTree MjcfModel::read_tree(const TopBody& body) {
 /// Total mass of the bodies of a file, without the world [kg].
 static double mass_of_all(const std::filesystem::path& path, const ReadOptions& options) {
   ReadOptions quiet = options;
-  quiet.warn = quiet.note = quiet.repair = quiet.suspect = {};
+  quiet.diagnostics = {};
   const Loaders none = {};
   FileCache cache(quiet, none);
   MjcfDocument document(path, cache);
@@ -113,10 +113,10 @@ void MjcfModel::scale_masses(MjcfTree& tree) {
     const double mass = mass_of_all(document_.path(), cache_.options());
     mass_scale_ = mass > 0 ? wanted / mass : 1;
     if (std::abs(*mass_scale_ - 1) > 1e-9)
-      cache_.note(
-          fmt::format("{}: settotalmass scales the masses of all bodies by {:.6g}, from {:.6g} "
-                      "to {:.6g} kg",
-                      document_.file(), *mass_scale_, mass, wanted));
+      cache_.diagnostics().note(
+          Place(document_.file()),
+          "settotalmass scales the masses of all bodies by {:.6g}, from {:.6g} to {:.6g} kg",
+          *mass_scale_, mass, wanted);
   }
   for (size_t l = 0; l < tree.pieces.size(); ++l) {
     double& mass = tree.model.links[l].body.mass;
@@ -151,9 +151,9 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
     if (a == tree.links.end() || b == tree.links.end()) {
       // a scene checks them all, and a robot alone has no world around it
       if (alone && values.text("body1") != "world" && values.text("body2") != "world")
-        cache_.warn(fmt::format(
-            "{}: exclude: '{}' and '{}' are not both bodies of the robot; not used",
-            node->element.place(), excerpt(values.text("body1")), excerpt(values.text("body2"))));
+        cache_.diagnostics().warn(node->element.place().of("exclude"),
+                                  "'{}' and '{}' are not both bodies of the robot; not used",
+                                  excerpt(values.text("body1")), excerpt(values.text("body2")));
     } else if (a != b) {
       tree.model.never_meet.emplace_back(a->second, b->second);
     }
@@ -170,11 +170,10 @@ void MjcfModel::warn_of_starts(const TreeModel& tree) const {
     if (joint.leader >= 0 || joint.min == joint.max ||
         std::abs(start - joint.zero) <= rounding * std::max(1.0, std::abs(joint.zero)))
       continue;
-    cache_.warn(fmt::format(
-        "{}: joint '{}': expected a start within its limits [{:.6g}, {:.6g}] {}, got {:.6g}; it "
-        "starts at {:.6g}",
-        joint.place, excerpt(joint.name), joint.min, joint.max,
-        joint.kind == JointKind::revolute ? "rad" : "m", joint.zero, start));
+    cache_.diagnostics().warn(
+        joint.place.of("joint '{}'", excerpt(joint.name)),
+        "expected a start within its limits [{:.6g}, {:.6g}] {}, got {:.6g}; it starts at {:.6g}",
+        joint.min, joint.max, joint.kind == JointKind::revolute ? "rad" : "m", joint.zero, start);
   }
 }
 
@@ -191,10 +190,10 @@ void MjcfModel::set_materials(MjcfTree& tree, MjcfMaterials& materials) const {
     all_given = all_given && (given || !body.shape);
   }
   if (whole_ != std::string_view("world") && !all_given)
-    cache_.note(
-        fmt::format("{}: read as a robot, its links whose geoms give no friction count as plastic; "
-                    "as a scene, by clench.load, they have MuJoCo's friction of 1",
-                    document_.file()));
+    cache_.diagnostics().note(
+        Place(document_.file()),
+        "read as a robot, its links whose geoms give no friction count as plastic; as a scene, by "
+        "clench.load, they have MuJoCo's friction of 1");
 }
 
 MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk,
@@ -248,7 +247,8 @@ MjcfRobot MjcfModel::make(MjcfTree tree, const std::string& robot_name, const To
 void MjcfModel::tell() {
   document_.repairs().tell();
   document_.losses().tell();
-  for (const auto& sentence : document_.unused().sentences()) cache_.warn(sentence);
+  for (Diagnostic& loss : document_.unused().diagnostics())
+    cache_.diagnostics().warn(std::move(loss));
 }
 
 }  // namespace clench

@@ -35,13 +35,13 @@ static bool read_flags(const XmlElement& element, const FileCache& cache, WorldS
       lost.push_back(fmt::format("{}=\"{}\"", excerpt(name), on ? "enable" : "disable"));
   }
   if (!world.collision_on)
-    cache.note(fmt::format("{}: flag: contacts are off, as the file says; nothing collides",
-                           element.place()));
+    cache.diagnostics().note(element.place().of("flag"),
+                             "contacts are off, as the file says; nothing collides");
   if (!idle.empty())
-    cache.note(fmt::format("{}: flag: of MuJoCo's solver alone, and not used: {}", element.place(),
-                           name_list(idle)));
+    cache.diagnostics().note(element.place().of("flag"),
+                             "of MuJoCo's solver alone, and not used: {}", name_list(idle));
   if (!lost.empty())
-    cache.warn(fmt::format("{}: flag: not used: {}", element.place(), name_list(lost)));
+    cache.diagnostics().warn(element.place().of("flag"), "not used: {}", name_list(lost));
   return gravity;
 }
 

@@ -278,8 +278,8 @@ const std::vector<PartRef>& SceneReader::parts_of(const XmlValues& exclude, cons
   const std::string name = exclude.text(body);
   if (name == "world") return of_world_;
   if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
-  cache_.warn(fmt::format("{}: exclude: no body {} is read; this is not used",
-                          exclude.element().place(), in_quotes(name)));
+  cache_.diagnostics().warn(exclude.element().place().of("exclude"),
+                            "no body {} is read; this is not used", in_quotes(name));
   return none;
 }
 
@@ -320,11 +320,10 @@ void SceneReader::set_bits() {
   for (const auto& [i, j] : apart.listed)
     world_.always_meet.push_back({parts_[i].ref, parts_[j].ref});
   if (apart.by_bits > 0)
-    cache_.note(
-        fmt::format("{}: {} pair{} of bodies never collide{}, as contype and "
-                    "conaffinity say",
-                    model_.document().file(), apart.by_bits, apart.by_bits == 1 ? "" : "s",
-                    apart.by_bits == 1 ? "s" : ""));
+    cache_.diagnostics().note(Place(model_.document().file()),
+                              "{} pair{} of bodies never collide{}, as contype and conaffinity say",
+                              apart.by_bits, apart.by_bits == 1 ? "" : "s",
+                              apart.by_bits == 1 ? "s" : "");
 }
 
 /// Accepts a scene without bodies if its <worldbody> holds none either.

@@ -9,19 +9,18 @@
 
 namespace clench {
 
-std::string MjcfTendon::subject() const {
-  return fmt::format("{}: tendon '{}'", values.element().place(), excerpt(name));
+Place MjcfTendon::subject() const {
+  return values.element().place().of("tendon '{}'", excerpt(name));
 }
 
-double linear_part(const XmlValues& values, const char* name, const std::string& subject,
+double linear_part(const XmlValues& values, const char* name, const Place& subject,
                    MjcfDocument& document, const FileCache& cache) {
   if (!values.has(name)) return 0;
   const auto given = values.numbers(name, 1, 10);
   if (std::any_of(given.begin() + 1, given.end(), [](double x) { return x != 0; }))
-    cache.warn(
-        fmt::format("{}: {}: expected one number, got {}; only the first, the linear part, "
-                    "is used",
-                    subject, name, given.size()));
+    cache.diagnostics().warn(
+        subject.of(name), "expected one number, got {}; only the first, the linear part, is used",
+        given.size());
   return document.repairs().magnitude(given[0], values.subject(name));
 }
 
@@ -56,19 +55,19 @@ void narrow(const MjcfTendon& tendon, TreeJoint& joint, double coefficient, doub
   const double low = joint.endless ? std::min(a, b) : std::max(joint.min, std::min(a, b)),
                high = joint.endless ? std::max(a, b) : std::min(joint.max, std::max(a, b));
   if (low > high) {
-    cache.warn(
-        fmt::format("{}: its range has no value in common with that of joint '{}'; it is "
-                    "not used",
-                    tendon.subject(), excerpt(joint.name)));
+    cache.diagnostics().warn(
+        tendon.subject(),
+        "its range has no value in common with that of joint '{}'; it is not used",
+        excerpt(joint.name));
     return;
   }
   if (!joint.endless && low == joint.min && high == joint.max) return;
   const char* unit = joint.kind == JointKind::revolute ? "rad" : "m";
-  cache.note(fmt::format(
-      "{}: its range narrows that of joint '{}' from {} to [{:.6g}, {:.6g}] {}", tendon.subject(),
+  cache.diagnostics().note(
+      tendon.subject(), "its range narrows that of joint '{}' from {} to [{:.6g}, {:.6g}] {}",
       excerpt(joint.name),
       joint.endless ? "no limits" : fmt::format("[{:.6g}, {:.6g}]", joint.min, joint.max), low,
-      high, unit));
+      high, unit);
   joint.min = low, joint.max = high, joint.endless = false;
   joint.motor.default_value = std::clamp(joint.motor.default_value, low, high);
 }
@@ -79,7 +78,7 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
                          TreeModel& tree) {
   if (tendon.spatial || tendon.joints.empty()) return;
   const XmlValues& values = tendon.values;
-  const std::string subject = tendon.subject();
+  const Place subject = tendon.subject();
   auto range = length_range(values, document);
   JointTendonSpec out;
   out.name = tendon.name;
@@ -88,10 +87,9 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
   out.friction = values.not_negative("frictionloss", 0, document.repairs());
   if (!range && out.stiffness == 0 && out.damping == 0 && out.friction == 0) return;
   if (!tendon.complete) {
-    cache.warn(
-        fmt::format("{}: limits, stiffness, damping and frictionloss are not used, for some "
-                    "of its joints are not of the robot",
-                    subject));
+    cache.diagnostics().warn(subject,
+                             "limits, stiffness, damping and frictionloss are not used, for some "
+                             "of its joints are not of the robot");
     return;
   }
   // length = sum of coefficients and DOFs + offset

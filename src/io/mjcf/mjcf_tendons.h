@@ -15,7 +15,7 @@ struct MjcfTendon {
   std::optional<std::array<double, 2>> force_range = {};  ///< of all its actuators together
 
   /// "hand.xml:31: tendon 'split'", for messages
-  std::string subject() const;
+  Place subject() const;
 };
 
 /// Attributes of a fixed tendon, with the defaults of its class.
@@ -29,7 +29,7 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
 
 /// The first of the coefficients of a force that is a polynomial of velocity or length; a warning
 /// names the others unless they are 0.
-double linear_part(const XmlValues& values, const char* name, const std::string& subject,
+double linear_part(const XmlValues& values, const char* name, const Place& subject,
                    MjcfDocument& document, const FileCache& cache);
 
 }  // namespace clench

@@ -72,9 +72,9 @@ void MjcfTextures::add(const XmlElement& element) {
     return document_.unused().element(element);
   }
   if (textures_.contains(name))
-    return document_.repairs().add("texture", fmt::format("{}: texture: there is another one of "
-                                                          "the name '{}'; the first one counts",
-                                                          element.place(), excerpt(name)));
+    return document_.repairs().add("texture", element.place().of("texture"),
+                                   "there is another one of the name '{}'; the first one counts",
+                                   excerpt(name));
   document_.unused().attributes(
       element, {"name",     "class",      "type",      "file",       "builtin",   "rgb1",
                 "rgb2",     "mark",       "markrgb",   "width",      "height",    "content_type",
@@ -86,8 +86,8 @@ void MjcfTextures::add(const XmlElement& element) {
 MjcfTextures::Image6 MjcfTextures::read(const XmlValues& values, const std::string& name) {
   Image6 out{.cube = values.text("type", "cube") == "cube"};
   const auto warn = [&](const std::string& sentence) {
-    cache_.warn(
-        fmt::format("{}: texture '{}': {}", values.element().place(), excerpt(name), sentence));
+    cache_.diagnostics().warn(values.element().place().of("texture '{}'", excerpt(name)), "{}",
+                              sentence);
   };
   const std::string kind = values.text("builtin", "none");
   if (kind != "none") {
@@ -142,8 +142,9 @@ void MjcfTextures::dress(const MjcfTextureUse& use, const Eigen::Vector3d& half,
                          GeometryPiece& piece) {
   const auto [found, is_unknown] = textures_.try_emplace(use.texture);
   if (is_unknown)
-    cache_.warn(fmt::format("{}: material: no texture {}; the color of the material is used",
-                            document_.file(), in_quotes(use.texture)));
+    cache_.diagnostics().warn(Place(document_.file(), 0, "material"),
+                              "no texture {}; the color of the material is used",
+                              in_quotes(use.texture));
   if (!found->second.sides[0]) return;
   const Image6& image = found->second;
   const Eigen::Vector3f tint = piece.color ? piece.color->color : Eigen::Vector3f::Ones();

@@ -18,8 +18,8 @@ void tie_joint(TreeModel& tree, int follower, int leader, double ratio, double o
                const XmlElement& at, const FileCache& cache) {
   TreeJoint& joint = tree.joints[follower];
   if (joint.leader >= 0 || leader_of(tree, leader) == follower) {
-    cache.warn(fmt::format("{}: joint '{}' is tied already; this does not tie it to '{}'",
-                           at.place(), excerpt(joint.name), excerpt(tree.joints[leader].name)));
+    cache.diagnostics().warn(at.place(), "joint '{}' is tied already; this does not tie it to '{}'",
+                             excerpt(joint.name), excerpt(tree.joints[leader].name));
     return;
   }
   joint.leader = leader;

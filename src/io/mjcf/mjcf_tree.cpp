@@ -47,10 +47,10 @@ static void count_joints(const MjcfNode& node, const std::string& child_class,
 bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const char* whole) {
   const std::string name = node.name();
   if (name == "composite" || name == "flexcomp") {
-    document.losses().add(
-        name, fmt::format("{}: <{}> is not used: the {} lacks the bodies that it generates; save "
-                          "the model expanded by MuJoCo",
-                          node.element.place(), name, whole));
+    document.losses().add(name, node.element.place(),
+                          "<{}> is not used: the {} lacks the bodies that it generates; save the "
+                          "model expanded by MuJoCo",
+                          name, whole);
     return true;
   }
   document.unused().element(node.element);
@@ -105,10 +105,9 @@ std::string MjcfTreeReader::own_name(const XmlElement& element, const std::strin
                                      const std::map<std::string, int>& taken) {
   if (!taken.contains(name)) return name;
   const std::string own = unused_name(name, taken);
-  document_.repairs().add(std::string(element.name()),
-                          fmt::format("{}: {}: there is another one of the name '{}'; it is called "
-                                      "'{}'",
-                                      element.place(), element.name(), excerpt(name), own));
+  document_.repairs().add(std::string(element.name()), element.place().of(element.name()),
+                          "there is another one of the name '{}'; it is called '{}'", excerpt(name),
+                          own);
   return own;
 }
 
@@ -150,8 +149,9 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
   const int link = add_link(element, name, parent, base ? Pose{} : X);
   tree_.model.links[link].body.gravity_compensation = carried;
   if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
-    cache_.note(fmt::format("{}: body '{}' is the base; its place in the file is not used",
-                            element.place(), excerpt(tree_.model.links[link].body.name)));
+    cache_.diagnostics().note(element.place(),
+                              "body '{}' is the base; its place in the file is not used",
+                              excerpt(tree_.model.links[link].body.name));
   read_contents(node, link, inherited, Pose{});
   weigh(element, link);
 }
@@ -198,27 +198,27 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   // two zeros cancel the range of the class
   const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !settings.autolimits)
-    document_.repairs().add(
-        "autolimits", values.subject("range") +
-                          ": expected limited=\"true\" beside it, as autolimits is off; the range "
-                          "is used");
+    document_.repairs().add("autolimits", values.subject("range"),
+                            "expected limited=\"true\" beside it, as autolimits is off; the range "
+                            "is used");
   if (limited == "true" && !values.has("range"))
-    document_.repairs().add(
-        "limited", values.subject("limited") + ": expected a range, got none; there are no limits");
+    document_.repairs().add("limited", values.subject("limited"),
+                            "expected a range, got none; there are no limits");
   if (limited == "false" || !has_range) {
     const double far = turns ? endless_turn : endless_slide;
     joint.min = joint.zero - far, joint.max = joint.zero + far, joint.endless = true;
-    cache_.note(fmt::format(
-        "{}: joint '{}' has no limits; planners try values up to {:.4g} {} from where it is",
-        joint.place, excerpt(joint.name), far, turns ? "rad" : "m"));
+    cache_.diagnostics().note(
+        joint.place,
+        "joint '{}' has no limits; planners try values up to {:.4g} {} from where it is",
+        excerpt(joint.name), far, turns ? "rad" : "m");
     return;
   }
   const auto range = values.range("range", document_.repairs());
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
-    cache_.note(fmt::format("{}: joint '{}' may only stand at {:.4g} {}", joint.place,
-                            excerpt(joint.name), joint.min, turns ? "rad" : "m"));
+    cache_.diagnostics().note(joint.place, "joint '{}' may only stand at {:.4g} {}",
+                              excerpt(joint.name), joint.min, turns ? "rad" : "m");
 }
 
 void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
@@ -234,14 +234,13 @@ void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int l
 
 /// Adds the resistance of a free joint to its body.
 void MjcfTreeReader::read_free_motion(const XmlValues& values, BodySpec& body) {
-  const std::string subject =
-      fmt::format("{}: free joint of '{}'", values.element().place(), excerpt(body.name));
+  const Place subject = values.element().place().of("free joint of '{}'", excerpt(body.name));
   body.free_damping = linear_part(values, "damping", subject, document_, cache_);
   body.free_friction = values.not_negative("frictionloss", 0, document_.repairs());
   body.free_armature = values.not_negative("armature", 0, document_.repairs());
   if (linear_part(values, "stiffness", subject, document_, cache_) != 0)
-    cache_.warn(subject + ": a spring holds no free body here; stiffness is not used");
-  if (values.has("springdamper")) cache_.warn(subject + ": springdamper is not used");
+    cache_.diagnostics().warn(subject, "a spring holds no free body here; stiffness is not used");
+  if (values.has("springdamper")) cache_.diagnostics().warn(subject, "springdamper is not used");
 }
 
 /// Stores stiffness and damping that depend on the inertia, until that is known.
@@ -273,8 +272,9 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
     tree_.slots[link].push_back({QposSlot::Kind::free});
     // the world places the base
     if (link == 0) return read_free_motion(values, tree_.model.links[link].body);
-    warn(element, fmt::format("joint '{}' is free; body '{}' stays where the file puts it",
-                              excerpt(joint.name), excerpt(body)));
+    cache_.diagnostics().warn(element.place(),
+                              "joint '{}' is free; body '{}' stays where the file puts it",
+                              excerpt(joint.name), excerpt(body));
     return;
   }
   joint.kind = type == "slide" ? JointKind::prismatic : JointKind::revolute;
@@ -283,7 +283,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   const Eigen::Vector3d axis = values.vec3("axis", {0, 0, 1});
   if (!(axis.stableNorm() > 1e-9)) values.fail("axis", "expected a direction, got none");
   joint.axis = (X_frame.rotation * axis.stableNormalized()).normalized();
-  const std::string subject = fmt::format("{}: joint '{}'", joint.place, excerpt(joint.name));
+  const Place subject = joint.place.of("joint '{}'", excerpt(joint.name));
   joint.viscous = linear_part(values, "damping", subject, document_, cache_);
   joint.coulomb = values.not_negative("frictionloss", 0, document_.repairs());
   joint.armature = values.not_negative("armature", 0, document_.repairs());
@@ -304,8 +304,9 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
   if (given_range(values) && values.text("limited", "auto") != "false")
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
   if (!(most > 0)) values.fail("range", "expected a largest angle > 0");
-  cache_.note(fmt::format("{}: joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
-                          joint.place, excerpt(joint.name), most));
+  cache_.diagnostics().note(joint.place,
+                            "joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
+                            excerpt(joint.name), most);
   tree_.slots[link].push_back({QposSlot::Kind::ball, static_cast<int>(tree_.model.joints.size())});
   for (int i = 0; i < 3; ++i) {
     TreeJoint turn = joint;

@@ -71,9 +71,6 @@ class MjcfTreeReader {
   MjcfTree take();
 
  private:
-  void warn(const XmlElement& at, const std::string& what) const {
-    cache_.warn(at.place() + ": " + what);
-  }
   int add_link(const XmlElement& element, const std::string& name, int parent, const Pose& X_PL);
   void read_body(const MjcfNode& node, int parent, const std::string& child_class,
                  const Pose& X_frame, bool base, const std::string& name);

@@ -23,7 +23,7 @@ const RobotSpec& FileCache::robot(const fs::path& path, const std::string& body)
 }
 
 BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer,
-                               const std::string& place) {
+                               const Place& place) {
   BodySpec out = errors_at(
       place, [&] { return body(find_model(name, referrer, ModelKind::body, place, options_)); });
   out.source = name;
@@ -31,7 +31,7 @@ BodySpec FileCache::named_body(const std::string& name, const fs::path& referrer
 }
 
 RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referrer,
-                                 const std::string& place) {
+                                 const Place& place) {
   const size_t at = name.rfind('#');
   const bool part = at != std::string::npos && at > 0;
   const std::string file = part ? name.substr(0, at) : name;
@@ -44,7 +44,7 @@ RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referr
 }
 
 fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
-                              const std::string& place) const {
+                              const Place& place) const {
   // in the folder iv/ beside the robot's file, or of the folder that the call names
   std::vector<fs::path> folders = {robot.parent_path() / "iv"};
   if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");
@@ -54,7 +54,7 @@ fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
   return find_converted(name, folders.back() / "x", ModelKind::body, place, options_.beside_only());
 }
 
-BodySpec FileCache::part(const std::string& name, const fs::path& robot, const std::string& place) {
+BodySpec FileCache::part(const std::string& name, const fs::path& robot, const Place& place) {
   return errors_at(place, [&] {
     const fs::path found = find_part(name, robot, place);
     BodySpec out = body(found);

@@ -25,31 +25,23 @@ class FileCache {
       : options_(options), loaders_(loaders) {}
 
   const ReadOptions& options() const { return options_; }
-  void warn(const std::string& sentence) const {
-    if (options_.warn) options_.warn(sentence);
-  }
-  void repaired(const std::string& sentence) const { options_.repaired(sentence); }
-  void suspected(const std::string& sentence) const { options_.suspected(sentence); }
-  void note(const std::string& sentence) const {
-    if (options_.note) options_.note(sentence);
-  }
+  const Diagnostics& diagnostics() const { return options_.diagnostics; }
   /// `path` as find_model gives it
   const BodySpec& body(const std::filesystem::path& path);
   const RobotSpec& robot(const std::filesystem::path& path, const std::string& body = "");
-  /// The body that a line of another file names; errors begin with `place`, "dlr.wld:3".
+  /// The body that a line of another file names; errors begin with `place`, dlr.wld:3.
   BodySpec named_body(const std::string& name, const std::filesystem::path& referrer,
-                      const std::string& place);
+                      const Place& place);
   /// "scene.xml#arm": that robot of a scene.
   RobotSpec named_robot(const std::string& name, const std::filesystem::path& referrer,
-                        const std::string& place);
+                        const Place& place);
   /// The body of a link: names in a robot's file `robot` count from the folder iv/ beside it,
   /// then as find_file has it.
-  BodySpec part(const std::string& name, const std::filesystem::path& robot,
-                const std::string& place);
+  BodySpec part(const std::string& name, const std::filesystem::path& robot, const Place& place);
 
  private:
   std::filesystem::path find_part(const std::string& name, const std::filesystem::path& robot,
-                                  const std::string& place) const;
+                                  const Place& place) const;
 
   const ReadOptions& options_;
   const Loaders& loaders_;

@@ -3,7 +3,7 @@
 #include <string>
 #include <type_traits>
 
-#include "clench/base/error.h"
+#include "clench/base/placed_error.h"
 
 namespace clench {
 
@@ -12,6 +12,9 @@ template <class Read>
 auto of_file(Read&& read) {
   try {
     return read();
+  } catch (const PlacedError& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    throw PlacedError(error, ErrorKind::file);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     throw Error(error.what(), ErrorKind::file);
@@ -19,16 +22,18 @@ auto of_file(Read&& read) {
 }
 
 /// What `read` returns; its errors begin with `place`, and stay of their kind.
-/// place  "Barrett.cfg:31", or a line, an element or a reader that knows it
-template <class Place, class Read>
-auto errors_at(const Place& place, Read&& read) {
+/// place  Barrett.cfg:31, or a line, an element or a reader that knows it
+template <class At, class Read>
+auto errors_at(const At& place, Read&& read) {
   try {
     return read();
   } catch (const Error& error) {
-    if constexpr (std::is_convertible_v<const Place&, std::string>)
+    if constexpr (std::is_same_v<At, Place>)
+      throw PlacedError(place, error.what(), error.kind());
+    else if constexpr (std::is_convertible_v<const At&, std::string>)
       fail(error.kind(), "{}: {}", place, error.what());
     else
-      fail(error.kind(), "{}: {}", place.place(), error.what());
+      throw PlacedError(place.place(), error.what(), error.kind());
   }
 }
 

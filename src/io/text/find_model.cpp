@@ -56,21 +56,20 @@ static fs::path try_generations(const std::string& name, const fs::path& root, M
 }
 
 fs::path find_converted(const std::string& name, const fs::path& referrer, ModelKind kind,
-                        const std::string& place, const ReadOptions& options) {
+                        const Place& place, const ReadOptions& options) {
   try {
     return find_file(name, referrer, options);
   } catch (const Error& missing) {
     const fs::path sibling = try_endings(name, referrer, kind, options);
     if (sibling.empty()) throw missing;
-    if (options.note)
-      options.note(
-          fmt::format("{}: there is no {}; {} is taken", place, name, sibling.filename().string()));
+    options.diagnostics.note(place, "there is no {}; {} is taken", name,
+                             sibling.filename().string());
     return sibling;
   }
 }
 
 fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind kind,
-                    const std::string& place, const ReadOptions& options) {
+                    const Place& place, const ReadOptions& options) {
   try {
     return find_converted(name, referrer, kind, place, options);
   } catch (const Error& missing) {
@@ -81,8 +80,8 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
     const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
     const fs::path found = rooted ? try_generations(name, root, kind, options) : fs::path();
     if (found.empty()) throw missing;
-    options.repaired(fmt::format("{}: {} is not below the root; {} is taken", place, name,
-                                 found.generic_string()));
+    options.diagnostics.repaired(place, "{} is not below the root; {} is taken", name,
+                                 found.generic_string());
     return found;
   }
 }

@@ -11,7 +11,7 @@ enum class ModelKind { body, robot };
 /// .xml, a robot's .cfg for .xml, and back), which is noted. `place` begins the sentence.
 /// throws Error as find_file
 std::filesystem::path find_converted(const std::string& name, const std::filesystem::path& referrer,
-                                     ModelKind kind, const std::string& place,
+                                     ModelKind kind, const Place& place,
                                      const ReadOptions& options);
 
 /// As find_converted, for names that count from the root; where that fails, below the folders
@@ -19,7 +19,6 @@ std::filesystem::path find_converted(const std::string& name, const std::filesys
 /// same word, as graspit beside graspit-xml: the generations of a model library often lie side by
 /// side. That is told as repaired. No other folder outside the root is looked through.
 std::filesystem::path find_model(const std::string& name, const std::filesystem::path& referrer,
-                                 ModelKind kind, const std::string& place,
-                                 const ReadOptions& options);
+                                 ModelKind kind, const Place& place, const ReadOptions& options);
 
 }  // namespace clench

@@ -42,14 +42,16 @@ Eigen::Quaterniond NumberReader::quaternion(std::string_view what) {
   return *q;
 }
 
-void NumberReader::finish(const std::function<void(const std::string&)>& warn) {
-  if (warn && more())
-    warn(fmt::format("{}: what follows from {} on is not used", line_.place(),
-                     in_quotes(line_.word(next_))));
+void NumberReader::finish(const Diagnostics& diagnostics) {
+  if (diagnostics && more())
+    diagnostics.warn(line_.place(), "what follows from {} on is not used",
+                     in_quotes(line_.word(next_)));
 }
 
-void warn_of_surplus(const Line& line, int used, const Listener& warn) {
-  if (const std::string sentence = line.surplus(used); warn && !sentence.empty()) warn(sentence);
+void warn_of_surplus(const Line& line, int used, const Diagnostics& diagnostics) {
+  if (!diagnostics) return;
+  if (std::string text = line.surplus(used); !text.empty())
+    diagnostics.warn({line.place(), std::move(text)});
 }
 
 std::string listed(const Eigen::VectorXd& numbers) {

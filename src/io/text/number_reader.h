@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/base/text.h"
 
 namespace clench {
@@ -27,8 +27,8 @@ class NumberReader {
   bool more();
   /// where the last word stood, or the next one when there was none
   const Line& line() const { return line_; }
-  /// Tells `warn` of the first word that is left, if there is one.
-  void finish(const std::function<void(const std::string&)>& warn);
+  /// Warns of the first word that is left, if there is one.
+  void finish(const Diagnostics& diagnostics);
 
  private:
   void to_word(std::string_view what);
@@ -39,7 +39,7 @@ class NumberReader {
 };
 
 /// Warns when a line has more than the first `used` words, but for a comment that begins with '#'.
-void warn_of_surplus(const Line& line, int used, const Listener& warn);
+void warn_of_surplus(const Line& line, int used, const Diagnostics& diagnostics);
 
 /// Numbers as a line holds them: "1 2.5 3".
 std::string listed(const Eigen::VectorXd& numbers);

@@ -1,6 +1,6 @@
 #include "clench/io/text/read_options.h"
 
-#include "clench/base/error.h"
+#include "clench/base/placed_error.h"
 
 namespace clench {
 
@@ -12,8 +12,10 @@ ReadOptions ReadOptions::beside_only() const {
 }
 
 ReadOptions strict(ReadOptions options) {
-  options.warn = options.repair =
-      options.suspect = [](const std::string& sentence) { throw Error(sentence); };
+  options.diagnostics = Diagnostics([before = options.diagnostics](const Diagnostic& d) {
+    if (d.severity != Severity::note) throw PlacedError(d.place, d.message());
+    before.note(d);
+  });
   return options;
 }
 

@@ -2,12 +2,11 @@
 // leave open.
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 
-#include "clench/base/listeners.h"
+#include "clench/base/diagnostic.h"
 #include "clench/base/progress.h"
 #include "clench/math/pose.h"
 
@@ -18,14 +17,8 @@ struct ReadOptions {
   std::filesystem::path root = {};
   /// robots: files to read in place of those that theirs names; empty: none
   std::string eigengrasps = {}, virtual_contacts = {};
-  /// told of what a file contains and we do not use
-  std::function<void(const std::string&)> warn = {};
-  /// told of what a file leaves open and we guess
-  std::function<void(const std::string&)> note = {};
-  /// told of what a file has wrong and we put right; empty: warn is told
-  std::function<void(const std::string&)> repair = {};
-  /// told of what is used as it stands, and looks wrong; empty: warn is told
-  std::function<void(const std::string&)> suspect = {};
+  /// receives what files contain and is not used, leave open, have wrong, and what looks wrong
+  Diagnostics diagnostics = {};
   /// geometry files: length of their unit, > 0 [m]; absent: what the format or the file says, else
   /// silent_mesh_unit
   std::optional<double> mesh_scale = {};
@@ -53,14 +46,12 @@ struct ReadOptions {
   /// told of each file; what reads it throws Stopped
   Progress progress = {};
 
-  Listeners listeners() const { return {warn, note, repair, suspect}; }
   /// As these, but names count from the folder of their file alone.
   ReadOptions beside_only() const;
-  void repaired(const std::string& sentence) const { tell(repair, warn, sentence); }
-  void suspected(const std::string& sentence) const { tell(suspect, warn, sentence); }
 };
 
 /// The same, but what would be warned of is thrown: nothing is repaired, left out or suspicious.
+/// Notes are received as before.
 ReadOptions strict(ReadOptions options);
 
 }  // namespace clench

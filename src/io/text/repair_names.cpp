@@ -6,19 +6,18 @@
 
 namespace clench {
 
-static void repair_name(std::string& name, const std::string& place, const ReadOptions& options) {
+static void repair_name(std::string& name, const Place& place, const ReadOptions& options) {
   const std::string wrong = name_fault(name);
   if (wrong.empty()) return;
   name = repaired_name(name);
-  options.repaired(fmt::format("{}: name: {}; it becomes '{}'", place, wrong, excerpt(name)));
+  options.diagnostics.repaired(place.of("name"), "{}; it becomes '{}'", wrong, excerpt(name));
 }
 
-void repair_names(BodySpec& body, const std::string& place, const ReadOptions& options) {
+void repair_names(BodySpec& body, const Place& place, const ReadOptions& options) {
   repair_name(body.name, place, options);
 }
 
-static void repair_robot_names(RobotSpec& robot, const std::string& place,
-                               const ReadOptions& options) {
+static void repair_robot_names(RobotSpec& robot, const Place& place, const ReadOptions& options) {
   const auto repair = [&](std::string& name) { repair_name(name, place, options); };
   for (std::string* name : {&robot.name, &robot.class_name, &robot.database_name, &robot.base.name})
     repair(*name);
@@ -40,7 +39,7 @@ static void repair_robot_names(RobotSpec& robot, const std::string& place,
   }
 }
 
-void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options) {
+void check_read_robot(RobotSpec& robot, const Place& place, const ReadOptions& options) {
   repair_robot_names(robot, place, options);
   errors_at(place, [&] { check_robot(robot); });
 }

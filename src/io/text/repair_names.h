@@ -6,10 +6,10 @@
 namespace clench {
 
 /// The sentences begin with `place`, "hand.urdf".
-void repair_names(BodySpec& body, const std::string& place, const ReadOptions& options);
+void repair_names(BodySpec& body, const Place& place, const ReadOptions& options);
 
 /// Repairs the names of a robot and of all its parts, then checks it.
 /// throws  Error "hand.urdf: arm: chain 0 joint 1: ..." when check_robot does
-void check_read_robot(RobotSpec& robot, const std::string& place, const ReadOptions& options);
+void check_read_robot(RobotSpec& robot, const Place& place, const ReadOptions& options);
 
 }  // namespace clench

@@ -10,57 +10,51 @@
 
 namespace clench {
 
-void Repairs::order(double& low, double& high, const std::string& subject,
+void Repairs::order(double& low, double& high, const Place& subject,
                     std::pair<const char*, const char*> names) {
   if (!(low > high)) return;
-  add("order", fmt::format("{}: {} {} exceeds {} {}; they are exchanged", subject, names.first,
-                           low + 0.0, names.second, high + 0.0));
+  add("order", subject, "{} {} exceeds {} {}; they are exchanged", names.first, low + 0.0,
+      names.second, high + 0.0);
   std::swap(low, high);
 }
 
-double Repairs::magnitude(double value, const std::string& subject) {
-  if (value < 0)
-    add("magnitude", fmt::format("{}: {} is negative; {} is used", subject, value, -value));
+double Repairs::magnitude(double value, const Place& subject) {
+  if (value < 0) add("magnitude", subject, "{} is negative; {} is used", value, -value);
   return std::abs(value);
 }
 
-double Repairs::not_zero(double value, double absent, const std::string& subject) {
+double Repairs::not_zero(double value, double absent, const Place& subject) {
   if (value != 0) return value;
-  add("zero", fmt::format("{}: 0 is none; {} is used, as where it is missing", subject, absent));
+  add("zero", subject, "0 is none; {} is used, as where it is missing", absent);
   return absent;
 }
 
-double Repairs::within(double value, double low, double high, const std::string& subject) {
+double Repairs::within(double value, double low, double high, const Place& subject) {
   const double nearest = std::clamp(value, low, high);
   if (nearest != value)
-    add("range",
-        fmt::format("{}: {} is not in {}..{}; {} is used", subject, value, low, high, nearest));
+    add("range", subject, "{} is not in {}..{}; {} is used", value, low, high, nearest);
   return nearest;
 }
 
-int Repairs::count(std::string_view word, const std::string& subject) {
+int Repairs::count(std::string_view word, const Place& subject) {
   constexpr double max_count = 1e6;
   const auto value = parse_number(word);
   if (value && *value >= 0 && *value <= max_count && *value == std::floor(*value))
     return floor_int(*value);
-  add("count", fmt::format("{}: expected a whole number from 0 on, got {}; 0 is used", subject,
-                           in_quotes(word)));
+  add("count", subject, "expected a whole number from 0 on, got {}; 0 is used", in_quotes(word));
   return 0;
 }
 
-void Repairs::add(const std::string& way, const std::string& sentence) {
+void Repairs::add(const std::string& way, Diagnostic diagnostic) {
   const auto known = std::ranges::find(kinds_, way, &Kind::way);
   if (known != kinds_.end())
-    ++known->more;
+    ++known->first.count;
   else
-    kinds_.push_back({way, sentence});
+    kinds_.push_back({way, std::move(diagnostic)});
 }
 
 void Repairs::tell() {
-  for (const Kind& kind : std::exchange(kinds_, {}))
-    clench::tell(
-        listeners_.repair, listeners_.warn,
-        kind.more ? fmt::format("{} ({} more alike)", kind.sentence, kind.more) : kind.sentence);
+  for (Kind& kind : std::exchange(kinds_, {})) diagnostics_.report(about_, std::move(kind.first));
 }
 
 }  // namespace clench

@@ -28,13 +28,13 @@ class WordReader {
 
   int line() const { return line_; }  ///< from 1
   const std::string& file() const { return file_; }
-  std::string place() const { return fmt::format("{}:{}", file_, line_ > 0 ? line_ : 1); }
+  Place place() const { return Place(file_, line_ > 0 ? line_ : 1); }
   /// throws Error  "part.off:31: x: expected a number, got 'abc'"
   double number(std::string_view what);
   int integer(std::string_view what, int low, int high);
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+    throw PlacedError(place(), fmt::format(format, std::forward<Args>(args)...));
   }
 
  private:

@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "clench/base/diagnostic.h"
+
 namespace clench {
 
 struct WriteOptions {
@@ -12,8 +14,8 @@ struct WriteOptions {
   std::filesystem::path root = {};
   /// files that are read again are those below this folder, as in ReadOptions
   std::filesystem::path confine = {};
-  /// told of what is not as the file would have it
-  std::function<void(const std::string&)> warn = {};
+  /// receives what is not as the file would have it
+  Diagnostics diagnostics = {};
   /// sees the whole file under another name in its folder, before it takes the place of an older
   /// one; what it throws keeps that one
   std::function<void(const std::filesystem::path&)> check = {};

@@ -185,7 +185,7 @@ int XmlElement::line() const {
   const auto* original = static_cast<const tinyxml2::XMLElement*>(element_->GetUserData());
   return (original ? original : element_)->GetLineNum();
 }
-std::string XmlElement::place() const { return fmt::format("{}:{}", *file_, line()); }
+Place XmlElement::place() const { return Place(*file_, line()); }
 
 XmlElement XmlElement::child(std::string_view name) const {
   for (auto* e = element_->FirstChildElement(); e; e = e->NextSiblingElement())
@@ -293,28 +293,26 @@ int XmlElement::integer_attribute(std::string_view name, int low, int high) cons
                low, high);
 }
 
-void XmlElement::check(const XmlKnown& known,
-                       const std::function<void(const std::string&)>& warn) const {
-  if (!warn) return;
+void XmlElement::check(const XmlKnown& known, const Diagnostics& diagnostics) const {
+  if (!diagnostics) return;
   std::vector<std::string> names = known.once, seen;
   names.insert(names.end(), known.many.begin(), known.many.end());
   for (const XmlElement& e : children()) {
     const std::string child(e.name());
     if (!contains(names, child))
-      warn(fmt::format("{}: unknown element <{}> in <{}> is not used{}", e.place(), excerpt(child),
-                       excerpt(name()), did_you_mean(child, names)));
+      diagnostics.warn(e.place(), "unknown element <{}> in <{}> is not used{}", excerpt(child),
+                       excerpt(name()), did_you_mean(child, names));
     else if (contains(seen, child))
-      warn(fmt::format("{}: <{}> stands in <{}> again; the first one counts", e.place(),
-                       excerpt(child), excerpt(name())));
+      diagnostics.warn(e.place(), "<{}> stands in <{}> again; the first one counts", excerpt(child),
+                       excerpt(name()));
     if (contains(known.once, child)) seen.push_back(child);
   }
   for (const std::string& attribute : attributes())
     if (!contains(known.attributes, attribute))
-      warn(fmt::format("{}: unknown attribute '{}' of <{}> is not used{}", place(),
-                       excerpt(attribute), excerpt(name()),
-                       did_you_mean(attribute, known.attributes)));
+      diagnostics.warn(place(), "unknown attribute '{}' of <{}> is not used{}", excerpt(attribute),
+                       excerpt(name()), did_you_mean(attribute, known.attributes));
   if (const std::string own = own_text(*element_); !own.empty() && !names.empty())
-    warn(fmt::format("{}: text {} in <{}> is not used", place(), in_quotes(own), excerpt(name())));
+    diagnostics.warn(place(), "text {} in <{}> is not used", in_quotes(own), excerpt(name()));
 }
 
 // --- copies ---

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "clench/base/diagnostic.h"
 #include "clench/base/text.h"
 
 namespace tinyxml2 {
@@ -41,8 +42,8 @@ class XmlElement {
 
   explicit operator bool() const { return element_; }
   std::string_view name() const;
-  int line() const;           ///< from 1; of a copy, that of its original
-  std::string place() const;  ///< "Barrett.xml:31"
+  int line() const;     ///< from 1; of a copy, that of its original
+  Place place() const;  ///< Barrett.xml:31
   /// its text as a line at its place, for the readers of text formats
   Line as_line(std::string_view text) const { return Line(file_, line(), text); }
 
@@ -76,11 +77,11 @@ class XmlElement {
                         int high = std::numeric_limits<int>::max()) const;
 
   /// Warns of children, attributes and text that are not known, and of children that stand twice.
-  void check(const XmlKnown& known, const std::function<void(const std::string&)>& warn) const;
+  void check(const XmlKnown& known, const Diagnostics& diagnostics) const;
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    throw Error(place() + ": " + fmt::format(format, std::forward<Args>(args)...));
+    throw PlacedError(place(), fmt::format(format, std::forward<Args>(args)...));
   }
 
  private:

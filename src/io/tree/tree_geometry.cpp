@@ -109,8 +109,7 @@ static SkinPtr skin_of(const GeometryPiece& piece) {
   return piece.scale.prod() < 0 ? turned_over(skin) : skin;
 }
 
-SkinPtr TreeGeometry::skin_of_all(const std::vector<GeometryPiece>& pieces,
-                                  const std::string& subject) {
+SkinPtr TreeGeometry::skin_of_all(const std::vector<GeometryPiece>& pieces, const Place& subject) {
   Skin out;
   for (const GeometryPiece& piece : pieces)
     append_skin(out, skin_of(piece), piece.geometry->mesh.triangles.size());
@@ -120,11 +119,11 @@ SkinPtr TreeGeometry::skin_of_all(const std::vector<GeometryPiece>& pieces,
   if (out.textures.empty()) return nullptr;
   image_bytes_ += bytes;
   if (image_bytes_ > max_image_bytes) {
-    if (options_.warn && image_bytes_ - bytes <= max_image_bytes)
-      options_.warn(
-          fmt::format("{}: expected textures of at most {} MB in all links; from here on "
-                      "links have colors instead",
-                      subject, max_image_bytes >> 20));
+    if (image_bytes_ - bytes <= max_image_bytes)
+      options_.diagnostics.warn(subject,
+                                "expected textures of at most {} MB in all links; from here on "
+                                "links have colors instead",
+                                max_image_bytes >> 20);
     return nullptr;
   }
   return std::make_shared<const Skin>(std::move(out));
@@ -170,7 +169,7 @@ static RoundPieces rounds_of(const std::vector<GeometryPiece>& pieces) {
 }
 
 TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
-                                       const std::string& subject) {
+                                       const Place& subject) {
   if (pieces.empty()) return {};
   const std::string key = key_of(pieces);
   if (const auto found = bodies_.find(key); found != bodies_.end()) return found->second;
@@ -203,12 +202,12 @@ TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
   Body body;
   RoundPieces rounds = rounds_of(pieces);
   if (rounds.pieces.size() > max_round_pieces) {
-    options_.note(fmt::format(
-        "{}: its {} round shapes touch as their triangles, since there are more than {}", subject,
-        rounds.pieces.size(), max_round_pieces));
+    options_.diagnostics.note(
+        subject, "its {} round shapes touch as their triangles, since there are more than {}",
+        rounds.pieces.size(), max_round_pieces);
     rounds = {};
   }
-  body.shape = Shape::make(std::move(mesh), subject, {}, std::move(rounds));
+  body.shape = Shape::make(std::move(mesh), subject.text(), {}, std::move(rounds));
   body.appearance = looks_of(pieces, std::move(colors));
   if (body.appearance.given) body.appearance.skin = skin_of_all(pieces, subject);
   if (pieces.size() == 1 && !pieces[0].geometry->report.format.empty())

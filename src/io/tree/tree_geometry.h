@@ -53,11 +53,11 @@ class TreeGeometry {
     std::optional<MeshReport> report;  ///< when it is one file's mesh
   };
   /// `subject` names the link in errors
-  Body merge(const std::vector<GeometryPiece>& pieces, const std::string& subject);
+  Body merge(const std::vector<GeometryPiece>& pieces, const Place& subject);
 
  private:
   /// Textures of all pieces, in their order; null: none, or more than a robot may have.
-  SkinPtr skin_of_all(const std::vector<GeometryPiece>& pieces, const std::string& subject);
+  SkinPtr skin_of_all(const std::vector<GeometryPiece>& pieces, const Place& subject);
 
   ReadOptions options_;
   BarePoints bare_points_;

@@ -22,7 +22,7 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
   return fault;
 }
 
-void InertialFaults::add(Inertial fault, const std::string& place, const std::string& link) {
+void InertialFaults::add(Inertial fault, const Place& place, const std::string& link) {
   if (fault == Inertial::sound) return;
   const int kind = static_cast<int>(fault) - static_cast<int>(Inertial::no_body);
   if (links_[kind].empty()) places_[kind] = place;
@@ -31,15 +31,15 @@ void InertialFaults::add(Inertial fault, const std::string& place, const std::st
 
 void InertialFaults::tell(const FileCache& cache) const {
   if (!links_[0].empty())
-    cache.repaired(fmt::format("{}: {}: {}", places_[0], raised_moments, some_names(links_[0])));
+    cache.diagnostics().repaired(places_[0], "{}: {}", raised_moments, some_names(links_[0]));
   if (!links_[1].empty())
-    cache.warn(
-        fmt::format("{}: inertia that is not positive definite; it is computed from the "
-                    "geometry: {}",
-                    places_[1], some_names(links_[1])));
+    cache.diagnostics().warn(
+        places_[1], "inertia that is not positive definite; it is computed from the geometry: {}",
+        some_names(links_[1]));
   if (!links_[2].empty())
-    cache.note(fmt::format("{}: a mass without an inertia, which is computed from the geometry: {}",
-                           places_[2], some_names(links_[2])));
+    cache.diagnostics().note(places_[2],
+                             "a mass without an inertia, which is computed from the geometry: {}",
+                             some_names(links_[2]));
 }
 
 /// False for an open surface, which has none.   `pieces`  of the shape
@@ -69,10 +69,10 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
   const bool any_visual = std::any_of(pieces.begin(), pieces.end(),
                                       [](const LinkPieces& p) { return !p.visual.empty(); });
   std::vector<std::string> ghosts, weightless, open;
-  std::string first_open;
+  Place first_open;
   for (size_t i = 0; i < tree.links.size(); ++i) {
     BodySpec& body = tree.links[i].body;
-    const std::string subject = fmt::format("{}: link '{}'", file, excerpt(body.name));
+    const Place subject = Place(file).of("link '{}'", excerpt(body.name));
     const auto visual = geometry.merge(pieces[i].visual, subject);
     const auto collision = any ? geometry.merge(pieces[i].collision, subject) : visual;
     body.shape = collision.shape;
@@ -94,24 +94,25 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     if (shape) (has_volume ? weightless : open).push_back(body.name);
   }
   if (contacts_known && !any_collision && any_visual)
-    cache.note(fmt::format("{}: nothing collides, as contype and conaffinity say", file));
+    cache.diagnostics().note(Place(file), "nothing collides, as contype and conaffinity say");
   else if (!any && any_visual)
-    cache.note(fmt::format(
-        "{}: no link has geometry to collide with; that for pictures is used for both", file));
+    cache.diagnostics().note(
+        Place(file), "no link has geometry to collide with; that for pictures is used for both");
   if (!ghosts.empty() && any_collision)
-    cache.note(
-        fmt::format("{}: links that have geometry for pictures only collide with nothing: {}", file,
-                    some_names(ghosts)));
+    cache.diagnostics().note(Place(file),
+                             "links that have geometry for pictures only collide with nothing: {}",
+                             some_names(ghosts));
   if (!weightless.empty())
-    cache.note(fmt::format("{}: links without a mass weigh what their volume of water does: {}",
-                           file, some_names(weightless)));
+    cache.diagnostics().note(Place(file),
+                             "links without a mass weigh what their volume of water does: {}",
+                             some_names(weightless));
   if (!open.empty())
-    cache.note(
-        fmt::format("{}: links without a mass whose surface is open, and so bounds no "
-                    "volume, weigh {} kg: {}",
-                    first_open, frame_mass, some_names(open)));
+    cache.diagnostics().note(
+        first_open,
+        "links without a mass whose surface is open, and so bounds no volume, weigh {} kg: {}",
+        frame_mass, some_names(open));
   if (!contacts_known)
-    cache.note(fmt::format("{}: says nothing of friction; all links count as plastic", file));
+    cache.diagnostics().note(Place(file), "says nothing of friction; all links count as plastic");
 }
 
 }  // namespace clench

@@ -11,7 +11,7 @@ namespace clench {
 /// Pieces of one link as its file gives them.
 struct LinkPieces {
   std::vector<GeometryPiece> collision, visual;
-  std::string place;          ///< "hand.urdf:31", for sentences
+  Place place;                ///< hand.urdf:31
   bool has_inertial = false;  ///< are mass, center and inertia in the link's body?
 };
 
@@ -32,11 +32,11 @@ Inertial set_inertial(BodySpec& body, double mass, const Pose& X_LC,
 /// Tells of links whose inertias are wrong in the same way, at once.
 class InertialFaults {
  public:
-  void add(Inertial fault, const std::string& place, const std::string& link);
+  void add(Inertial fault, const Place& place, const std::string& link);
   void tell(const FileCache& cache) const;
 
  private:
-  std::array<std::string, 3> places_;  // of the first; no_body, not_definite, not_given
+  std::array<Place, 3> places_;  // of the first; no_body, not_definite, not_given
   std::array<std::vector<std::string>, 3> links_;
 };
 

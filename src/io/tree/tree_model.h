@@ -15,7 +15,7 @@ namespace clench {
 /// A joint as its file gives it: q = ratio * leader + offset when it follows another. Its axis
 /// stands in the frame before it.
 struct TreeJoint : JointSpec {
-  std::string place;                                 ///< "hand.urdf:31", for messages
+  Place place;                                       ///< hand.urdf:31
   DofSpec motor;                                     ///< what a leader's DOF becomes
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< a point of the axis [m]
   double zero = 0;                                   ///< q at which it changes no pose [rad or m]

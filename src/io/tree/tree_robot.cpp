@@ -79,7 +79,7 @@ void RobotMaker::widen_followers() {
       range = narrower;
       continue;
     }
-    cache_.warn(
+    cache_.diagnostics().warn(
         slips ? fmt::format("{}: joint '{}' follows '{}' from {:.6g} to {:.6g}, and its own limits "
                             "{} would stop "
                             "that; they are not used",
@@ -135,7 +135,7 @@ void RobotMaker::tell_closing() {
   for (const DofSpec& dof : robot_.dofs)
     if (dof.default_velocity != 0)
       closing.push_back((dof.default_velocity > 0 ? "+" : "-") + dof.name);
-  cache_.note(
+  cache_.diagnostics().note(
       !closing.empty()
           ? fmt::format("{}: these DOFs close it, by its geometry: {}; the option "
                         "'close' says otherwise",
@@ -148,11 +148,11 @@ void RobotMaker::tell_approach() {
   if (!robot_.X_BA || cache_.options().approach) return;
   const Eigen::Vector3d z = robot_.X_BA->rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d& p = robot_.X_BA->position;
-  cache_.note(fmt::format(
-      "{}: by its geometry its approach direction is ({:.3g}, {:.3g}, {:.3g}) and its approach "
-      "point ({:.3f}, {:.3f}, "
-      "{:.3f}) m in its base; the option 'approach' says otherwise",
-      file_, z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0));
+  cache_.diagnostics().note(
+      Place(file_),
+      "by its geometry its approach direction is ({:.3g}, {:.3g}, {:.3g}) and its approach point "
+      "({:.3f}, {:.3f}, {:.3f}) m in its base; the option 'approach' says otherwise",
+      z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
 }
 
 /// By the laws of its actuators: which DOFs they drive, and with which efforts at most. Of a file
@@ -175,8 +175,8 @@ void RobotMaker::settle_motors() {
   constexpr size_t shown = 6;
   const bool more = names.size() > shown;
   names.resize(std::min(names.size(), shown));
-  cache_.note(fmt::format("{}: joints that no actuator drives do not close: {}{}", file_,
-                          fmt::join(names, ", "), more ? " and others" : ""));
+  cache_.diagnostics().note(Place(file_), "joints that no actuator drives do not close: {}{}",
+                            fmt::join(names, ", "), more ? " and others" : "");
 }
 
 void RobotMaker::close_hand() {
@@ -223,7 +223,7 @@ RobotSpec RobotMaker::make() {
   }
   settle_motors();
   close_hand();
-  check_read_robot(robot_, file_, cache_.options());
+  check_read_robot(robot_, Place(file_), cache_.options());
   return std::move(robot_);
 }
 

@@ -33,13 +33,13 @@ std::optional<std::string> XmlValues::find(const char* name) const {
   return giver(name).attribute(name);
 }
 
-std::string XmlValues::subject(const char* name) const {
+Place XmlValues::subject(const char* name) const {
   const XmlElement& at = giver(name);
-  return fmt::format("{}: {}: {}", at.place(), excerpt(at.name()), name);
+  return at.place().of(excerpt(at.name())).of(name);
 }
 
 void XmlValues::refuse(const char* name, const std::string& what) const {
-  throw Error(subject(name) + ": " + what);
+  throw PlacedError(subject(name), what);
 }
 
 std::string XmlValues::text(const char* name) const {
@@ -167,32 +167,34 @@ void UnusedXml::attributes(const XmlElement& element,
     if (Kind& kind = kind_of(texts_, element); kind.text.empty()) kind.text = std::move(text);
 }
 
-std::vector<std::string> UnusedXml::sentences() const {
+std::vector<Diagnostic> UnusedXml::diagnostics() const {
   // names of a hostile file are cut: the sentence stays one
   const auto shown = [](const std::string& name) { return excerpt(name); };
   const auto element = [&](const Kind& kind) {
     return kind.name.empty() ? "elements of other names" : '<' + shown(kind.name) + '>';
   };
-  std::vector<std::string> out;
+  std::vector<Diagnostic> out;
   for (const Kind& kind : elements_) {
     if (kind.name.empty())
-      out.push_back(fmt::format("{}: from here on, {} elements of other names are not used",
-                                kind.place, kind.count));
+      out.emplace_back(
+          kind.place,
+          fmt::format("from here on, {} elements of other names are not used", kind.count));
     else
-      out.push_back(fmt::format("{}: {} is not used{}", kind.place, element(kind),
-                                kind.count > 2    ? fmt::format(", nor are {} more", kind.count - 1)
-                                : kind.count == 2 ? ", nor is another one"
-                                                  : ""));
+      out.emplace_back(kind.place,
+                       fmt::format("{} is not used{}", element(kind),
+                                   kind.count > 2 ? fmt::format(", nor are {} more", kind.count - 1)
+                                   : kind.count == 2 ? ", nor is another one"
+                                                     : ""));
   }
   for (const Kind& kind : attributes_) {
     std::vector<std::string> names;
     for (const auto& entry : kind.attributes) names.push_back(shown(entry.first));
-    out.push_back(fmt::format("{}: of {}, here and further on, not used: {}", kind.place,
-                              element(kind), name_list(names)));
+    out.emplace_back(kind.place, fmt::format("of {}, here and further on, not used: {}",
+                                             element(kind), name_list(names)));
   }
   for (const Kind& kind : texts_)
-    out.push_back(fmt::format("{}: text in {} is not used: {}", kind.place, element(kind),
-                              in_quotes(kind.text)));
+    out.emplace_back(
+        kind.place, fmt::format("text in {} is not used: {}", element(kind), in_quotes(kind.text)));
   return out;
 }
 

@@ -48,7 +48,7 @@ class XmlValues {
   std::array<double, 2> range(const char* name, Repairs& repairs) const;
   /// three or four shares of a color in 0..1
   std::vector<double> color(const char* name, int least, Repairs& repairs) const;
-  std::string subject(const char* name) const;  ///< "hand.xml:31: joint: range"
+  Place subject(const char* name) const;  ///< hand.xml:31: joint: range
   int integer(const char* name, int fallback) const;
   bool boolean(const char* name, bool fallback) const;
   /// between `least` and `most` numbers, each of at most 1e15
@@ -85,13 +85,13 @@ class UnusedXml {
   void accept(std::function<bool(const XmlElement&, const std::string& name)> is_accepted) {
     is_accepted_ = std::move(is_accepted);
   }
-  /// "hand.urdf:31: <gazebo> is not used, nor are 11 more"
-  std::vector<std::string> sentences() const;
+  /// hand.urdf:31: "<gazebo> is not used, nor are 11 more"
+  std::vector<Diagnostic> diagnostics() const;
 
  private:
   struct Kind {
-    std::string name;   // empty: of all that came when there were a hundred
-    std::string place;  // of the first
+    std::string name;  // empty: of all that came when there were a hundred
+    Place place;       // of the first
     int count = 0;
     std::map<std::string, int> attributes;
     std::string text;

@@ -33,16 +33,10 @@ class UrdfReader {
         cache_(cache),
         xml_(path),
         geometry_(cache.options()),
-        repairs_(cache.options().listeners()) {}
+        repairs_(cache.diagnostics()) {}
   RobotSpec read();
 
  private:
-  void warn(const XmlElement& at, const std::string& what) const {
-    cache_.warn(at.place() + ": " + what);
-  }
-  void note(const XmlElement& at, const std::string& what) const {
-    cache_.note(at.place() + ": " + what);
-  }
   void warn_of_undrawn() const;
   void refuse_xacro(const XmlElement& element) const;
   void read_materials();
@@ -81,8 +75,8 @@ class UrdfReader {
   size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
-  int undrawn_ = 0;  // meshes for display that are missing
-  std::string first_undrawn_;
+  int undrawn_ = 0;                           // meshes for display that are missing
+  Diagnostic first_undrawn_;
 };
 
 void UrdfReader::refuse_xacro(const XmlElement& element) const {
@@ -154,7 +148,7 @@ void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPi
     inertial_faults_.add(inertia ? inertial : Inertial::not_given, element.place(), body.name);
     pieces.has_inertial = true;
   } catch (const Error& error) {
-    cache_.warn(
+    cache_.diagnostics().warn(
         fmt::format("{}; the inertial of link '{}' is not used", error.what(), excerpt(body.name)));
   }
 }
@@ -186,7 +180,7 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   } catch (const Error& error) {
     // what is only looked at may be missing
     if (!visual) shape.fail("mesh: {}", error.what());
-    if (undrawn_++ == 0) first_undrawn_ = fmt::format("{}: mesh: {}", shape.place(), error.what());
+    if (undrawn_++ == 0) first_undrawn_ = {shape.place().of("mesh"), error.what()};
     return {};
   }
   return piece;
@@ -233,10 +227,8 @@ void UrdfReader::read_link(const XmlElement& element) {
   const auto [other, is_new] =
       link_numbers_.emplace(link.body.name, static_cast<int>(links_.size()));
   if (!is_new) {
-    repairs_.add("link",
-                 fmt::format("{}: link '{}': there is another one of this name; the first one "
-                             "counts",
-                             element.place(), excerpt(link.body.name)));
+    repairs_.add("link", element.place().of("link '{}'", excerpt(link.body.name)),
+                 "there is another one of this name; the first one counts");
     return;
   }
   if (links_.size() >= max_links) element.fail("expected at most {} links", max_links);
@@ -275,10 +267,8 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
   if (joints_.size() >= max_joints) element.fail("expected at most {} joints", max_joints);
   if (!names_.insert(joint.name).second) {
     const std::string own = unused_name(joint.name, names_);
-    repairs_.add("joint",
-                 fmt::format("{}: joint '{}': there is another one of this name; it is called "
-                             "'{}'",
-                             element.place(), excerpt(joint.name), excerpt(own)));
+    repairs_.add("joint", element.place().of("joint '{}'", excerpt(joint.name)),
+                 "there is another one of this name; it is called '{}'", excerpt(own));
     names_.insert(joint.name = own);
   }
   element.expected_attribute("type");
@@ -322,11 +312,10 @@ void UrdfReader::find_still_joints() {
           values.number("multiplier", 1) * leader->second + values.number("offset", 0);
       if (!std::isfinite(value))
         mimic.fail("joint '{}': expected a finite position, got {}", excerpt(joint.name), value);
-      repairs_.add("still mimic",
-                   fmt::format("{}: joint '{}' mimics '{}', which does not move; it is fixed at "
-                               "{:.6g} {}",
-                               mimic.place(), excerpt(joint.name), excerpt(leader->first), value,
-                               joint.type == "prismatic" ? "m" : "rad"));
+      repairs_.add("still mimic", mimic.place(),
+                   "joint '{}' mimics '{}', which does not move; it is fixed at {:.6g} {}",
+                   excerpt(joint.name), excerpt(leader->first), value,
+                   joint.type == "prismatic" ? "m" : "rad");
       still_[joint.name] = value;
       found = true;
     }
@@ -416,16 +405,15 @@ void UrdfReader::read_limits(const FileJoint& from, TreeJoint& joint) {
                  high = given ? values.number("upper", 0) : unlimited;
     if (low > -unlimited || high < unlimited) {
       joint.min = low, joint.max = high, joint.endless = false;
-      repairs_.order(joint.min, joint.max,
-                     fmt::format("{}: joint '{}'", element.place(), excerpt(joint.name)),
+      repairs_.order(joint.min, joint.max, element.place().of("joint '{}'", excerpt(joint.name)),
                      {"lower", "upper"});
       return;
     }
   }
-  note(from.element,
-       fmt::format("joint '{}' {}; planners try values up to {:.4g} {} from where it is",
-                   excerpt(joint.name),
-                   from.type == "continuous" ? "turns without end" : "has no limits", far, unit));
+  cache_.diagnostics().note(
+      from.element.place(), "joint '{}' {}; planners try values up to {:.4g} {} from where it is",
+      excerpt(joint.name), from.type == "continuous" ? "turns without end" : "has no limits", far,
+      unit);
 }
 
 TreeJoint UrdfReader::read_joint(const FileJoint& from) {
@@ -451,19 +439,17 @@ void UrdfReader::read_mimics() {
     const auto self = joint_numbers_.find(from.name);
     if (self == joint_numbers_.end()) {
       if (from.type == "fixed" || from.type == "floating" || from.type == "planar")
-        warn(mimic,
-             fmt::format("joint '{}' does not move, and mimics nothing", excerpt(from.name)));
+        cache_.diagnostics().warn(mimic.place(), "joint '{}' does not move, and mimics nothing",
+                                  excerpt(from.name));
       continue;
     }
     const XmlValues values(mimic);
     const std::string name = values.text("joint");
     const auto leader = joint_numbers_.find(name);
     if (leader == joint_numbers_.end()) {
-      repairs_.add("mimic of none",
-                   fmt::format("{}: joint '{}': mimic: no joint is called {}{}; it moves "
-                               "independently",
-                               mimic.place(), excerpt(from.name), in_quotes(name),
-                               did_you_mean(name, names_in(joint_numbers_))));
+      repairs_.add("mimic of none", mimic.place().of("joint '{}'", excerpt(from.name)),
+                   "mimic: no joint is called {}{}; it moves independently", in_quotes(name),
+                   did_you_mean(name, names_in(joint_numbers_)));
       continue;
     }
     TreeJoint& joint = tree_.joints[self->second];
@@ -471,8 +457,8 @@ void UrdfReader::read_mimics() {
     joint.ratio = values.number("multiplier", 1);
     joint.offset = values.number("offset", 0);
     if (joint.ratio == 0)
-      warn(mimic, fmt::format("joint '{}': its multiplier is 0; it stays at {}",
-                              excerpt(joint.name), joint.offset));
+      cache_.diagnostics().warn(mimic.place().of("joint '{}'", excerpt(joint.name)),
+                                "its multiplier is 0; it stays at {}", joint.offset);
   }
 }
 
@@ -498,8 +484,9 @@ RobotSpec UrdfReader::read() {
   find_still_joints();
   for (const FileJoint& joint : joints_) {
     if (joint.type == "floating" || joint.type == "planar")
-      warn(joint.element, fmt::format("joint '{}' is {}; its link stays where the file puts it",
-                                      excerpt(joint.name), joint.type));
+      cache_.diagnostics().warn(joint.element.place(),
+                                "joint '{}' is {}; its link stays where the file puts it",
+                                excerpt(joint.name), joint.type);
     else if (!still_.contains(joint.name)) {
       joint_numbers_[joint.name] = static_cast<int>(tree_.joints.size());
       tree_.joints.push_back(read_joint(joint));
@@ -519,16 +506,17 @@ RobotSpec UrdfReader::read() {
   repairs_.tell();
   inertial_faults_.tell(cache_);
   warn_of_undrawn();
-  for (const auto& sentence : unused_.sentences()) cache_.warn(sentence);
+  for (Diagnostic& loss : unused_.diagnostics()) cache_.diagnostics().warn(std::move(loss));
   return robot;
 }
 
 // Hands whose package is missing lack one mesh per link: one sentence reports all of them.
 void UrdfReader::warn_of_undrawn() const {
-  if (undrawn_ == 1) cache_.warn(first_undrawn_ + "; it is not drawn");
-  if (undrawn_ > 1)
-    cache_.warn(fmt::format("{}; it and {} other meshes are not drawn", first_undrawn_,
-                            undrawn_ - 1));
+  if (undrawn_ == 0) return;
+  Diagnostic first = first_undrawn_;
+  first.text += undrawn_ == 1 ? "; it is not drawn"
+                              : fmt::format("; it and {} other meshes are not drawn", undrawn_ - 1);
+  cache_.diagnostics().warn(std::move(first));
 }
 
 }  // namespace

@@ -308,8 +308,7 @@ void ClenchReader::read_actuator(const XmlElement& element) {
 void ClenchReader::read_file(const XmlElement& element, NamedFile& into) {
   expect_only(element, {"file"});
   once(element, "");
-  into = {XmlValues(element).text("file"),
-          fmt::format("{}: {}", element.place(), excerpt(element.name()))};
+  into = {XmlValues(element).text("file"), element.place().of(excerpt(element.name()))};
 }
 
 void ClenchReader::read_child(const XmlElement& child) {

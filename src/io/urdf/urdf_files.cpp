@@ -96,9 +96,9 @@ fs::path find_in_package(const std::string& package, const std::string& given,
     for (const fs::path& folder : folders)
       if (const fs::path found = look(folder / rest);
           !found.empty() && folder != folder.root_path()) {
-        if (options.note)
-          options.note(fmt::format("{}: package {} is taken to be {}", referrer.filename().string(),
-                                   in_quotes(package), folder.generic_string()));
+        options.diagnostics.note(Place(referrer.filename().string()),
+                                 "package {} is taken to be {}", in_quotes(package),
+                                 folder.generic_string());
         return found;
       }
   // nobody lies inside whose nearest place does not

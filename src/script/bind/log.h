@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "clench/base/diagnostic.h"
 #include "clench/script/lua/check.h"
 
 namespace clench {
@@ -10,10 +11,8 @@ enum class LogLevel { debug, info, warning, error, quiet };
 
 /// Passes a message to the script's log, if its level permits. May be called by functions of the
 /// engine.
-/// `about`  kind of a message of a file reader: "inferred", "ignored", "repaired" or "suspicious";
-///          null: any other message
-/// throws   Raised if the script's own sink fails
-void log(lua_State* L, LogLevel level, const std::string& message, const char* about = nullptr);
+/// throws  Raised if the script's own sink fails
+void log(lua_State* L, LogLevel level, const std::string& message);
 
 inline void log_warning(lua_State* L, const std::string& message) {
   log(L, LogLevel::warning, message);
@@ -33,5 +32,14 @@ void suspect_millimeters(lua_State* L, const std::string& subject, double distan
 
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
+
+/// Logs a diagnostic as its sentence, if the level lets it through. A sink gets its fields, too.
+/// What concerns a file is printed once, even if the file is read several times.
+/// throws  Raised when the script's own sink fails
+void log(lua_State* L, const Diagnostic& diagnostic);
+
+/// A sink for writers, and for grasps that are applied: what they report is logged as warnings that
+/// are about nothing in particular.
+Diagnostics log_losses(lua_State* L);
 
 }  // namespace clench

@@ -95,9 +95,12 @@ MeshTable read_mesh_table(lua_State* L, int i, const ReadOptions& reading) {
   if (mesh.triangles.empty())
     fail("{}: expected a triangle of three different vertices, got none", table.subject());
   if (left_out > 0)
-    reading.repaired(fmt::format("{}: {} of {} triangles name a vertex twice and are left out",
-                                 table.subject(), left_out, number));
-  if (turn_outward(mesh)) reading.repaired(table.subject() + inside_out);
+    reading.diagnostics.repaired(Place("", 0, table.subject()),
+                                 "{} of {} triangles name a vertex twice and are left out",
+                                 left_out, number);
+  if (turn_outward(mesh))
+    reading.diagnostics.repaired(Place("", 0, table.subject()), "{}",
+                                 std::string_view(inside_out).substr(2));
   if (looked_for) out.rounds.pieces = round_parts(mesh);
   if (round == LUA_TTABLE) check_rounds(out, table.subject());
   return out;

@@ -53,12 +53,7 @@ ReadOptions read_options(lua_State* L, Table& options) {
   out.home = home_folder();
   out.mesh_scale = read_unit(options);
   out.progress = Progress(bar_of(L));
-  out.warn = [L](const std::string& message) { log(L, LogLevel::warning, message, "ignored"); };
-  out.note = [L](const std::string& message) { log(L, LogLevel::info, message, "inferred"); };
-  out.repair = [L](const std::string& message) { log(L, LogLevel::warning, message, "repaired"); };
-  out.suspect = [L](const std::string& message) {
-    log(L, LogLevel::warning, message, "suspicious");
-  };
+  out.diagnostics = Diagnostics([L](const Diagnostic& diagnostic) { log(L, diagnostic); });
   return options.boolean("strict", false) ? strict(std::move(out)) : out;
 }
 

@@ -12,6 +12,7 @@
 #include "clench/model/build.h"
 #include "support/cases.h"
 #include "support/folder.h"
+#include "support/listening.h"
 #include "support/mujoco.h"
 
 using namespace clench;
@@ -34,7 +35,8 @@ struct Both {
     REQUIRE(model);
     data.reset(mj_makeData(model.get()));
     ReadOptions options;
-    options.warn = options.note = [](const std::string&) {};
+    options.diagnostics =
+        test::Listening{.warn = [](const std::string&) {}, .note = [](const std::string&) {}};
     world = build_world(read_world(path, options));
     DynamicSettings settings = world.dynamic_settings();
     settings.step = step;

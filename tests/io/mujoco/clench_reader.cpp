@@ -3,6 +3,7 @@
 #include "clench/base/error.h"
 #include "clench/io/mjcf/mjcf_model.h"
 #include "clench/io/read.h"
+#include "support/listening.h"
 
 namespace clench::test {
 
@@ -192,7 +193,8 @@ ModelFacts read_by_clench(const std::filesystem::path& path, const ModelFacts& t
   ModelFacts out;
   try {
     ReadOptions options;
-    options.warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+    options.diagnostics =
+        Listening{.warn = [&](const std::string& sentence) { warnings.push_back(sentence); }};
     const WorldSpec world = read_world(path, options);
     for (const TopNames& names : names_of(path)) {
       const PlacedRobot* robot = nullptr;

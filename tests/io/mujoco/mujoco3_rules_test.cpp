@@ -8,6 +8,7 @@
 #include "clench/base/error.h"
 #include "clench/io/read.h"
 #include "support/folder.h"
+#include "support/listening.h"
 
 using namespace clench;
 using namespace clench::test;
@@ -22,7 +23,8 @@ struct Scene {
 
   explicit Scene(const std::filesystem::path& path) {
     ReadOptions options;
-    options.warn = [this](const std::string& s) { warnings.push_back(s); };
+    options.diagnostics =
+        Listening{.warn = [this](const std::string& s) { warnings.push_back(s); }};
     try {
       world = read_world(path, options);
     } catch (const Error& e) {

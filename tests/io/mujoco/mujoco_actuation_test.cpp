@@ -11,6 +11,7 @@
 #include "clench/base/random.h"
 #include "clench/io/read.h"
 #include "clench/model/world.h"
+#include "support/listening.h"
 #include "support/mujoco.h"
 
 using namespace clench;
@@ -36,7 +37,8 @@ std::string name_of(const mjModel& m, int type, int id) {
 
 WorldSpec read_quietly(const fs::path& file) {
   ReadOptions options;
-  options.warn = options.note = [](const std::string&) {};
+  options.diagnostics =
+      test::Listening{.warn = [](const std::string&) {}, .note = [](const std::string&) {}};
   return read_world(file, options);
 }
 

@@ -11,6 +11,7 @@
 #include "clench/io/read.h"
 #include "clench/model/effort_range.h"
 #include "clench/model/world.h"
+#include "support/listening.h"
 #include "support/mujoco.h"
 
 using namespace clench;
@@ -230,7 +231,8 @@ TEST_CASE("the efforts of a drive at rest are those that some control exerts in 
     REQUIRE(m);
     const test::MujocoData d(mj_makeData(m.get()));
     ReadOptions options;
-    options.warn = options.note = [](const std::string&) {};
+    options.diagnostics =
+        test::Listening{.warn = [](const std::string&) {}, .note = [](const std::string&) {}};
     const RobotSpec spec = read_robot(folder.write("new.xml", text), options);
     World world;
     const Id<Robot> id = world.add_robot(spec, {});

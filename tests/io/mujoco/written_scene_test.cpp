@@ -11,6 +11,7 @@
 #include "clench/io/write_mjcf.h"
 #include "clench/spec/dof_drive.h"
 #include "support/folder.h"
+#include "support/listening.h"
 #include "support/meshes.h"
 #include "support/mujoco.h"
 #include "support/shared.h"
@@ -57,8 +58,9 @@ struct Written {
                          }};
     request.keys = std::move(keys);
     request.carriage = carriage;
-    write_mjcf(request, path(),
-               {.warn = [this](const std::string& text) { warnings.push_back(text); }});
+    write_mjcf(request, path(), {.diagnostics = Listening{.warn = [this](const std::string& text) {
+                                   warnings.push_back(text);
+                                 }}});
     char error[1000] = "";
     model.reset(mj_loadXML(path().c_str(), nullptr, error, sizeof error));
     INFO(path().string());

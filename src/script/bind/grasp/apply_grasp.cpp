@@ -19,12 +19,12 @@ void note_identity(lua_State* L, const World& world, Grasp& grasp) {
   grasp.engine_version = CLENCH_VERSION;
 }
 
-static std::string place_of(const GraspSpec& grasp) {
-  return fmt::format("grasp of {} by {}", grasp.object_name, grasp.hand_name);
+static Place place_of(const GraspSpec& grasp) {
+  return Place("", 0, fmt::format("grasp of {} by {}", grasp.object_name, grasp.hand_name));
 }
 
 static GraspDofOptions dof_options(lua_State* L, DofOrder order) {
-  return {.order = order, .warn = [L](const std::string& text) { log_warning(L, text); }};
+  return {.order = order, .diagnostics = log_losses(L)};
 }
 
 // in the order of the hand's DOFs; apply itself warns of values that differ from the file's

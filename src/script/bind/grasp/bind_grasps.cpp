@@ -43,8 +43,8 @@ static int list_grasps(lua_State* L) {
     format_read = read_grasp_file(
         path, {.add = add, .expect = [&](size_t n) { list.grasps.reserve(n); }}, format, reading);
     if (order.is_given() && has_names)
-      reading.warn(fmt::format("{}: it names DOFs, for which dof_order is not used",
-                               std::filesystem::path(path).filename().string()));
+      reading.diagnostics.warn(Place(std::filesystem::path(path).filename().string()),
+                               "it names DOFs, for which dof_order is not used");
   }
   push_object(L, std::move(list));
   if (!format_read) return 1;
@@ -65,7 +65,7 @@ static int grasps_save(lua_State* L) {
   for (const GraspHandle& handle : list.grasps) specs.push_back(handle.grasp);
   Table options(L, 3);
   const std::string format = options.string("format", "");
-  WriteOptions writing{.warn = [L](const std::string& lost) { log_warning(L, lost); }};
+  WriteOptions writing{.diagnostics = log_losses(L)};
   if (options.has("notes")) {
     options.push("notes");
     writing.notes = lua_istable(L, -1) ? write_json(L, lua_gettop(L)) : "";

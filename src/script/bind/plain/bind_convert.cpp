@@ -55,8 +55,10 @@ static int convert(lua_State* L) {
     save_world(L, *push_world_of(L, found, reading), to,
                {.root = reading.root, .confine = reading.confine, .format = format});
   else
-    convert_file(kind, found, to, reading,
-                 {.root = reading.root, .confine = reading.confine, .warn = reading.warn}, grasps);
+    convert_file(
+        kind, found, to, reading,
+        {.root = reading.root, .confine = reading.confine, .diagnostics = reading.diagnostics},
+        grasps);
   return push(L, kind_name(as_world ? FileKind::world : kind));
 }
 

@@ -36,6 +36,40 @@ void set_log_level(lua_State* L, LogLevel level) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &level_key);
 }
 
+// of the enumerators of About
+static const char* const about_names[] = {nullptr, "inferred", "ignored", "repaired", "suspicious"};
+
+static const char* severity_name(Severity severity) {
+  return severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";
+}
+
+// {severity =, file =, line =, subject =, text =, about =, count =}
+static void push_fields(lua_State* L, const Diagnostic& diagnostic) {
+  lua_createtable(L, 0, 7);
+  const auto set = [L](const char* name, const std::string& value) {
+    if (value.empty()) return;
+    lua_pushlstring(L, value.data(), value.size());
+    lua_setfield(L, -2, name);
+  };
+  set("severity", severity_name(diagnostic.severity));
+  set("file", diagnostic.place.file);
+  set("subject", diagnostic.place.subject);
+  set("text", diagnostic.text);
+  if (const char* about = about_names[static_cast<int>(diagnostic.about)]) set("about", about);
+  if (diagnostic.place.line > 0) {
+    lua_pushinteger(L, diagnostic.place.line);
+    lua_setfield(L, -2, "line");
+  }
+  lua_pushinteger(L, diagnostic.count);
+  lua_setfield(L, -2, "count");
+}
+
+// equal for equal diagnostics only
+static std::string value_key(const Diagnostic& d) {
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", severity_name(d.severity), d.place.file,
+                     d.place.line, d.place.subject, d.text, d.count);
+}
+
 // The strings among the running function's arguments, which distinguish files of the same name.
 static std::string argument_text(lua_State* L) {
   std::string out;
@@ -44,21 +78,52 @@ static std::string argument_text(lua_State* L) {
   return out;
 }
 
-void log(lua_State* L, LogLevel level, const std::string& message, const char* about) {
-  if (!lua_checkstack(L, 6) || level < log_level(L)) return;
-  const char* name = level_names[static_cast<int>(level)];
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &sink_key) == LUA_TFUNCTION) {
-    lua_pushstring(L, name);
-    lua_pushlstring(L, message.data(), message.size());
-    lua_pushstring(L, about);  // nil if null
-    call_script(L, 3, 0, "clench.log.sink");
-    return;
+// Calls the script's sink, if there is one.   `fields`: pushes the values of a diagnostic
+static bool call_sink(lua_State* L, LogLevel level, const std::string& message, const char* about,
+                      const Diagnostic* fields) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &sink_key) != LUA_TFUNCTION) {
+    lua_pop(L, 1);
+    return false;
   }
-  lua_pop(L, 1);
-  // a message about a file is logged once, even if the file is read several times
-  if (about && !first_time(L, &of_file_key, message + argument_text(L))) return;
-  // a message about a file is a single line, even if it quotes names with line ends
-  write_above_bar(fmt::format("clench: {}: {}\n", name, printable(message, about ? "" : "\n\t")));
+  lua_pushstring(L, level_names[static_cast<int>(level)]);
+  lua_pushlstring(L, message.data(), message.size());
+  lua_pushstring(L, about);  // nil when null
+  if (fields)
+    push_fields(L, *fields);
+  else
+    lua_pushnil(L);
+  call_script(L, 4, 0, "clench.log.sink");
+  return true;
+}
+
+static void print_message(LogLevel level, const std::string& message, const char* kept) {
+  write_above_bar(fmt::format("clench: {}: {}\n", level_names[static_cast<int>(level)],
+                              printable(message, kept)));
+}
+
+void log(lua_State* L, LogLevel level, const std::string& message) {
+  if (!lua_checkstack(L, 8) || level < log_level(L)) return;
+  if (!call_sink(L, level, message, nullptr, nullptr)) print_message(level, message, "\n\t");
+}
+
+void log(lua_State* L, const Diagnostic& diagnostic) {
+  const LogLevel level = diagnostic.severity == Severity::note      ? LogLevel::info
+                         : diagnostic.severity == Severity::warning ? LogLevel::warning
+                                                                    : LogLevel::error;
+  if (!lua_checkstack(L, 8) || level < log_level(L)) return;
+  const char* about = about_names[static_cast<int>(diagnostic.about)];
+  const std::string sentence = diagnostic.sentence();
+  if (call_sink(L, level, sentence, about, &diagnostic)) return;
+  // what concerns a file is logged once, even if the file is read several times
+  if (about && !first_time(L, &of_file_key, value_key(diagnostic) + argument_text(L))) return;
+  print_message(level, sentence, "");  // one line, whatever names it quotes
+}
+
+Diagnostics log_losses(lua_State* L) {
+  return Diagnostics([L](Diagnostic loss) {
+    loss.about = About::none;
+    log(L, loss);
+  });
 }
 
 bool first_time(lua_State* L, const void* key, const std::string& about) {
@@ -166,7 +231,7 @@ static const Entry log_functions[] = {
 Calls a function, and returns the messages logged meanwhile as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
 @param f function  function to call
 @param ... any  its arguments
-@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, about?: string, count: integer}[] diagnostics  file and line: the place in a file that is read; about: "inferred", "ignored", "repaired" or "suspicious"; equal messages are one, with their count
+@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, subject?: string, about?: string, count: integer}[] diagnostics  file and line: the place in a file that is read or written; subject: the part of it that is concerned, "joint 2"; about: "inferred", "ignored", "repaired" or "suspicious"; equal problems of one file are one, the first, with their count
 @return any ...  what the function returns
 > list, body = clench.log.collect(function() return world:add_object(flask.source, {name = "again"}) end)
 > body.name, #list  --> again, 0
@@ -207,9 +272,10 @@ Says from which level on messages are shown, and sets it if one is given.
 > clench.log.level "info"  --> quiet
 > clench.log.level "loud"  --> error: expected one of debug, info, warning, error, quiet)"},
     {"sink", guarded<sink>, R"(
-Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` is the kind of message
-of a file reader: "inferred", "ignored", "repaired" or "suspicious"; nil otherwise.
-@param fn? fun(level: string, text: string, about: string?)  called with each message in place of printing it; without it messages are printed again
+Sends messages to a function(level, text, about, diagnostic) instead of stderr; without one, to stderr again. `about` is the kind
+of message of a file reader: "inferred", "ignored", "repaired" or "suspicious"; nil otherwise. `diagnostic` contains a message of
+a reader or writer as values, like `clench.log.collect`; nil for messages of scripts.
+@param fn? fun(level: string, text: string, about: string?, diagnostic: table?)  called with each message in place of printing it; without it messages are printed again
 > clench.log.sink(function(level, text) said = text end)
 > clench.log.info "hello"
 > clench.log.sink()

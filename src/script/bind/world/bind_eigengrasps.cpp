@@ -115,8 +115,7 @@ static int dofs(lua_State* L) {
 
 static int eigengrasps_save(lua_State* L) {
   const auto& handle = self<EigengraspsHandle>(L);
-  write_eigengrasps(handle.value(), check_output(L, 2),
-                    [L](const std::string& message) { log_warning(L, message); });
+  write_eigengrasps(handle.value(), check_output(L, 2), log_losses(L));
   return 0;
 }
 

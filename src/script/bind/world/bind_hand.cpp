@@ -117,10 +117,11 @@ static std::string source_stem(const Robot& robot) {
 static void warn_of_other_hand(lua_State* L, const RobotHandle& robot,
                                const std::string& made_for) {
   if (made_for.empty() || made_for == robot->name || made_for == source_stem(*robot)) return;
-  log(L, LogLevel::warning,
-      fmt::format("{}: virtual contacts made for '{}' are used for '{}'", subject(L), made_for,
-                  robot->name),
-      "suspicious");
+  Diagnostic doubt(
+      Place("", 0, subject(L)),
+      fmt::format("virtual contacts made for '{}' are used for '{}'", made_for, robot->name));
+  doubt.about = About::suspicious;
+  log(L, doubt);
 }
 
 static int set_virtual_contacts(lua_State* L) {

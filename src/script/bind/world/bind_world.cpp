@@ -41,16 +41,15 @@ static int add_body(lua_State* L, BodyKind kind) {
   const ReadOptions reading = read_options(L, options);
   const BodySpec spec = check_body_spec(L, 2, options, reading);
   const std::string file = std::filesystem::path(spec.file).filename().string();
-  const std::string place = file.empty() ? subject(L) + ": mesh" : file;
-  Listeners told = reading.listeners();
+  const Place place = file.empty() ? Place("", 0, subject(L)).of("mesh") : Place(file);
   // no notes: a script knows which values it omits
-  if (file.empty()) told.note = {};
+  const Diagnostics told = file.empty() ? reading.diagnostics.without_notes() : reading.diagnostics;
   if (const std::string doubt =
           options.has("elastic_modulus") ? doubt_modulus(*spec.elastic_modulus) : "";
       !doubt.empty())
-    tell(told.suspect, told.warn, place + ": elastic_modulus " + doubt);
+    told.suspected(place, "elastic_modulus {}", doubt);
   if (kind == BodyKind::object) {
-    check_plausible_object(spec, place, reading.listeners());
+    check_plausible_object(spec, place, reading.diagnostics);
     tell_assumed(std::array{&spec}, place, told);
   } else {
     tell_assumed({}, place, told, std::array{&spec});
@@ -76,7 +75,7 @@ static int add_robot(lua_State* L) {
   const std::string name = options.string("name", "");
   options.done();
   const RobotSpec spec = read_robot(find_file(path, {}, reading), reading);
-  const auto id = clench::add_robot(*handle.world, spec, pose, name, reading.listeners());
+  const auto id = clench::add_robot(*handle.world, spec, pose, name, reading.diagnostics);
   add_owned_bodies(L, 1, handle.world->bodies_of(id));
   return push(L, RobotHandle{handle.world, id});
 }

@@ -96,7 +96,7 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
     return world;
   }
   const auto world =
-      std::make_shared<World>(build_world(read_world(path, reading), reading.listeners()));
+      std::make_shared<World>(build_world(read_world(path, reading), reading.diagnostics));
   push_world(L, world);
   add_owned_bodies(L, -1, world->bodies());
   return world;
@@ -231,7 +231,7 @@ SceneRequest scene_of(const World& world, const WorldSpec& spec, const fs::path&
 void save_scene(lua_State* L, const World& world, const fs::path& path, const SavingOptions& saving,
                 SceneRequest& request) {
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
-  writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
+  writing.diagnostics = log_losses(L);
   // a scene that could not be loaded is not written
   writing.check = [&](const fs::path& written) {
     if (!world.bodies().empty() && lies_within(written, saving.confine))
@@ -266,7 +266,7 @@ void save_world(lua_State* L, const World& world, const fs::path& path,
                             "format = \"mjcf\" writes a scene of MuJoCo",
                             path.filename().string()));
   WriteOptions writing{.root = saving.root, .confine = saving.confine};
-  writing.warn = [L](const std::string& sentence) { log_warning(L, sentence); };
+  writing.diagnostics = log_losses(L);
   const std::string file = path.filename().string();
   writing.check = [&](const fs::path& written) {
     if (is_script(written) || lies_within(written, saving.confine))
