@@ -50,6 +50,7 @@ local function frames_of(world, grasps, recording)
   end}
 end
 
+--- Writes a world as a page of HTML, which shows it in 3-D in a browser without a server.
 ---@param world world  what the page shows
 ---@param path string  its name ends in .html
 ---@param options? {title?: string, grasps?: table, recording?: table, max_size?: number, three?: string[]}

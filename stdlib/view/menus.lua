@@ -41,9 +41,11 @@ local function view_menu(view, ui)
   if ui:menu_item("Orthographic", {selected = view.camera.orthographic ~= nil}) then view:toggle_orthographic() end
   navigation.draw_menu(view, ui)
   ui:separator()
-  for _, panel in ipairs(view.panels) do
-    if ui:menu_item(panel.name, {selected = not view.hidden[panel.name]}) then view.hidden[panel.name] = not view.hidden[panel.name] or nil end
-  end
+  ui:menu("Show Panel", function(ui)
+    for _, panel in ipairs(view.panels) do
+      if ui:menu_item(panel.name, {selected = not view.hidden[panel.name]}) then view.hidden[panel.name] = not view.hidden[panel.name] or nil end
+    end
+  end)
   if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
   ui:separator()
   units.menu(view, ui)

@@ -279,7 +279,7 @@ return function(options)
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event) echo.changed(view, event) end)
-  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.level) end)
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.severity) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()
     view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}

@@ -25,6 +25,7 @@ local readers = {
   ["clench.load{virtual_contacts}"] = function(path) clench.load(inside .. "/plain.urdf", {virtual_contacts = path}) end,
   ["clench.grasps"] = clench.grasps,
   ["clench.csv.read"] = clench.csv.read,
+  ["clench.port.replay"] = function(path) clench.port.replay(path):close() end,
   ["clench.plan.primitive{primitives}"] = function(path) clench.plan.primitive {hand = hand, object = box, primitives = path} end,
   ["clench.report.of"] = function(path)
     local r = clench.report.of(path)
@@ -58,6 +59,8 @@ local writers = {
   ["clench.files.save_text"] = function(path) clench.files.save_text(path, "text") end,
   ["clench.files.append_text"] = function(path) clench.files.append_text(path, "text") end,
   ["clench.files.check_writable"] = clench.files.check_writable,
+  ["clench.export_html"] = function(path) clench.export_html(hand.world, path .. ".html") end,
+  ["clench.devices.save_calibration"] = function(path) clench.devices.save_calibration(path, {slopes = {{1}}, intercepts = {0}}) end,
   ["clench.files.save_arrays"] = function(path) clench.files.save_arrays(path, {a = {1}}) end,
   ["clench.files.save_object_contacts"] = function(path) clench.files.save_object_contacts(path, {}) end,
   ["clench.files.save_pregrasps"] = function(path) clench.files.save_pregrasps(path, {}) end,
@@ -93,6 +96,7 @@ local neither = {
   ["clench.shapes.tube"] = "its path is a line in space",
   ["clench.study.compare"] = "grasps that came from files",
   ["motion:weld"] = "its `to` is a body",
+  ["clench.port.connect"] = "connects to a socket, and opens no file",
 }
 
 -- --- what there is ---

@@ -164,7 +164,7 @@ TEST_CASE("on a full disk a search ends, prints its grasps, and reports the erro
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   // so many blocks of 512 or 1024 bytes that a few grasps fit
-  const auto result = run(barrett + "--no-verify --count 60 -o " + out, "", "ulimit -f 32;");
+  const auto result = run(barrett + "--no-verify --count 60 -o " + out, "", "ulimit -f 48;");
   CHECK(result.code == 1);
   CHECK(has(result.out, "clench plan: " + out + ": the file cannot be written: File too large\n"));
   CHECK(has(result.out, "  epsilon  load"));

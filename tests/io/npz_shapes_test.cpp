@@ -183,7 +183,7 @@ TEST_CASE("arrays in the order of Fortran are those in the order of C") {
         std::vector<std::string>{"a", "c", "b", "d"});
 }
 
-TEST_CASE("shapes that are none are refused; one without numbers may have any number of rows") {
+TEST_CASE("invalid shapes are refused, and one without numbers may have any number of rows") {
   const auto refuse = [](const std::string& shape, const std::string& message) {
     CHECK_THROWS_WITH_AS(read_npz("a.npz", archive("<f8", false, shape, "")),
                          ("a.npz: a: " + message).c_str(), Error);

@@ -315,7 +315,7 @@ TEST_CASE("24 postures of three hands have the amplitudes that the original meas
     const Eigengrasps grasps(world.robot(hand));
     REQUIRE(grasps.size() == measured["eigengrasps"].get<int>());
     for (int i = 0; i < grasps.size(); ++i) {
-      const auto v = measured["basis"][i]["vector_normalized"].get<std::vector<double>>();
+      const auto v = measured["basis"][i]["vector_normalised"].get<std::vector<double>>();
       for (int d = 0; d < grasps.dofs(); ++d)
         CHECK(std::abs(grasps.vectors()(i, d) - v[d]) < 1e-12);
     }

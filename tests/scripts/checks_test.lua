@@ -29,13 +29,17 @@ fails_with("lua5.4 scripts/check_layers.lua tests/data/layers/bad", {
   "src/lone/lone.cpp:1: module 'lone' has no row in docs/architecture.md",
   'src/low/upward.cpp:1: module low may not include "high/tall.h": its row names nothing',
   'src/low/upward.cpp:2: no such file: "second.h"; includes are named as "clench/module/file.h"',
+  "src/high/cellar/stairs.h:4: room cellar of high declares 'climb', which is defined higher, in src/high/roof/climb.cpp",
+  "docs/architecture.md:21: high/tall.h does not declare 'nothing' for a higher room",
+  "stdlib/third/c.lua:1: folder 'third' of stdlib has no place in docs/architecture.md",
+  "stdlib/first/a.lua:1: folder first of stdlib may not use clench.second.b: it lies higher",
   "src/low/first.h:3: circle of includes: low/second -> low/first -> low/second",
   "src/low/hen.cpp:1: circle of includes: low/egg -> low/hen -> low/egg",
   "src/low/types_again.h:6: type 'Twice' is defined in src/low/types.h as well",
   "src/low/hen.cpp:3: 'feathers' is defined in src/low/egg.cpp as well; a unity build may compile both as one",
   "src/high/tall.h:4: 'SoSeparator' belongs to Coin, which is seen only by low/inventor*.cpp",
   "src/low/upward.cpp:3: <lua.h> belongs to Lua, which is seen only by high",
-  "layers: 15 files, 15 faults",
+  "layers: 16 files, 19 faults",
 })
 
 fails_with("lua5.4 scripts/check_packages.lua tests/data/packages/bad", {

@@ -1,2 +1,4 @@
 #pragma once
 #include "clench/high/roof/tiles.h"
+
+int climb(int steps);

@@ -1,0 +1,3 @@
+#include "clench/high/cellar/stairs.h"
+
+int climb(int steps) { return steps; }

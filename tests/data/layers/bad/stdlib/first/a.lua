@@ -1,0 +1,2 @@
+local b = require "clench.second.b"
+return b
