@@ -1554,7 +1554,7 @@ clench.log = {}
 ---Calls a function, and returns the messages logged meanwhile as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
 ---@param f function # function to call
 ---@param ... any # its arguments
----@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, about?: string, count: integer}[] diagnostics # file and line: the place in a file that is read; about: "inferred", "ignored", "repaired" or "suspicious"; equal messages are one, with their count
+---@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, subject?: string, about?: string, count: integer}[] diagnostics # file and line: the place in a file that is read or written; subject: the part of it that is concerned, "joint 2"; about: "inferred", "ignored", "repaired" or "suspicious"; equal problems of one file are one, the first, with their count
 ---@return any ... # what the function returns
 function clench.log.collect(f, ...) end
 
@@ -1579,8 +1579,8 @@ function clench.log.error(...) end
 ---@return string before
 function clench.log.level(name) end
 
----Sends messages to a function(level, text, about) instead of stderr; without one, to stderr again. `about` is the kind of message of a file reader: "inferred", "ignored", "repaired" or "suspicious"; nil otherwise.
----@param fn? fun(level: string, text: string, about: string?) # called with each message in place of printing it; without it messages are printed again
+---Sends messages to a function(level, text, about, diagnostic) instead of stderr; without one, to stderr again. `about` is the kind of message of a file reader: "inferred", "ignored", "repaired" or "suspicious"; nil otherwise. `diagnostic` contains a message of a reader or writer as values, like `clench.log.collect`; nil for messages of scripts.
+---@param fn? fun(level: string, text: string, about: string?, diagnostic: table?) # called with each message in place of printing it; without it messages are printed again
 function clench.log.sink(fn) end
 
 ---The small files around hands and planners, read as tables and written from them.

@@ -49,7 +49,7 @@ TEST_CASE("help explains functions, values and names") {
           "'gif'\nhelp 'nonsense'\n")
           .out;
   for (const char* part :
-       {"clench.rad(degrees)\n  Degrees to radians.", "pose: A rigid transform", ".position",
+       {"clench.rad(degrees)\n  Degrees to radians.", "pose: An immutable rigid transform", ".position",
         "pose:inverse()", "clench.json.encode", "help(x) explains a value",
         "there is no help for 5", "clench.shapes.box(options)\n",
         "clench.study.robustness(grasp, options)", "string.rep is a function of Lua",

@@ -29,7 +29,7 @@ struct ContactWorld {
     ReadOptions options = told.options();
     options.diagnostics =
         Listening{.warn = [before = options.diagnostics](
-                              const std::string& text) { before.warn(Diagnostic(text)); },
+                              const std::string& sentence) { before.warn(Diagnostic(sentence)); },
                   .note = [this](const std::string& s) { notes.push_back(s); }};
     world = read_world(folder.write("m.xml", "<mujoco>" + text + "</mujoco>"), options);
   }

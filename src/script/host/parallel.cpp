@@ -121,10 +121,12 @@ void do_item(Worker& worker, const Task& task, size_t i, Outcome& outcome) {
 
 class Crew {
  public:
-  /// first  how the first worker obtains its core
-  Crew(const Task& task, std::vector<Parcel> shared, CoreSlot::Start first)
-      : task_(task), first_(first), outcomes_(task.items.size()) {
+  /// handed  has the caller handed its core to the first worker? Otherwise one is reserved before
+  ///         any worker starts, so that the others do not take it first
+  Crew(const Task& task, std::vector<Parcel> shared, bool handed)
+      : task_(task), outcomes_(task.items.size()) {
     workers_.resize(shared.size());
+    if (!handed && !workers_.empty()) CoreSlot::reserve();
     for (size_t i = 0; i < shared.size(); ++i) workers_[i].shared = std::move(shared[i]);
     for (Worker& worker : workers_) threads_.emplace_back([this, &worker] { run(worker); });
   }
@@ -200,8 +202,9 @@ class Crew {
   void run(Worker& worker) {
     set_thread_nice(task_.nice);
     // the first one replaces the caller, so that a map proceeds even if all cores are busy
-    const CoreSlot slot([this] { return ended_.load(); },
-                        &worker == &workers_.front() ? first_ : CoreSlot::Start::wait);
+    const CoreSlot slot([this] { return ended_.load(); }, &worker == &workers_.front()
+                                                              ? CoreSlot::Start::handed
+                                                              : CoreSlot::Start::wait);
     std::string problem;
     try {
       // after waiting for a core there may be nothing left to do
@@ -226,7 +229,6 @@ class Crew {
   }
 
   const Task& task_;
-  CoreSlot::Start first_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::optional<Outcome>> outcomes_;
@@ -302,8 +304,7 @@ int map(lua_State* L) {
     // the workers compute, and this thread only passes on their results
     const SlotLent lent(SlotLent::To::one);
     task.memory = State::memory_of(L) / copies.size();
-    Crew crew(task, std::move(copies),
-              lent.is_lent() ? CoreSlot::Start::handed : CoreSlot::Start::at_once);
+    Crew crew(task, std::move(copies), lent.is_lent());
     const Watching watching(L);
     for (size_t i = 0; i < count; ++i) {
       const Outcome* outcome = nullptr;

@@ -43,13 +43,16 @@ thread_local CoreSlot* slot_of_thread = nullptr;
 CoreSlot::CoreSlot(std::function<bool()> is_stopped, Start start)
     : is_stopped_(std::move(is_stopped)) {
   if (start == Start::wait) free_slots().take(is_stopped_);
-  if (start == Start::at_once) free_slots().take([] { return true; });
   slot_of_thread = this;
 }
 
 CoreSlot::~CoreSlot() {
   slot_of_thread = nullptr;
   if (!lent_) free_slots().give();
+}
+
+void CoreSlot::reserve() {
+  free_slots().take([] { return true; });
 }
 
 CoreSlot* CoreSlot::of_thread() { return slot_of_thread; }

@@ -10,9 +10,8 @@ namespace clench {
 class CoreSlot {
  public:
   enum class Start {
-    wait,     ///< waits for a free one
-    at_once,  ///< takes an additional one if none is free
-    handed,   ///< takes the one that the calling thread of SlotLent hands over
+    wait,    ///< waits for a free one
+    handed,  ///< takes the one that SlotLent hands over, or that was reserved
   };
   /// When `is_stopped` returns true it stops waiting and takes an additional one, so that stopped
   /// work ends immediately. A thread holds at most one.
@@ -21,6 +20,8 @@ class CoreSlot {
   CoreSlot(const CoreSlot&) = delete;
   CoreSlot& operator=(const CoreSlot&) = delete;
 
+  /// Takes one, an additional one if none is free, for the thread that starts with Start::handed.
+  static void reserve();
   /// The slot of the calling thread; null if it holds none.
   static CoreSlot* of_thread();
   /// Makes it available to other threads.

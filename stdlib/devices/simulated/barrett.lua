@@ -88,8 +88,9 @@ end
 --- > simulated = clench.devices.simulated.barrett {}
 --- > line = clench.port.serial {path = simulated.path}
 --- > line:write "123SFGET P\r"
---- > line:read_until("=> ", 1)  --> 123SFGET P\r\n0 0 0 0\r\n
+--- > line:read_until("=> ", 1):find "0 0 0 0" ~= nil  --> true
 --- > simulated:close()
+--- > simulated.path:find "^/dev/" ~= nil  --> true
 return function(options)
   return new_line("barrett", options, function(o)
     local motors = {}

@@ -45,4 +45,5 @@ end
 --- > simulated = clench.devices.simulated.cyberglove {}
 --- > #simulated.sensors, simulated.state  --> 22, 3
 --- > simulated:close()
+--- > simulated.path:find "^/dev/" ~= nil  --> true
 return function(options) return new_line("cyberglove", options, function(o) return {sensors = read_sensors(o), state = 3} end, serve) end

@@ -171,6 +171,7 @@ end
 --- > line:write "\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E"
 --- > line:read(14, 1) == "\xFF\xFF\xFD\x00\x01\x07\x00\x55\x00\x06\x04\x26\x65\x5D"  --> true
 --- > simulated:close()
+--- > simulated.path:find "^/dev/" ~= nil  --> true
 return function(options)
   return new_line("dynamixel", options, function(o)
     local ids, motors = o:raw "ids" or {1}, {}

@@ -62,6 +62,7 @@ end
 --- > simulated = clench.devices.simulated.flock {birds = 2}
 --- > #simulated.poses  --> 2
 --- > simulated:close()
+--- > simulated.path:find "^/dev/" ~= nil  --> true
 return function(options)
   return new_line("flock", options, function(o)
     local birds, given, poses = o:get "birds", o:raw "poses" or {}, {}

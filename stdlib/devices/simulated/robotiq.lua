@@ -110,6 +110,7 @@ end
 --- > line:write "\x09\x10\x03\xE8\x00\x03\x06\x01\x00\x00\x00\x00\x00\x72\xE1"
 --- > line:read(8, 1) == "\x09\x10\x03\xE8\x00\x03\x01\x30"  --> true
 --- > simulated:close()
+--- > simulated.path:find "^/dev/" ~= nil  --> true
 return function(options)
   return new_line("robotiq", options, function(o)
     local object = o:raw "object"

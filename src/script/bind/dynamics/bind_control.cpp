@@ -108,7 +108,7 @@ Goes back to the state that was pushed last, and takes it from the stack.
 > world:push()
 > world:run(0.05)
 > world:pop(), world:hash() == before  --> 0, true
-> world:pop()  --> error: world:pop: the stack is empty: nothing was pushed, or all was popped)"},
+> world:pop()  --> error: world:pop: the stack is empty)"},
 };
 
 const Class world_control_class{.name = "world_control",
