@@ -1,6 +1,7 @@
 --- Starts of the hand: in front of a point of the object's surface, facing it, or around two points that face each other; opened more or less. See
 --- plan.neighbor for starts near successful ones.
 local facing = require "clench.plan.facing"
+local level = require "clench.plan.level"
 local opposition = require "clench.plan.opposition"
 local pads = require "clench.plan.pads"
 local supports = require "clench.plan.supports"
@@ -83,7 +84,7 @@ function starts.opened(hand)
   return freed(hand, open), closes
 end
 
--- The DOFs, closed by a fraction of the range, and spread by a fraction of the distance to `values` in the range.
+-- The DOFs, closed by a fraction of the range (one number, or one per DOF), and spread by a fraction of the distance to `values` in the range.
 local function posture(hand, closed, spread, values)
   local dofs = {}
   for i, value in ipairs(hand.open) do
@@ -92,7 +93,7 @@ local function posture(hand, closed, spread, values)
       dofs[i] = value
     elseif hand.closes[i] then
       local far = math.abs(value - low) > math.abs(value - high) and low or high
-      dofs[i] = value + closed * (far - value)
+      dofs[i] = value + (type(closed) == "table" and closed[i] or closed) * (far - value)
     else
       dofs[i] = spread == 0 and value or value + spread * (low + values[i] * (high - low) - value)
     end
@@ -153,6 +154,7 @@ local function describe(hand)
     self.closings = closings(self, thumb, finger)
     self.aperture = self.closings[1].width
     self.is_two_fingered = #opposition.fingers(hand) == 2
+    self.thumb = finger
     middle = opposition.middle(hand, posture(self, 0.5, 0), finger)
   end
   self.X_FH = opposition.base_in_frame(hand, middle, self.across)
@@ -255,12 +257,31 @@ local sides = 4                -- number of approach directions that are tried f
 local shallow = -0.85          -- depth at which little more than the ends of the pads reach the points [half pads]
 local finger_clearance = 0.006  -- free distance that a finger needs beside a point [m]
 
+local behind = 1e-3  -- depth below the surface at which a ray for obstacles begins: more than the gap to a support [m]
+
+-- Is there enough free space for a finger beside a point of the object?
+-- point, direction, inside  point of the surface and unit vector out of the object, in the world; depth at which the ray begins [m]
+local function is_clear(world, object, point, direction, inside)
+  local passed, reach = 0, inside + finger_clearance
+  for _ = 1, 4 do
+    local hit = world:raycast(point + direction * (passed - inside), direction, reach - passed)
+    if not hit then return true end
+    passed = passed + hit.distance
+    local enters = hit.normal:dot(direction) < 0 and passed > inside + 1e-5
+    if hit.body ~= object or enters then return false end
+    passed = passed + 1e-6
+    if passed >= reach then return true end
+  end
+  return true
+end
+
 -- Is there enough free space for a finger beside each of two points?
 -- middle, line, apart  midpoint of the points, unit vector from one to the other, and their distance [m], in the object's frame
 local function is_clear_beside(world, object, middle, line, apart)
+  local inside = math.min(behind, apart / 2)
   for _, sign in ipairs {-1, 1} do
-    local hit = world:raycast(object.pose * (middle + line * (sign * (apart / 2 + 1e-4))), object.pose:rotate(line * sign), finger_clearance)
-    if hit and hit.body ~= object then return false end
+    local direction = object.pose:rotate(line * sign)
+    if not is_clear(world, object, object.pose * (middle + line * (sign * apart / 2)), direction, inside) then return false end
   end
   return true
 end
@@ -280,10 +301,14 @@ end
 
 --- A start with the thumb on one of two points that face each other and the fingers on the other, from any side across that line.
 ---@param checked boolean  for jaws: only directions from which the hand reaches the points without collision
-local function about_two_points(hand, world, object, surface, random, options, checked)
+local function about_two_points(hand, world, object, surface, random, options, checked, is_level)
   local width = math.min(options.width, hand.aperture - starts.clearance)
   local middle, line, apart = facing.pair(world, object, surface_point(hand, object, surface, random), random, options.friction, width)
   if not middle or hand.up and not is_clear_beside(world, object, middle, line, apart) then return end
+  if hand.level and checked and is_level then
+    local function reaches(direction, pose, dofs) return gets_there(hand, object, direction, pose, dofs) end
+    return level.start(hand, {middle = middle, line = line, apart = apart}, random, options.standoff, starts.clearance, reaches)
+  end
   local closed, X_FH, pad = holding(hand, apart + starts.clearance)
   local dofs = random:uniform() < 0.5 and hand.open or random_posture(hand, random, math.min(max_closed, closed))
   local direction, deeper
@@ -315,6 +340,9 @@ local max_tries = 200  -- maximum number of attempts to find two points that fac
 function starts.random(job, options)
   local hand, object, world = describe(job.hand), job.object, job.world
   hand.up = up_of(supports.of(job.hand, object), object)
+  if hand.up and hand.has_thumb and not hand.is_two_fingered then
+    hand.level = level.of(hand, object, hand.thumb, function(parts) return posture(hand, parts, 0) end)
+  end
   local surface = object.mesh:sample(clench.random(job.seed, 0), surface_points)
   return function(number)
     local paired = hand.has_thumb and (options.kind == "antipodal" or number % (hand.is_two_fingered and 8 or 2) ~= 1)
@@ -322,7 +350,7 @@ function starts.random(job, options)
       local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
-        state = about_two_points(hand, world, object, surface, random, options, try < max_tries)
+        state = about_two_points(hand, world, object, surface, random, options, try < max_tries, number % 8 ~= 0)
       else
         state = before_surface(hand, surface, random, options.standoff)
       end
