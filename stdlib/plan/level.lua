@@ -4,6 +4,7 @@ local opposition = require "clench.plan.opposition"
 local level = {}
 
 local samples = 400        -- number of points sampled on each fingertip
+local directions = 48      -- number of directions in which the farthest of these points is kept
 local coarse = 20          -- number of points sampled on each other link
 local steps = 16           -- number of closing steps at which the ends are computed
 local curls = {0, 0.4, 1}  -- closing of distal joints as a fraction of that of the first joint
@@ -14,10 +15,44 @@ local heights = {0.001, 0.003}  -- minimum and maximum height of the ends above 
 local turn_spread = 0.25   -- standard deviation of the rotation about the upward direction [rad]
 local wider = 0.004        -- maximum additional opening beyond the distance of the points and the clearance [m]
 
-local function part_of(link, count, is_tip)
+-- Evenly distributed directions, on a spiral around the sphere.
+local function spiral(count)
+  local out, turn = {}, math.pi * (3 - math.sqrt(5))
+  for k = 1, count do
+    local z = 1 - (2 * k - 1) / count
+    local r = math.sqrt(1 - z * z)
+    out[k] = clench.vec3(r * math.cos(k * turn), r * math.sin(k * turn), z)
+  end
+  return out
+end
+
+-- The point farthest along a direction, its coordinate along it, and its index.
+local function end_of(points, direction)
+  local best, far = 1, -math.huge
+  for i, point in ipairs(points) do
+    local along = point:dot(direction)
+    if along > far then best, far = i, along end
+  end
+  return points[best], far, best
+end
+
+-- The points that are farthest along one of the directions, each once, in their order.
+local function extreme(points, directions)
+  local is_extreme, out = {}, {}
+  for _, direction in ipairs(directions) do
+    local _, _, best = end_of(points, direction)
+    is_extreme[best] = true
+  end
+  for i, point in ipairs(points) do
+    if is_extreme[i] then out[#out + 1] = point end
+  end
+  return out
+end
+
+local function part_of(link, is_tip)
   local points = {}
-  for k, sample in ipairs(link.mesh:sample(clench.random(1), count)) do points[k] = sample.point end
-  return {link = link, points = points, is_tip = is_tip}
+  for k, sample in ipairs(link.mesh:sample(clench.random(1), is_tip and samples or coarse)) do points[k] = sample.point end
+  return {link = link, points = is_tip and extreme(points, spiral(directions)) or points, is_tip = is_tip}
 end
 
 -- Sampled points of the thumb and of all other fingers, per link, in the frames of the links.
@@ -28,7 +63,7 @@ local function links_of(hand, thumb)
     for k = #finger.links, 1, -1 do
       local link = finger.links[k]
       if link.mesh then
-        list[#list + 1] = part_of(link, is_tip and samples or coarse, is_tip)
+        list[#list + 1] = part_of(link, is_tip)
         is_tip = false
       end
     end
@@ -43,16 +78,6 @@ local function in_world(list)
     for _, point in ipairs(part.points) do out[#out + 1] = pose * point end
   end
   return out
-end
-
--- The point farthest along a direction, its coordinate along it, and its index.
-local function end_of(points, direction)
-  local best, far = 1, -math.huge
-  for i, point in ipairs(points) do
-    local along = point:dot(direction)
-    if along > far then best, far = i, along end
-  end
-  return points[best], far, best
 end
 
 -- Does the point with this index belong to a fingertip? The lowest point of a strongly curled finger is a knuckle.
@@ -91,7 +116,7 @@ local function front_of(points, z, x, y, height)
   return front, (low + high) / 2, far
 end
 
--- For the current posture: the distance between thumb and fingers at their ends, and the pose of the base in the frame between them. nil: the ends are not level.
+-- For the current posture: the distance between the ends of thumb and fingers, and the pose of the base in the frame between them. nil: they are not level.
 local function ends_of(self, own, others, height)
   local thumb, fingers = in_world(own), in_world(others)
   local z, x = level_direction(thumb, fingers, self.robot.approach.direction, self.across)
@@ -150,8 +175,8 @@ end
 ---@param object body
 ---@param thumb integer  index of the thumb among the fingers
 ---@param posture fun(closed: number[]): number[]  DOFs of the hand, each closed by a fraction of its range
----@return {support: number, families: table[], at: fun(dofs: number[]): number?, pose?}?  height of the support [m]; postures by closing, one family per curl of
----  thumb and fingers; distance between the ends [m] and pose of the base between them. nil: the object is not low
+---@return {support: number, families: table[], at: fun(dofs: number[]): number?, pose?}?  height of the support [m];
+---  postures by closing, one family per curl of thumb and fingers; distance between the ends [m] and pose of the base between them. nil: the object is not low
 function level.of(self, object, thumb, posture)
   local hand = self.robot
   local low, high = extent(object, self.up)

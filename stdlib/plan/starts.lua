@@ -350,7 +350,7 @@ function starts.random(job, options)
       local random = clench.random(job.seed, number * max_tries + try)
       local state
       if paired then
-        state = about_two_points(hand, world, object, surface, random, options, try < max_tries, number % 8 ~= 0)
+        state = about_two_points(hand, world, object, surface, random, options, try < max_tries, number % 4 ~= 0)
       else
         state = before_surface(hand, surface, random, options.standoff)
       end

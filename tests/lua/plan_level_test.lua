@@ -1,10 +1,10 @@
--- Hands of several fingers around low things: where they begin, and that they hold what they close on.
+-- Starts of hands with several fingers around low objects, and the grasps that they lead to.
 local test, clench = require "test", require "clench"
 local starts, opposition = require "clench.plan.starts", require "clench.plan.opposition"
 
 local data = (os.getenv "CLENCH_SHARED" or "../shared") .. "/data/hands-urdf/"
 
--- a hand above a body that lies on a table
+-- A hand above a body that lies on a table.
 local function scene_of(t, path, shape)
   local file = io.open(path)
   if not file then t.skip("no third-party data at ../shared or CLENCH_SHARED") end
@@ -54,20 +54,20 @@ local function check_level(t, path, shape, at_least)
       for i, low in ipairs(tips) do
         if i ~= thumb then others = math.min(others, low) end
       end
-      -- 1 to 3 mm above the table, to the distance between the sampled points of a tip
+      -- 1 to 3 mm above the table, plus the spacing of the points sampled on a tip
       for _, low in ipairs {tips[thumb], others} do t.ok(low > 0 and low < 0.0045, low) end
     end
   end
   t.ok(count >= at_least, count)
 end
 
-test("thumb and fingers begin level, just above the table, around a low thing", function(t)
+test("starts around a low object have the ends of thumb and fingers just above the table", function(t)
   check_level(t, "models/hands/barrett/barrett.cfg", {size = {0.03, 0.15, 0.025}}, 6)
   check_level(t, data .. "leap_hand/leap_hand_right.urdf", {size = {0.03, 0.15, 0.025}}, 6)
   check_level(t, data .. "allegro_hand/allegro_hand_right.urdf", {size = {0.03, 0.15, 0.025}}, 6)
 end)
 
-test("what is higher than a fingertip is approached from any side", function(t)
+test("an object higher than a fingertip is approached from any side", function(t)
   local world, hand, object = scene_of(t, "models/hands/barrett/barrett.cfg", {size = {0.03, 0.15, 0.2}})
   local next_state = starts.random({hand = hand, object = object, world = world, seed = 1}, options)
   for number = 1, 12 do t.ok(next_state(number).reach ~= options.standoff) end
@@ -78,6 +78,6 @@ test("a hand with four fingers holds a screwdriver that lies on a table", functi
   world:remove(bar)
   local object = world:add_object(data .. "../ycb/043_phillips_screwdriver.obj", {mass = 0.1, material = "wood"})
   object.pose = {xyz = {0, 0, 2e-5 - object.mesh.bounds.low.z}}
-  local run = clench.plan.sample {hand = hand, object = object, candidates = 64, count = 100}
+  local run = clench.plan.sample {hand = hand, object = object, candidates = 128, count = 100}
   t.ok(#run.grasps >= 1, #run.grasps)
 end)
