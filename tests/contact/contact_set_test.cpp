@@ -341,8 +341,7 @@ TEST_CASE("every set contains the closest pair, bit-exactly, for any two close b
     for (const Touch& t : swapped)
       back.push_back({X_AB * t.p_b, X_AB * t.p_a, -(X_AB.rotation * t.normal_b), t.gap});
     // points move by the rounding error over the sine of nearly parallel edges; normals are
-    // compared only
-    // for gaps above rounding
+    // compared only for gaps above rounding
     if (now > 1e-8) CHECK(same_points(touches, back, 1e-7));
   }
   CHECK(near > 200);

@@ -1,6 +1,5 @@
 // Features of contacts: correct for every shape, pose and order of bodies, and constant from step
-// to
-// step.
+// to step.
 #include <doctest/doctest.h>
 
 #include <map>

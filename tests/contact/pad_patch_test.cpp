@@ -21,8 +21,7 @@ constexpr double springs = 0.003 / pad_modulus;  // compliance [m/Pa]
 using std::numbers::pi;
 
 /// A pad with the given outline, counter-clockwise about the origin as seen from above: a flat sole
-/// of
-/// rings of triangles at z = 0, with walls and a lid above.
+/// of rings of triangles at z = 0, with walls and a lid above.
 Mesh pad_of(const std::vector<Vector2d>& outline, double height, int rings) {
   Mesh mesh;
   const int n = static_cast<int>(outline.size());

@@ -95,8 +95,7 @@ TEST_CASE("the jet and the quadric agree with each other") {
     const auto points = disc_of(height);
     const SurfaceFit ours = fit_quadric(points, scale), theirs = fit_jet(points, scale);
     // the quadric approximates parabolas by circles: an error of (k scale)^2 / 4 of k, at most 1.3
-    // %, and a
-    // tilt
+    // %, and a tilt
     const double tolerance = 0.02 * std::max(std::abs(k1), std::abs(k2));
     CHECK((ours.curvatures - theirs.curvatures).cwiseAbs().maxCoeff() < tolerance);
     CHECK(ours.normal.dot(theirs.normal) > 1 - 1e-5);

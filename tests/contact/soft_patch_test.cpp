@@ -57,8 +57,7 @@ double socket(double radius, double x, double y) {
 TEST_CASE("a ball on a plane has its own radius, for any mesh and orientation") {
   Random random(1);
   // edges of 11, 5.5, 2.8, 1.4, 0.7 mm and a neighborhood of 3.5 mm: each halving divides the error
-  // by
-  // more than four
+  // by more than four
   const double tolerance[] = {0.2, 0.03, 0.004, 5e-4, 1e-4};
   for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
     for (int trial = 0; trial < test::cases(10); ++trial) {
@@ -272,14 +271,13 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   CHECK(edge.at_edge);
   CHECK(corner.at_edge);
   // at a depth d, the section of a cube's corner is a triangle of sides sqrt(6) d, whose ellipse
-  // has the
-  // semi-axes d; the rays cut off its three tips
+  // has the semi-axes d; the rays cut off its three tips
   const ContactEllipse at_corner = contact_ellipse(corner, 5), at_edge = contact_ellipse(edge, 5);
   for (const double a : at_corner.semi_axes)
     CHECK(a == doctest::Approx(flat_indentation).epsilon(0.12));
   // the strip |y| < d up to the end of the neighborhood has the semi-axes 2 d / sqrt(3) and 2
-  // radius /
-  // sqrt(3), the rhombus in it sqrt(2/3) d and sqrt(2/3) radius; the rays give a value in between
+  // radius / sqrt(3), the rhombus in it sqrt(2/3) d and sqrt(2/3) radius; the rays give a value in
+  // between
   const std::array<double, 2> size = {flat_indentation, edge.radius};
   for (int i = 0; i < 2; ++i) {
     CHECK(at_edge.semi_axes[i] > std::sqrt(2.0 / 3) * size[i]);
@@ -288,8 +286,7 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   CHECK(torsion_radius(edge, 5) < 0.3 * torsion_radius(face, 5));
   CHECK(torsion_radius(corner, 5) < 0.11 * torsion_radius(face, 5));
   // a cone equally sharp on a half-space would touch more widely, by Sneddon (1965), and the
-  // mattress
-  // under the corner even more: this is a lower bound
+  // mattress under the corner even more: this is a lower bound
   const double steepness = std::sqrt(pi / (1.5 * std::sqrt(3.0)));  // of the cone with its sections
   const double half_space = std::sqrt(2 * 5 / (pi * rubber * steepness));
   const double mattress = std::cbrt(5 * 0.003 / rubber / (0.5 * std::sqrt(3.0))) / steepness;
@@ -601,8 +598,7 @@ std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X
 }
 
 // all are equal within a tolerance: sums over circular sectors approximate integrals, and springs
-// that
-// just touch cause a kink
+// that just touch cause a kink
 void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& expected, double sizes,
                  double depths) {
   REQUIRE(!some.empty());

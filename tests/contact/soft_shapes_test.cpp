@@ -17,8 +17,7 @@ constexpr double soft_modulus = 1.5e6;
 constexpr double flat_cap = 0.02;
 
 /// Ball of unit directions, with unequal edges of 1/8 to 1/25: moved at random and concentrated
-/// towards
-/// one pole.
+/// towards one pole.
 Mesh uneven_sphere(Random& random, int subdivisions) {
   Mesh mesh = test::icosphere(1, subdivisions);
   const double edge = 1.1 / std::exp2(subdivisions);
@@ -139,8 +138,7 @@ TEST_CASE(
     }
   }
   // the measured errors plus a half: edges of 3 mm and 1.5 mm, with a neighborhood of 3.5 mm. Radii
-  // enter
-  // the torsion with the power 1/8
+  // enter the torsion with the power 1/8
   coarse.check(0.1, 0.08, 0.013);
   fine.check(0.045, 0.05, 0.008);
 }

@@ -85,8 +85,8 @@ static void sweep_tilt(double last, int steps, double most, const Vector3d& alon
   CHECK(before.size() == 1);
 }
 
-// Length of a flat part that stays in contact if it drops by `drop` along its length:
-// all of it up to a drop of `slack`, nothing from four times that on.
+// Length of a flat part that stays in contact if it drops by `drop` along its length: all of it up
+// to a drop of `slack`, nothing from four times that on.
 static double length_near(double stick_length, double drop) {
   if (drop <= tilt_slack) return stick_length;
   return std::max(0.0, stick_length * (4 * tilt_slack / drop - 1) / 3);
