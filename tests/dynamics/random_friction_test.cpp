@@ -124,9 +124,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "redundant contacts share their load the same way from any starting point, and repeated runs "
-    "are "
-    "bit-identical") {
+    "redundant contacts share their load the same way from any starting point, bit-identically "
+    "when repeated") {
   FrictionSolver solver;
   int apart = 0;
   for (int i = 0; i < test::cases(200); ++i) {
