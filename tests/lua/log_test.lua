@@ -233,7 +233,7 @@ test("in Chromium a recorded run plays in 3-D", function(t)
   t.ok(tonumber(text:match ' data%-drawn="(%d+)"') > 20)
 end)
 
-test("a run whose first observer restores another time lasts as long as it was asked to", function(t)
+test("a run whose first observer restores another time has the requested duration", function(t)
   local world = clench.world()
   local start = world:snapshot()
   world:run(0.5)
